@@ -1,0 +1,373 @@
+//! The Newton matrix: almost block diagonal with a border, by structured orthogonal elimination.
+//!
+//! After the stages are condensed, the linearised problem on a segment with N intervals is a chain
+//! of links between neighbouring nodes, and everything else — conditions on all ends, parameters —
+//! is a dense border:
+//!
+//! ```text
+//!   δy₀   δy₁   δy₂  …  δy_N │ δp
+//! ┌ −Γ₀    I                 │ −P₀ ┐   g₀
+//! │       −Γ₁    I           │ −P₁ │   g₁
+//! │             ⋱    ⋱       │  ⋮  │   ⋮
+//! │              −Γ_N₋₁   I  │     │   g_N₋₁
+//! ├──────────────────────────┼─────┤
+//! └  C₀                  C_N │ C_p ┘   −r       (all segments)
+//! ```
+//!
+//! Each interior node is eliminated by Householder reflections of the 2n rows that contain it,
+//!
+//! ```text
+//!   δyᵢ   δyᵢ₊₁  δy₀   δp                  δyᵢ   δyᵢ₊₁  δy₀   δp
+//! ┌  B     0     A     C  ┐            ┌   R     E      F     H  ┐   kept for back-substitution
+//! └ −Γᵢ    I     0    −Pᵢ ┘   ──Qᵀ──▶  └   0     B'     A'    C' ┘   the link from y₀ to yᵢ₊₁
+//! ```
+//!
+//! so that one link A δy₀ + B δy_N + C δp = d is left per segment. Those links and the conditions
+//! form a dense system for all ends and parameters. Eliminating with orthogonal transformations is
+//! stable where row-pivoted block elimination loses all digits: S. J. Wright, "A collection of
+//! problems for which Gaussian elimination with partial pivoting is unstable", SIAM J. Sci.
+//! Comput. 14 (1993) 231-238; the method is that of S. J. Wright, "Stable parallel algorithms for
+//! two-point boundary value problems", SIAM J. Sci. Stat. Comput. 13 (1992) 742-764.
+
+use crate::collocation::Iterate;
+use crate::dense::{SingularRow, add_scaled, dot, lu_factor, lu_solve};
+
+/// Where the Newton matrix is singular to working precision.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Singular {
+    /// The states of this node are not determined by their neighbours.
+    Node { segment: usize, node: usize },
+    /// The conditions do not determine the ends and the parameters.
+    Ends,
+}
+
+/// The links of one segment and their elimination.
+#[derive(Clone, Debug)]
+pub(crate) struct Chain {
+    /// States n.
+    n: usize,
+    /// Parameters k.
+    k: usize,
+    /// \[Γᵢ Pᵢ\], n × (n + k) per interval: yᵢ₊₁ responds to yᵢ and p.
+    links: Vec<f64>,
+    /// Householder vectors below the diagonal and R on and above it, 2n × n per interior node.
+    panels: Vec<f64>,
+    /// Factors τ of the reflections I − τ v vᵀ, n per interior node.
+    tau: Vec<f64>,
+    /// \[E F H\], n × (2n + k) per interior node.
+    couplings: Vec<f64>,
+    /// The remaining link \[A B C\] between δy₀, δy_N and δp, n × (2n + k).
+    reduced: Vec<f64>,
+    /// The 2n rows in work, 2n × (3n + k).
+    work: Vec<f64>,
+    /// One row of `work`, or 2n right-hand sides.
+    row: Vec<f64>,
+}
+
+impl Chain {
+    fn new(n: usize, k: usize, intervals: usize) -> Self {
+        let interior = intervals - 1;
+        Self {
+            n,
+            k,
+            links: vec![0.0; intervals * n * (n + k)],
+            panels: vec![0.0; interior * 2 * n * n],
+            tau: vec![0.0; interior * n],
+            couplings: vec![0.0; interior * n * (2 * n + k)],
+            reduced: vec![0.0; n * (2 * n + k)],
+            work: vec![0.0; 2 * n * (3 * n + k)],
+            row: vec![0.0; 3 * n + k],
+        }
+    }
+
+    /// The block \[Γ P\] of an interval, to be filled before [`AlmostBlockDiagonal::factor`].
+    pub(crate) fn link_mut(&mut self, interval: usize) -> &mut [f64] {
+        let size = self.n * (self.n + self.k);
+        &mut self.links[interval * size..][..size]
+    }
+
+    /// Eliminates all interior nodes; fails with the node whose R is singular.
+    fn eliminate(&mut self) -> Result<(), usize> {
+        let (n, k) = (self.n, self.k);
+        let width = 3 * n + k;
+        let link_size = n * (n + k);
+        // The first link: −Γ₀ δy₀ + δy₁ − P₀ δp = g₀.
+        for i in 0..n {
+            let row = &mut self.reduced[i * (2 * n + k)..][..2 * n + k];
+            let link = &self.links[i * (n + k)..][..n + k];
+            row.fill(0.0);
+            add_scaled(&mut row[..n], -1.0, &link[..n]);
+            row[n + i] = 1.0;
+            add_scaled(&mut row[2 * n..], -1.0, &link[n..]);
+        }
+        let nodes = self
+            .panels
+            .chunks_exact_mut(2 * n * n)
+            .zip(self.tau.chunks_exact_mut(n))
+            .zip(self.couplings.chunks_exact_mut(n * (2 * n + k)))
+            .zip(self.links.chunks_exact(link_size).skip(1));
+        for (interior, (((panel, tau), coupling), links)) in nodes.enumerate() {
+            // Columns of the work rows: δyᵢ, δyᵢ₊₁, δy₀, δp.
+            let (top, bottom) = self.work.split_at_mut(n * width);
+            for (i, row) in top.chunks_exact_mut(width).enumerate() {
+                let reduced = &self.reduced[i * (2 * n + k)..][..2 * n + k];
+                row[..n].copy_from_slice(&reduced[n..2 * n]);
+                row[n..2 * n].fill(0.0);
+                row[2 * n..3 * n].copy_from_slice(&reduced[..n]);
+                row[3 * n..].copy_from_slice(&reduced[2 * n..]);
+            }
+            for (i, row) in bottom.chunks_exact_mut(width).enumerate() {
+                let link = &links[i * (n + k)..][..n + k];
+                row.fill(0.0);
+                add_scaled(&mut row[..n], -1.0, &link[..n]);
+                row[n + i] = 1.0;
+                add_scaled(&mut row[3 * n..], -1.0, &link[n..]);
+            }
+            for j in 0..n {
+                tau[j] = reflect(&mut self.work, width, j, &mut self.row).ok_or(interior + 1)?;
+            }
+            for (panel, row) in panel.chunks_exact_mut(n).zip(self.work.chunks_exact(width)) {
+                panel.copy_from_slice(&row[..n]);
+            }
+            let (top, bottom) = self.work.split_at(n * width);
+            for (coupling, row) in coupling
+                .chunks_exact_mut(2 * n + k)
+                .zip(top.chunks_exact(width))
+            {
+                coupling.copy_from_slice(&row[n..]);
+            }
+            for (reduced, row) in self
+                .reduced
+                .chunks_exact_mut(2 * n + k)
+                .zip(bottom.chunks_exact(width))
+            {
+                reduced[..n].copy_from_slice(&row[2 * n..3 * n]);
+                reduced[n..2 * n].copy_from_slice(&row[n..2 * n]);
+                reduced[2 * n..].copy_from_slice(&row[3 * n..]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Carries the right-hand sides gᵢ (in the slot of node i + 1) through the elimination; what
+    /// belongs to the interior nodes stays in their slots, that of the reduced link is left in
+    /// `link`.
+    fn forward(&mut self, nodes: &mut [f64], link: &mut [f64]) {
+        let n = self.n;
+        link.copy_from_slice(&nodes[n..2 * n]);
+        let factors = self
+            .panels
+            .chunks_exact(2 * n * n)
+            .zip(self.tau.chunks_exact(n));
+        for (i, (panel, tau)) in factors.enumerate() {
+            let node = i + 1;
+            let stacked = &mut self.row[..2 * n];
+            stacked[..n].copy_from_slice(link);
+            stacked[n..].copy_from_slice(&nodes[(node + 1) * n..][..n]);
+            for (j, tau) in tau.iter().enumerate() {
+                let mut product = stacked[j];
+                for r in j + 1..2 * n {
+                    product += panel[r * n + j] * stacked[r];
+                }
+                product *= tau;
+                stacked[j] -= product;
+                for r in j + 1..2 * n {
+                    stacked[r] -= panel[r * n + j] * product;
+                }
+            }
+            nodes[node * n..][..n].copy_from_slice(&stacked[..n]);
+            link.copy_from_slice(&stacked[n..]);
+        }
+    }
+
+    /// Finds the interior nodes from both ends (already in their slots) and the parameters.
+    fn backward(&self, nodes: &mut [f64], p: &[f64]) {
+        let (n, k) = (self.n, self.k);
+        let factors = self
+            .panels
+            .chunks_exact(2 * n * n)
+            .zip(self.couplings.chunks_exact(n * (2 * n + k)));
+        for (i, (panel, coupling)) in factors.enumerate().rev() {
+            let node = i + 1;
+            let (known, next) = nodes.split_at_mut((node + 1) * n);
+            let (start, known) = known.split_at_mut(n);
+            let x = &mut known[(node - 1) * n..];
+            for j in (0..n).rev() {
+                let row = &coupling[j * (2 * n + k)..][..2 * n + k];
+                let sum = dot(&row[..n], &next[..n])
+                    + dot(&row[n..2 * n], start)
+                    + dot(&row[2 * n..], p)
+                    + dot(&panel[j * n + j + 1..(j + 1) * n], &x[j + 1..]);
+                x[j] = (x[j] - sum) / panel[j * n + j];
+            }
+        }
+    }
+}
+
+/// Annihilates column `j` below row `j` of the rows in `work` by a Householder reflection, leaves
+/// its vector (with leading 1 implied) in their place and returns τ; `None` if the column vanishes
+/// or is not finite.
+fn reflect(work: &mut [f64], width: usize, j: usize, row: &mut [f64]) -> Option<f64> {
+    let (above, below) = work.split_at_mut((j + 1) * width);
+    let pivot_row = &mut above[j * width..];
+    let head = pivot_row[j];
+    let mut square = head * head;
+    for r in below.chunks_exact(width) {
+        square += r[j] * r[j];
+    }
+    let norm = square.sqrt();
+    if !(norm > 0.0 && norm.is_finite()) {
+        return None;
+    }
+    let beta = -norm.copysign(head);
+    let tau = (beta - head) / beta;
+    let scale = 1.0 / (head - beta);
+    pivot_row[j] = beta;
+    let row = &mut row[j + 1..width];
+    row.copy_from_slice(&pivot_row[j + 1..]);
+    for r in below.chunks_exact_mut(width) {
+        r[j] *= scale;
+        let (v, tail) = (r[j], &r[j + 1..]);
+        add_scaled(row, v, tail);
+    }
+    add_scaled(&mut pivot_row[j + 1..], -tau, row);
+    for r in below.chunks_exact_mut(width) {
+        let factor = -tau * r[j];
+        add_scaled(&mut r[j + 1..], factor, row);
+    }
+    Some(tau)
+}
+
+/// The whole matrix: one [`Chain`] per segment and the dense system of all ends and parameters.
+#[derive(Clone, Debug)]
+pub(crate) struct AlmostBlockDiagonal {
+    chains: Vec<Chain>,
+    /// Parameters k.
+    k: usize,
+    /// Unknowns of the end system, Σ 2n + k; as many equations.
+    size: usize,
+    /// The end system: reduced links first, then the conditions; factored in place.
+    ends: Vec<f64>,
+    pivots: Vec<usize>,
+    /// Equilibration of its rows and columns.
+    row_scale: Vec<f64>,
+    column_scale: Vec<f64>,
+    /// Right-hand side and solution of the end system.
+    unknowns: Vec<f64>,
+}
+
+impl AlmostBlockDiagonal {
+    /// Buffers for segments with the given (states, intervals) and k parameters.
+    pub(crate) fn new(segments: impl Iterator<Item = (usize, usize)>, k: usize) -> Self {
+        let chains: Vec<_> = segments
+            .map(|(states, intervals)| Chain::new(states, k, intervals))
+            .collect();
+        let size = chains.iter().map(|chain| 2 * chain.n).sum::<usize>() + k;
+        Self {
+            chains,
+            k,
+            size,
+            ends: vec![0.0; size * size],
+            pivots: vec![0; size],
+            row_scale: vec![0.0; size],
+            column_scale: vec![0.0; size],
+            unknowns: vec![0.0; size],
+        }
+    }
+
+    /// The links of one segment.
+    pub(crate) fn chain_mut(&mut self, segment: usize) -> &mut Chain {
+        &mut self.chains[segment]
+    }
+
+    /// Factors the matrix from the filled links and the Jacobian of the conditions, (Σ n + k) rows
+    /// of Σ 2n + k columns: start and end of each segment in turn, then the parameters.
+    pub(crate) fn factor(&mut self, conditions: &[f64]) -> Result<(), Singular> {
+        let size = self.size;
+        self.ends.fill(0.0);
+        let (mut row, mut column) = (0, 0);
+        for (segment, chain) in self.chains.iter_mut().enumerate() {
+            chain
+                .eliminate()
+                .map_err(|node| Singular::Node { segment, node })?;
+            let (n, k) = (chain.n, chain.k);
+            for reduced in chain.reduced.chunks_exact(2 * n + k) {
+                let end_row = &mut self.ends[row * size..][..size];
+                end_row[column..column + 2 * n].copy_from_slice(&reduced[..2 * n]);
+                end_row[size - k..].copy_from_slice(&reduced[2 * n..]);
+                row += 1;
+            }
+            column += 2 * n;
+        }
+        self.ends[row * size..].copy_from_slice(conditions);
+        self.equilibrate()?;
+        lu_factor(&mut self.ends, size, &mut self.pivots)
+            .map_err(|SingularRow(_)| Singular::Ends)?;
+        // In an equilibrated matrix a pivot at rounding level is a zero.
+        let negligible = size as f64 * f64::EPSILON;
+        if (0..size).any(|i| self.ends[i * size + i].abs() <= negligible) {
+            return Err(Singular::Ends);
+        }
+        Ok(())
+    }
+
+    /// Scales rows, then columns, of the end system to largest entries of one.
+    fn equilibrate(&mut self) -> Result<(), Singular> {
+        self.column_scale.fill(0.0);
+        for (row, scale) in self
+            .ends
+            .chunks_exact_mut(self.size)
+            .zip(&mut self.row_scale)
+        {
+            *scale = inverse_of_largest(row).ok_or(Singular::Ends)?;
+            for (x, largest) in row.iter_mut().zip(&mut self.column_scale) {
+                *x *= *scale;
+                *largest = largest.max(x.abs());
+            }
+        }
+        for scale in &mut self.column_scale {
+            *scale = inverse_of_largest(&[*scale]).ok_or(Singular::Ends)?;
+        }
+        for row in self.ends.chunks_exact_mut(self.size) {
+            for (x, scale) in row.iter_mut().zip(&self.column_scale) {
+                *x *= scale;
+            }
+        }
+        Ok(())
+    }
+
+    /// Solves with the factored matrix. On entry the slot of node i + 1 of `x` holds gᵢ and
+    /// `conditions` the right-hand sides of the conditions; on return `x` holds all δy and δp.
+    pub(crate) fn solve(&mut self, x: &mut Iterate, conditions: &[f64]) {
+        let mut row = 0;
+        for (chain, segment) in self.chains.iter_mut().zip(&mut x.segments) {
+            chain.forward(&mut segment.nodes, &mut self.unknowns[row..row + chain.n]);
+            row += chain.n;
+        }
+        self.unknowns[row..].copy_from_slice(conditions);
+        for (x, scale) in self.unknowns.iter_mut().zip(&self.row_scale) {
+            *x *= scale;
+        }
+        lu_solve(&self.ends, self.size, &self.pivots, &mut self.unknowns);
+        for (x, scale) in self.unknowns.iter_mut().zip(&self.column_scale) {
+            *x *= scale;
+        }
+        x.p.copy_from_slice(&self.unknowns[self.size - self.k..]);
+        let mut first = 0;
+        for (chain, segment) in self.chains.iter().zip(&mut x.segments) {
+            let (n, nodes) = (chain.n, &mut segment.nodes);
+            let last = nodes.len() - n;
+            nodes[..n].copy_from_slice(&self.unknowns[first..first + n]);
+            nodes[last..].copy_from_slice(&self.unknowns[first + n..first + 2 * n]);
+            chain.backward(nodes, &x.p);
+            first += 2 * n;
+        }
+    }
+}
+
+/// 1 / max |x|, or `None` where that is not a positive finite number.
+fn inverse_of_largest(x: &[f64]) -> Option<f64> {
+    let largest = x.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let finite = x.iter().all(|x| x.is_finite());
+    (finite && largest > 0.0).then(|| 1.0 / largest)
+}

@@ -1,0 +1,178 @@
+//! What can go wrong.
+
+use crate::{Scheme, Solution};
+
+/// Why a problem was not solved.
+///
+/// Statement errors (the first group) are found before any arithmetic. Numerical failures carry
+/// the best iterate, which may serve as a guess for another attempt.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The number of conditions is not the number of unknown constants.
+    #[error(
+        "{conditions} conditions given, {unknowns} needed: {states} for the states and {parameters} for the parameters"
+    )]
+    ConditionCount {
+        /// Conditions stated.
+        conditions: usize,
+        /// Conditions needed, states + parameters.
+        unknowns: usize,
+        /// States of all segments.
+        states: usize,
+        /// Unknown parameters.
+        parameters: usize,
+    },
+    /// There are no segments.
+    #[error("a problem needs at least one segment")]
+    NoSegments,
+    /// A segment has no states.
+    #[error("segment {segment} has no states")]
+    NoStates {
+        /// Index of the segment.
+        segment: usize,
+    },
+    /// The interval of a segment is empty, reversed or not finite.
+    #[error("segment {segment} runs from {from} to {to}; its end must lie above its start")]
+    Interval {
+        /// Index of the segment.
+        segment: usize,
+        /// Left end.
+        from: f64,
+        /// Right end.
+        to: f64,
+    },
+    /// The mesh of the guess does not fit the segments.
+    #[error("the mesh of the guess for segment {segment} must ascend from {from} to {to}")]
+    GuessMesh {
+        /// Index of the segment.
+        segment: usize,
+        /// Left end of the segment.
+        from: f64,
+        /// Right end of the segment.
+        to: f64,
+    },
+    /// The guess is not finite.
+    #[error("the guess is not finite in segment {segment} at s = {s}")]
+    Guess {
+        /// Index of the segment; that of no segment (their number) for a parameter.
+        segment: usize,
+        /// Where.
+        s: f64,
+    },
+    /// The tolerance is out of range.
+    #[error("tolerance {tolerance:e} is outside 1e-13 to 1e-1")]
+    Tolerance {
+        /// The tolerance asked for.
+        tolerance: f64,
+    },
+    /// The scheme is not provided with this number of stages.
+    #[error("{scheme:?} is not provided: Gauss has 1 to 7 stages, Lobatto IIIA has 3 or 4")]
+    Stages {
+        /// The scheme asked for.
+        scheme: Scheme,
+    },
+    /// A mesh without intervals was asked for.
+    #[error("at least one initial interval per segment is needed")]
+    NoIntervals,
+
+    /// A right-hand side or its derivative is not finite at the iterate, and no shorter step
+    /// avoids it.
+    #[error(
+        "right-hand side of component {component} is not finite in segment {segment} at s = {s}"
+    )]
+    NonFiniteRhs {
+        /// Index of the segment.
+        segment: usize,
+        /// Where.
+        s: f64,
+        /// Index of the state whose derivative it is.
+        component: usize,
+        /// The iterate.
+        best: Box<Solution>,
+    },
+    /// A condition is not finite (or was never written) at the iterate.
+    #[error("condition {condition} is not finite or was not written")]
+    NonFiniteCondition {
+        /// Index of the condition.
+        condition: usize,
+        /// The iterate.
+        best: Box<Solution>,
+    },
+    /// The Newton matrix is singular inside a segment.
+    #[error("singular Newton matrix in segment {segment} at node {node}")]
+    SingularNode {
+        /// Index of the segment.
+        segment: usize,
+        /// Index of the mesh node.
+        node: usize,
+        /// The iterate.
+        best: Box<Solution>,
+    },
+    /// The conditions do not determine the solution near the iterate.
+    #[error("singular Newton matrix: the conditions do not determine the solution locally")]
+    SingularConditions {
+        /// The iterate.
+        best: Box<Solution>,
+    },
+    /// Newton's method did not converge.
+    #[error(
+        "newton: relative correction {correction:.1e} after {steps} steps, tolerance {tolerance:.1e}"
+    )]
+    NoConvergence {
+        /// Size of the last correction relative to 1 + |y|.
+        correction: f64,
+        /// Newton steps in all.
+        steps: usize,
+        /// Size asked for.
+        tolerance: f64,
+        /// The iterate.
+        best: Box<Solution>,
+    },
+    /// The mesh limit is reached with too large an error.
+    #[error(
+        "mesh limit: {needed} intervals needed, {limit} allowed; defect {defect:.1e}, estimated error {error:.1e}, tolerance {tolerance:.1e}"
+    )]
+    MeshLimit {
+        /// Intervals that the next mesh would have.
+        needed: usize,
+        /// Intervals allowed.
+        limit: usize,
+        /// Relative defect reached.
+        defect: f64,
+        /// Estimated relative global error reached; infinite where it is not known.
+        error: f64,
+        /// Tolerance asked for.
+        tolerance: f64,
+        /// The solution on the last mesh.
+        best: Box<Solution>,
+    },
+    /// The conditions hold less accurately than the tolerance asks.
+    #[error("condition {condition} violated: residual {residual:.1e}, tolerance {tolerance:.1e}")]
+    ConditionViolated {
+        /// Index of the condition.
+        condition: usize,
+        /// Its residual.
+        residual: f64,
+        /// Tolerance times its scale.
+        tolerance: f64,
+        /// The solution.
+        best: Box<Solution>,
+    },
+}
+
+impl Error {
+    /// The best iterate of a numerical failure; `None` for a statement error.
+    pub fn best(&self) -> Option<&Solution> {
+        match self {
+            Self::NonFiniteRhs { best, .. }
+            | Self::NonFiniteCondition { best, .. }
+            | Self::SingularNode { best, .. }
+            | Self::SingularConditions { best }
+            | Self::NoConvergence { best, .. }
+            | Self::MeshLimit { best, .. }
+            | Self::ConditionViolated { best, .. } => Some(best),
+            _ => None,
+        }
+    }
+}

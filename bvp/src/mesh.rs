@@ -1,0 +1,84 @@
+//! Partitions of the segments into intervals.
+
+use crate::Segment;
+
+/// The nodes of every segment: ascending, the first and the last are the ends of the segment.
+pub(crate) type Mesh = Vec<Vec<f64>>;
+
+/// A mesh with `intervals` equal intervals on every segment.
+pub(crate) fn uniform(segments: &[Segment], intervals: usize) -> Mesh {
+    let nodes = |segment: &Segment| -> Vec<f64> {
+        let mut nodes: Vec<f64> = (0..=intervals)
+            .map(|i| segment.from + (segment.to - segment.from) * i as f64 / intervals as f64)
+            .collect();
+        nodes[intervals] = segment.to;
+        nodes
+    };
+    segments.iter().map(nodes).collect()
+}
+
+/// The mesh with every interval halved.
+pub(crate) fn halved(mesh: &Mesh) -> Mesh {
+    mesh.iter()
+        .map(|nodes| split(nodes, &vec![2; nodes.len() - 1]))
+        .collect()
+}
+
+/// Cuts interval i of a segment into `pieces[i]` equal parts.
+pub(crate) fn split(nodes: &[f64], pieces: &[usize]) -> Vec<f64> {
+    let mut refined = Vec::with_capacity(pieces.iter().sum::<usize>() + 1);
+    for (pair, &pieces) in nodes.windows(2).zip(pieces) {
+        let width = pair[1] - pair[0];
+        refined.extend((0..pieces).map(|j| pair[0] + width * j as f64 / pieces as f64));
+    }
+    refined.extend(nodes.last());
+    refined
+}
+
+/// Places `intervals` intervals so that each holds the same share of the piecewise constant
+/// `density` (one positive number per old interval).
+pub(crate) fn equidistribute(nodes: &[f64], density: &[f64], intervals: usize) -> Vec<f64> {
+    let share = |i: usize| density[i] * (nodes[i + 1] - nodes[i]);
+    let total: f64 = (0..density.len()).map(share).sum();
+    let mut placed = Vec::with_capacity(intervals + 1);
+    placed.push(nodes[0]);
+    let (mut old, mut passed) = (0, 0.0);
+    for i in 1..intervals {
+        let target = total * i as f64 / intervals as f64;
+        while old + 1 < density.len() && passed + share(old) < target {
+            passed += share(old);
+            old += 1;
+        }
+        placed.push(nodes[old] + (target - passed) / density[old]);
+    }
+    placed.extend(nodes.last());
+    placed
+}
+
+/// Total number of intervals.
+pub(crate) fn intervals(mesh: &Mesh) -> usize {
+    mesh.iter().map(|nodes| nodes.len() - 1).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equidistribution_gives_every_interval_the_same_share() {
+        let nodes = [0.0, 0.5, 1.0];
+        let placed = equidistribute(&nodes, &[3.0, 1.0], 4);
+        let expected = [0.0, 1.0 / 6.0, 1.0 / 3.0, 0.5, 1.0];
+        for (found, exact) in placed.iter().zip(expected) {
+            assert!((found - exact).abs() < 1e-15, "{placed:?}");
+        }
+    }
+
+    #[test]
+    fn splitting_keeps_the_old_nodes() {
+        assert_eq!(
+            split(&[0.0, 1.0, 3.0], &[1, 4]),
+            [0.0, 1.0, 1.5, 2.0, 2.5, 3.0]
+        );
+    }
+}

@@ -1,0 +1,225 @@
+//! Damped Newton iteration with the natural monotonicity test.
+//!
+//! A step x + λ Δx is accepted when the simplified correction at the new point, taken with the old
+//! Jacobian, is smaller: ‖Δx̄‖ ≤ (1 − λ/4) ‖Δx‖. The test does not change when the equations are
+//! multiplied by any matrix, so it needs no scaling of residuals. Where the simplified corrections
+//! contract fast, the Jacobian is kept and they are the next steps. P. Deuflhard, *Newton Methods
+//! for Nonlinear Problems* (Springer 2004), algorithms NLEQ-ERR (section 3.3.3) and QNERR.
+
+use crate::Stats;
+use crate::almost_block_diagonal::Singular;
+use crate::collocation::{Collocation, Iterate, LinearisationError, NonFinite, Residual};
+
+/// Simplified corrections that shrink at least this much per step keep the Jacobian: three such
+/// steps gain more than one new linearisation and cost less.
+const KEEP_JACOBIAN_BELOW: f64 = 0.25;
+
+/// The shortest damped step: below it the path of the iteration has ended at a singular Jacobian.
+const SMALLEST_DAMPING: f64 = 1e-5;
+
+/// A correction this many times the stopping tolerance that no longer shrinks is rounding.
+const ROUNDING_FACTOR: f64 = 100.0;
+
+/// Why the iteration stopped short.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Failure {
+    NonFinite(NonFinite),
+    Singular(Singular),
+    /// Steps or damping exhausted; the size of the last correction.
+    NoConvergence {
+        correction: f64,
+    },
+}
+
+impl From<LinearisationError> for Failure {
+    fn from(error: LinearisationError) -> Self {
+        match error {
+            LinearisationError::NonFinite(what) => Self::NonFinite(what),
+            LinearisationError::Singular(place) => Self::Singular(place),
+        }
+    }
+}
+
+/// Size of a correction relative to 1 + |x|.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Norm {
+    /// Root mean square over nodes, states and parameters: what the damping compares.
+    mean: f64,
+    /// Largest entry: what the stopping test looks at.
+    pub(crate) largest: f64,
+}
+
+/// Measures Σ factors · corrections relative to 1 + |x|.
+fn norm(x: &Iterate, corrections: &[(f64, &Iterate)]) -> Norm {
+    let (mut square, mut largest, mut count) = (0.0, 0.0f64, 0usize);
+    let mut add = |x: f64, delta: f64| {
+        let relative = delta / (1.0 + x.abs());
+        square += relative * relative;
+        // NaN must not be lost, as f64::max would.
+        largest = if relative.abs() <= largest {
+            largest
+        } else {
+            relative.abs()
+        };
+        count += 1;
+    };
+    for (index, segment) in x.segments.iter().enumerate() {
+        for (i, &value) in segment.nodes.iter().enumerate() {
+            let terms = corrections.iter();
+            add(
+                value,
+                terms.map(|(f, c)| f * c.segments[index].nodes[i]).sum(),
+            );
+        }
+    }
+    for (i, &value) in x.p.iter().enumerate() {
+        add(value, corrections.iter().map(|(f, c)| f * c.p[i]).sum());
+    }
+    Norm {
+        mean: (square / count as f64).sqrt(),
+        largest,
+    }
+}
+
+/// The largest entry of a correction relative to 1 + |x|.
+pub(crate) fn size(x: &Iterate, correction: &Iterate) -> f64 {
+    norm(x, &[(1.0, correction)]).largest
+}
+
+/// The buffers of the iteration.
+pub(crate) struct Newton {
+    delta: Iterate,
+    simplified: Iterate,
+    trial: Iterate,
+    residual: Residual,
+}
+
+impl Newton {
+    pub(crate) fn new(collocation: &Collocation<'_>) -> Self {
+        Self {
+            delta: collocation.zeros(),
+            simplified: collocation.zeros(),
+            trial: collocation.zeros(),
+            residual: collocation.residual_buffer(),
+        }
+    }
+
+    /// Improves `x` until a correction is at most `tolerance` relative to 1 + |x|. On failure `x`
+    /// is the last accepted iterate.
+    pub(crate) fn iterate(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &mut Iterate,
+        tolerance: f64,
+        max_steps: usize,
+        stats: &mut Stats,
+    ) -> Result<(), Failure> {
+        self.linearise(collocation, x, stats)?;
+        let mut fresh = true;
+        let mut size = norm(x, &[(1.0, &self.delta)]);
+        let mut damping = 1.0;
+        for _ in 0..max_steps {
+            if !size.largest.is_finite() {
+                return Err(Failure::Singular(Singular::Ends));
+            }
+            if size.largest <= tolerance {
+                self.trial.set_sum(x, 1.0, &self.delta);
+                std::mem::swap(x, &mut self.trial);
+                stats.newton_steps += 1;
+                return Ok(());
+            }
+            let shrunk = match self.step(collocation, x, size, &mut damping, fresh, stats) {
+                Ok(shrunk) => shrunk,
+                Err(_) if size.largest <= ROUNDING_FACTOR * tolerance => return Ok(()),
+                Err(_) if !fresh => {
+                    // The kept Jacobian is too old: take a new one at the same point.
+                    self.linearise(collocation, x, stats)?;
+                    size = norm(x, &[(1.0, &self.delta)]);
+                    fresh = true;
+                    continue;
+                }
+                Err(failure) => return Err(failure),
+            };
+            std::mem::swap(x, &mut self.trial);
+            stats.newton_steps += 1;
+            if damping == 1.0
+                && (shrunk.largest <= tolerance || shrunk.mean <= KEEP_JACOBIAN_BELOW * size.mean)
+            {
+                std::mem::swap(&mut self.delta, &mut self.simplified);
+                (size, fresh) = (shrunk, false);
+                continue;
+            }
+            self.linearise(collocation, x, stats)?;
+            let next = norm(x, &[(1.0, &self.delta)]);
+            // Prediction of the damping from the curvature seen over the last step.
+            let bent = norm(x, &[(1.0, &self.simplified), (-1.0, &self.delta)]);
+            let curvature = bent.mean * next.mean;
+            damping = if curvature > 0.0 {
+                (damping * size.mean * shrunk.mean / curvature).min(1.0)
+            } else {
+                1.0
+            };
+            (size, fresh) = (next, true);
+        }
+        Err(Failure::NoConvergence {
+            correction: size.largest,
+        })
+    }
+
+    /// Linearises at `x` and leaves the Newton correction in `delta`.
+    fn linearise(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &Iterate,
+        stats: &mut Stats,
+    ) -> Result<(), Failure> {
+        collocation.linearise(x, &mut self.residual, stats)?;
+        collocation.correction(&self.residual, &mut self.delta);
+        Ok(())
+    }
+
+    /// Finds an acceptable damped step: leaves x + λ Δx in `trial`, its simplified correction in
+    /// `simplified`, λ in `damping`, and returns the size of that correction. With a Jacobian that
+    /// is not `fresh` only the full step is tried.
+    fn step(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &Iterate,
+        size: Norm,
+        damping: &mut f64,
+        fresh: bool,
+        stats: &mut Stats,
+    ) -> Result<Norm, Failure> {
+        loop {
+            self.trial.set_sum(x, *damping, &self.delta);
+            let shorter = match collocation.residual(&self.trial, &mut self.residual, stats) {
+                Err(what) if *damping < SMALLEST_DAMPING || !fresh => {
+                    return Err(Failure::NonFinite(what));
+                }
+                Err(_) => 0.25 * *damping,
+                Ok(()) => {
+                    collocation.correction(&self.residual, &mut self.simplified);
+                    let shrunk = norm(x, &[(1.0, &self.simplified)]);
+                    if shrunk.mean <= (1.0 - 0.25 * *damping) * size.mean {
+                        return Ok(shrunk);
+                    }
+                    let linear = -(1.0 - *damping);
+                    let bent = norm(x, &[(1.0, &self.simplified), (linear, &self.delta)]);
+                    let curvature = 0.5 * size.mean * *damping * *damping / bent.mean;
+                    // NaN, where the correction overflowed, takes the fixed reduction.
+                    if curvature < 0.5 * *damping {
+                        curvature.max(0.1 * *damping)
+                    } else {
+                        0.5 * *damping
+                    }
+                }
+            };
+            if shorter < SMALLEST_DAMPING || !fresh {
+                return Err(Failure::NoConvergence {
+                    correction: size.largest,
+                });
+            }
+            *damping = shorter;
+        }
+    }
+}

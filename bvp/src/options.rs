@@ -1,0 +1,73 @@
+//! How to solve.
+
+use crate::{Error, Scheme};
+
+/// The settings of [`solve`](crate::solve). Update the defaults with struct syntax:
+///
+/// ```
+/// let options = bvp::Options { tolerance: 1e-9, ..bvp::Options::default() };
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// The relative defect of the solution in the differential equations, the residuals of the
+    /// conditions, and (unless skipped) the estimated global error relative to 1 + |y| are all
+    /// brought below this number. Between 1e-13 and 1e-1; default 1e-6.
+    pub tolerance: f64,
+    /// The collocation scheme; default Gauss with 4 stages.
+    pub scheme: Scheme,
+    /// Number of equal intervals per segment to start on, where the guess brings no mesh;
+    /// default 10.
+    pub initial_intervals: usize,
+    /// Largest number of intervals over all segments; default 10 000.
+    pub max_intervals: usize,
+    /// Largest number of Newton steps on one mesh; default 40.
+    pub max_newton_steps: usize,
+    /// How the global error is estimated; default on a halved mesh.
+    pub global_error: GlobalError,
+}
+
+/// How the global error of a solution is estimated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GlobalError {
+    /// By one Newton correction on the mesh with every interval halved, started at the solution:
+    /// the correction is the difference of the two discrete solutions up to its own square.
+    HalvedMesh,
+    /// Not at all: for intermediate solutions on the way to another one.
+    Skip,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-6,
+            scheme: Scheme::default(),
+            initial_intervals: 10,
+            max_intervals: 10_000,
+            max_newton_steps: 40,
+            global_error: GlobalError::HalvedMesh,
+        }
+    }
+}
+
+impl Options {
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// [`Error::Tolerance`], [`Error::Stages`] or [`Error::NoIntervals`].
+    pub fn validate(&self) -> Result<(), Error> {
+        if !(1e-13..=1e-1).contains(&self.tolerance) {
+            return Err(Error::Tolerance {
+                tolerance: self.tolerance,
+            });
+        }
+        if !self.scheme.is_valid() {
+            return Err(Error::Stages {
+                scheme: self.scheme,
+            });
+        }
+        if self.initial_intervals == 0 {
+            return Err(Error::NoIntervals);
+        }
+        Ok(())
+    }
+}
