@@ -1,0 +1,111 @@
+//! The drive files that come with the program.
+
+use crate::input::{self, spelling};
+
+/// A shipped drive file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Example {
+    /// The name it is asked for by; the file is `NAME.toml`.
+    pub name: &'static str,
+    /// The whole file.
+    pub text: &'static str,
+}
+
+/// Every shipped drive file.
+pub const EXAMPLES: [Example; 4] = [
+    Example {
+        name: "kim2009",
+        text: include_str!("../examples/kim2009.toml"),
+    },
+    Example {
+        name: "kim2009-epp",
+        text: include_str!("../examples/kim2009-epp.toml"),
+    },
+    Example {
+        name: "kim2009-bristle",
+        text: include_str!("../examples/kim2009-bristle.toml"),
+    },
+    Example {
+        name: "cvt-variator",
+        text: include_str!("../examples/cvt-variator.toml"),
+    },
+];
+
+impl Example {
+    /// The title the file states; its name if it states none.
+    pub fn title(&self) -> String {
+        let drive = input::parse(self.name, self.text, &[]).ok();
+        drive
+            .and_then(|drive| drive.title)
+            .unwrap_or_else(|| self.name.to_owned())
+    }
+
+    /// What the file shows, in one line: its first comment.
+    pub fn summary(&self) -> &'static str {
+        let first = self.text.lines().next().unwrap_or_default();
+        first.trim_start_matches(['#', ' '])
+    }
+}
+
+/// A name that no shipped drive file has.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("there is no example `{name}`\nexpected: one of {}{}", names(), hint(*.nearest))]
+pub struct UnknownExample {
+    name: String,
+    nearest: Option<&'static str>,
+}
+
+/// The shipped drive file called `name`.
+///
+/// # Errors
+///
+/// There is none of this name; the error shows the nearest.
+pub fn find(name: &str) -> Result<Example, UnknownExample> {
+    let found = EXAMPLES.into_iter().find(|example| example.name == name);
+    found.ok_or_else(|| UnknownExample {
+        name: name.to_owned(),
+        nearest: spelling::nearest(name, EXAMPLES.map(|example| (example.name, example.name))),
+    })
+}
+
+fn names() -> String {
+    EXAMPLES
+        .map(|example| format!("`{}`", example.name))
+        .join(", ")
+}
+
+fn hint(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |name| {
+        format!("\nhelp: did you mean `{name}`?")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_example_is_a_drive_with_title_and_summary() {
+        for example in EXAMPLES {
+            let drive = input::parse(example.name, example.text, &[]);
+            let drive = drive.unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(Some(example.title()), drive.title);
+            assert!(example.text.starts_with("# ") && example.summary().ends_with('.'));
+        }
+    }
+
+    #[test]
+    fn every_law_can_be_selected_in_the_thesis_drive() {
+        let text = find("kim2009").unwrap().text;
+        for law in ["coulomb", "epp", "bristle"] {
+            let drive = input::parse("kim2009", text, &[format!("friction.law={law}")]).unwrap();
+            assert_eq!(drive.law.name(), law);
+        }
+    }
+
+    #[test]
+    fn unknown_names_show_the_nearest() {
+        let error = find("kim2008").unwrap_err().to_string();
+        assert!(error.ends_with("help: did you mean `kim2009`?"), "{error}");
+    }
+}

@@ -1,0 +1,166 @@
+//! The checks of a single entry against its rule.
+
+use super::{
+    diagnostic::Finding,
+    dimension::Dimension,
+    document::{Content, Entry},
+    quantity::{self, Fault},
+    schema::{self, Rule},
+    source::Source,
+    spelling, unit,
+};
+use std::ops::Range;
+
+/// Checks an entry without a rule: it must be a table of the schema.
+pub(super) fn table(path: &str, entry: &Entry) -> Result<(), Finding> {
+    if schema::is_table(path) {
+        return match entry.content {
+            Content::Table => Ok(()),
+            _ => Err(wrong_type(path, "a table", entry).expected(format!("[{path}]"))),
+        };
+    }
+    let (table, name) = schema::split(path);
+    let what = match entry.content {
+        Content::Table => "table",
+        _ => "key",
+    };
+    let place = match table {
+        "" => String::new(),
+        _ => format!(" in [{table}]"),
+    };
+    let finding = Finding::new(entry.key.clone(), format!("unknown {what} `{name}`{place}"))
+        .did_you_mean(schema::nearest(path));
+    Err(match schema::names(table) {
+        names if names.is_empty() => finding,
+        names => finding.expected(one_of(&names)),
+    })
+}
+
+/// Checks a text.
+pub(super) fn text<'e>(rule: &Rule, entry: &'e Entry) -> Result<&'e str, Finding> {
+    match &entry.content {
+        Content::Text(text) => Ok(text),
+        _ => Err(wrong_type(rule.path, "a text", entry).expected(rule.line())),
+    }
+}
+
+/// Checks that a text is one of `words`.
+pub(super) fn word<'e>(
+    rule: &Rule,
+    what: &str,
+    words: &[&str],
+    unsolved: &[(&str, &str)],
+    entry: &'e Entry,
+) -> Result<&'e str, Finding> {
+    let text = text(rule, entry)?;
+    if words.contains(&text) {
+        return Ok(text);
+    }
+    let finding = match unsolved.iter().find(|(word, _)| *word == text) {
+        Some((_, reason)) => Finding::new(entry.place.clone(), *reason),
+        None => {
+            let nearest = spelling::nearest(text, words.iter().map(|word| (word, word)));
+            Finding::new(entry.place.clone(), format!("unknown {what} `{text}`"))
+                .did_you_mean(nearest)
+        }
+    };
+    Err(finding.expected(one_of(words)))
+}
+
+/// Checks a positive quantity, which may have to stay below a limit, and gives it in SI units.
+pub(super) fn number(
+    rule: &Rule,
+    dimension: Dimension,
+    below: Option<(f64, &str)>,
+    entry: &Entry,
+    source: &Source,
+) -> Result<f64, Finding> {
+    let expected = format!("{dimension}, e.g. {}", rule.example);
+    let (value, unit) = match &entry.content {
+        Content::Number(value) => (*value, None),
+        Content::Text(text) => {
+            let at = |part| within(text, part, entry, source);
+            let quantity = quantity::parse(text).map_err(|(fault, part)| {
+                misread(fault, &text[part.clone()], at(part)).expected(&expected)
+            })?;
+            (
+                quantity.value,
+                quantity.unit.map(|(found, part)| (found, at(part))),
+            )
+        }
+        _ => return Err(wrong_type(rule.path, "a quantity", entry).expected(expected)),
+    };
+    let is_bare = unit.is_none();
+    if let Some((found, range)) = unit
+        && found != dimension
+    {
+        let message = format!("wrong dimension: expected {dimension}, got {found}");
+        let finding = Finding::new(range, message).expected(expected);
+        return Err(match found.times(Dimension::ANGLE, 1) == dimension {
+            true => finding.help("write what turns by: an angle in rad, deg or rev"),
+            false => finding,
+        });
+    }
+    let limit = below.map_or(f64::INFINITY, |(limit, _)| limit);
+    if value > 0.0 && value < limit {
+        return Ok(value);
+    }
+    let fault = match below {
+        _ if !value.is_finite() => "is not a finite number".to_owned(),
+        Some((_, limit)) => format!("must lie between 0 and {limit}"),
+        None => "must be positive".to_owned(),
+    };
+    let finding = Finding::new(entry.place.clone(), format!("`{}` {fault}", rule.path));
+    Err(match below {
+        Some(_) if is_bare => finding.help("a bare number is in SI units: an angle in rad"),
+        _ => finding,
+    }
+    .expected(expected))
+}
+
+/// The words of a list for a message.
+pub(super) fn one_of(words: &[&str]) -> String {
+    let several = if words.len() > 1 { "one of " } else { "" };
+    format!("{several}`{}`", words.join("`, `"))
+}
+
+fn wrong_type(path: &str, expected: &str, entry: &Entry) -> Finding {
+    let found = entry.content.type_name();
+    let place = match entry.content {
+        Content::Table => &entry.key,
+        _ => &entry.place,
+    };
+    Finding::new(
+        place.clone(),
+        format!("`{path}` must be {expected}, got {found}"),
+    )
+}
+
+/// The finding for a text, or its part at fault, that is no quantity.
+fn misread(fault: Fault, part: &str, range: Range<usize>) -> Finding {
+    match fault {
+        Fault::Number if part.is_empty() => Finding::new(range, "missing number"),
+        Fault::Number => {
+            let point = part.replace(',', ".");
+            let point = point.parse::<f64>().is_ok().then_some(point);
+            Finding::new(range, format!("malformed number `{part}`")).did_you_mean(point)
+        }
+        Fault::NotFinite => Finding::new(range, format!("`{part}` is not a finite number")),
+        Fault::Unit => {
+            Finding::new(range, format!("unknown unit `{part}`")).did_you_mean(unit::nearest(part))
+        }
+    }
+}
+
+/// Where a part of a text stands: within the entry's value, or the whole value where the text does
+/// not stand there as it is read, because of escapes.
+fn within(text: &str, part: Range<usize>, entry: &Entry, source: &Source) -> Range<usize> {
+    let written = source.text(entry.place.clone());
+    match written.find(text) {
+        Some(start) if !part.is_empty() => {
+            let start = entry.place.start + start;
+            start + part.start..start + part.end
+        }
+        _ => entry.place.clone(),
+    }
+}

@@ -1,0 +1,109 @@
+//! Physical dimensions and their names.
+
+use std::fmt;
+
+/// Exponents of mass, length, time and angle.
+///
+/// Angle counts as a dimension here, although SI takes it for a pure number, so that `rad/s`, `rpm`
+/// and `Hz` are told from `1/s`, and an angle from a coefficient.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Dimension {
+    mass: i32,
+    length: i32,
+    time: i32,
+    angle: i32,
+}
+
+impl Dimension {
+    pub(super) const NUMBER: Self = Self::new(0, 0, 0, 0);
+    pub(super) const MASS: Self = Self::new(1, 0, 0, 0);
+    pub(super) const LENGTH: Self = Self::new(0, 1, 0, 0);
+    pub(super) const TIME: Self = Self::new(0, 0, 1, 0);
+    pub(super) const ANGLE: Self = Self::new(0, 0, 0, 1);
+    pub(super) const INVERSE_LENGTH: Self = Self::new(0, -1, 0, 0);
+    pub(super) const VELOCITY: Self = Self::new(0, 1, -1, 0);
+    pub(super) const ANGULAR_SPEED: Self = Self::new(0, 0, -1, 1);
+    pub(super) const MASS_PER_LENGTH: Self = Self::new(1, -1, 0, 0);
+    pub(super) const FORCE: Self = Self::new(1, 1, -2, 0);
+    pub(super) const FORCE_PER_AREA: Self = Self::new(1, -1, -2, 0);
+    pub(super) const TORQUE: Self = Self::new(1, 2, -2, 0);
+    pub(super) const POWER: Self = Self::new(1, 2, -3, 0);
+
+    /// The dimensions that have a name in messages.
+    const NAMES: [(Self, &str); 17] = [
+        (Self::NUMBER, "a pure number"),
+        (Self::MASS, "a mass"),
+        (Self::LENGTH, "a length"),
+        (Self::TIME, "a time"),
+        (Self::ANGLE, "an angle"),
+        (Self::INVERSE_LENGTH, "an inverse length"),
+        (Self::VELOCITY, "a velocity"),
+        (Self::ANGULAR_SPEED, "an angular speed"),
+        (Self::MASS_PER_LENGTH, "a mass per length"),
+        (Self::FORCE, "a force"),
+        (Self::FORCE_PER_AREA, "a force per area"),
+        (Self::TORQUE, "a torque"),
+        (Self::POWER, "a power"),
+        (Self::new(0, 2, 0, 0), "an area"),
+        (Self::new(0, 0, -1, 0), "an inverse time"),
+        (Self::new(0, 1, -2, 0), "an acceleration"),
+        (Self::new(1, 0, -2, 0), "a force per length"),
+    ];
+
+    const fn new(mass: i32, length: i32, time: i32, angle: i32) -> Self {
+        Self {
+            mass,
+            length,
+            time,
+            angle,
+        }
+    }
+
+    /// The dimension of a quantity of this dimension times one of dimension `other` to the power
+    /// `exponent`.
+    pub(super) const fn times(self, other: Self, exponent: i32) -> Self {
+        Self::new(
+            self.mass + other.mass * exponent,
+            self.length + other.length * exponent,
+            self.time + other.time * exponent,
+            self.angle + other.angle * exponent,
+        )
+    }
+}
+
+/// The name with its article, or the SI unit of a dimension without a name.
+impl fmt::Display for Dimension {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some((_, name)) = Self::NAMES.iter().find(|(named, _)| named == self) {
+            return f.write_str(name);
+        }
+        f.write_str("a quantity in")?;
+        let powers = [
+            ("kg", self.mass),
+            ("m", self.length),
+            ("s", self.time),
+            ("rad", self.angle),
+        ];
+        powers
+            .into_iter()
+            .filter(|(_, exponent)| *exponent != 0)
+            .try_for_each(|(symbol, exponent)| match exponent {
+                1 => write!(f, " {symbol}"),
+                _ => write!(f, " {symbol}^{exponent}"),
+            })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Dimension;
+
+    #[test]
+    fn names_are_of_products_too() {
+        let pressure = Dimension::FORCE.times(Dimension::LENGTH, -2);
+        assert_eq!(pressure, Dimension::FORCE_PER_AREA);
+        assert_eq!(pressure.to_string(), "a force per area");
+        let inertia = Dimension::MASS.times(Dimension::LENGTH, 2);
+        assert_eq!(inertia.to_string(), "a quantity in kg m^2");
+    }
+}

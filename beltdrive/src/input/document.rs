@@ -1,0 +1,156 @@
+//! A drive file as a flat list of entries, each under its dotted path and with its place.
+
+use super::{diagnostic::Finding, schema};
+use std::{collections::BTreeMap, ops::Range};
+use toml::de::{DeTable, DeValue};
+
+/// The entries of a drive file, with overrides applied.
+#[derive(Debug)]
+pub(super) struct Document {
+    /// Tables and values by dotted path.
+    pub(super) entries: BTreeMap<String, Entry>,
+    /// Where the file ends: the place of what it lacks.
+    pub(super) end: Range<usize>,
+}
+
+/// A table or a value of a document.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry {
+    /// Where its key stands.
+    pub(super) key: Range<usize>,
+    /// Where its value stands; for a table, where it begins.
+    pub(super) place: Range<usize>,
+    /// What stands there.
+    pub(super) content: Content,
+}
+
+/// What a drive file may hold under a key.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Content {
+    /// A table; its entries have their own paths.
+    Table,
+    /// A string.
+    Text(String),
+    /// An integer or a float.
+    Number(f64),
+    /// Anything else, which is wrong everywhere: the name of its type.
+    Other(&'static str),
+}
+
+impl Content {
+    /// The type as messages call it, with its article.
+    pub(super) fn type_name(&self) -> &'static str {
+        match self {
+            Self::Table => "a table",
+            Self::Text(_) => "a text",
+            Self::Number(_) => "a number",
+            Self::Other(name) => name,
+        }
+    }
+}
+
+impl Document {
+    /// Reads TOML.
+    pub(super) fn from_toml(text: &str) -> Result<Self, Finding> {
+        let root = DeTable::parse(text).map_err(|error| unreadable(text, &error))?;
+        let length = text.trim_end().len();
+        let mut document = Self {
+            entries: BTreeMap::new(),
+            end: length..length,
+        };
+        document.insert_table("", root.get_ref());
+        Ok(document)
+    }
+
+    /// Inserts the entries of a table of the schema. Tables unknown to the schema stay closed: they
+    /// are wrong as a whole.
+    fn insert_table(&mut self, path: &str, table: &DeTable<'_>) {
+        for (key, value) in table {
+            let child = schema::join(path, key.get_ref());
+            let entry = Entry {
+                key: key.span(),
+                place: value.span(),
+                content: content(value.get_ref()),
+            };
+            if let DeValue::Table(table) = value.get_ref()
+                && schema::is_table(&child)
+            {
+                self.insert_table(&child, table);
+            }
+            self.entries.insert(child, entry);
+        }
+    }
+}
+
+fn content(value: &DeValue<'_>) -> Content {
+    match value {
+        DeValue::Table(_) => Content::Table,
+        DeValue::String(text) => Content::Text(text.clone().into_owned()),
+        // What does not fit a number is too large for a quantity anyway.
+        DeValue::Integer(integer) => Content::Number(
+            i128::from_str_radix(integer.as_str(), integer.radix())
+                .map_or(f64::INFINITY, |value| value as f64),
+        ),
+        DeValue::Float(float) => Content::Number(float.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::Boolean(_) => Content::Other("a boolean"),
+        DeValue::Datetime(_) => Content::Other("a date"),
+        DeValue::Array(_) => Content::Other("an array"),
+    }
+}
+
+/// The finding for a text that is no TOML.
+fn unreadable(text: &str, error: &toml::de::Error) -> Finding {
+    let range = error.span().unwrap_or(text.len()..text.len());
+    let quoted = text.get(..range.start).and_then(|before| {
+        let line_start = before.rfind('\n').map_or(0, |feed| feed + 1);
+        quote_value(text[line_start..].lines().next()?)
+    });
+    let (message, expected) = match error.message().split_once(", expected ") {
+        Some((message, expected)) => (message, Some(expected)),
+        None => (error.message(), None),
+    };
+    let finding = Finding::new(range, format!("unreadable TOML: {message}"));
+    match expected {
+        Some(expected) => finding.expected(expected),
+        None => finding,
+    }
+    .did_you_mean(quoted)
+}
+
+/// The line `key = 120 kN` with its value in quotes, where that is what it lacks.
+fn quote_value(line: &str) -> Option<String> {
+    let (key, value) = line.split_once('=')?;
+    let value = value.split('#').next()?.trim();
+    let is_bare = value.starts_with(|c: char| c.is_alphanumeric() || matches!(c, '+' | '-' | '.'));
+    let lacks_quotes = is_bare && !value.contains(['"', '\'']) && DeValue::parse(value).is_err();
+    lacks_quotes.then(|| format!("{} = \"{value}\"", key.trim()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_are_flat_and_unknown_tables_closed() {
+        let text = "title = 'a'\n[pulleys.driver]\nradius = 0x10\n[x]\ny = 1";
+        let document = Document::from_toml(text).unwrap();
+        let paths: Vec<_> = document.entries.keys().map(String::as_str).collect();
+        assert_eq!(
+            paths,
+            [
+                "pulleys",
+                "pulleys.driver",
+                "pulleys.driver.radius",
+                "title",
+                "x"
+            ]
+        );
+        let radius = &document.entries["pulleys.driver.radius"];
+        assert_eq!(radius.content, Content::Number(16.0));
+        assert_eq!(&text[radius.key.clone()], "radius");
+        assert_eq!(
+            &text[document.entries["pulleys.driver"].key.clone()],
+            "driver"
+        );
+    }
+}

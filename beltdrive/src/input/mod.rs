@@ -1,0 +1,63 @@
+//! Drive files: from a TOML text and overrides to a [`Drive`], or to one [`Diagnostic`].
+//!
+//! A drive file states quantities with units, `"120 kN"`; a bare number is in SI units. The stages:
+//!
+//! ```text
+//! text ── document ── overrides ── values ── drive
+//!         TOML        --set        schema:   relations between
+//!                                  keys,     values, choice of
+//!                                  units,    law and load
+//!                                  ranges
+//! ```
+//!
+//! The first finding of any stage ends the reading and is shown where it stands.
+
+mod check;
+mod diagnostic;
+mod dimension;
+mod document;
+mod file;
+mod overrides;
+mod quantity;
+mod schema;
+mod source;
+pub(crate) mod spelling;
+mod unit;
+mod values;
+
+pub use diagnostic::Diagnostic;
+
+use crate::Drive;
+use diagnostic::Finding;
+use document::Document;
+use source::Source;
+use values::Values;
+
+/// Reads the drive file `text`, called `name` in messages, with overrides `KEY=VALUE` in place of
+/// entries or in addition to them. A key is a dotted path; a value may be quoted or not.
+///
+/// ```
+/// let text = beltdrive::examples::find("kim2009")?.text;
+/// let overrides = ["friction.law=epp".to_owned(), "groove.half_angle=17 deg".to_owned()];
+/// let drive = beltdrive::input::parse("kim2009.toml", text, &overrides)?;
+/// assert_eq!(drive.law.name(), "epp");
+/// assert_eq!(drive.half_angle, 17_f64.to_radians());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+///
+/// The first finding, in the order of the text: the text is no TOML, a table or key is unknown or
+/// missing, a value has the wrong type, unit, dimension or range, or values contradict each other.
+pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Drive, Diagnostic> {
+    let source = Source::new(name, text, overrides);
+    read(&source, text, overrides).map_err(|finding| Diagnostic::new(finding, &source))
+}
+
+fn read(source: &Source, text: &str, overrides: &[String]) -> Result<Drive, Finding> {
+    let mut document = Document::from_toml(text)?;
+    for (text, start) in overrides.iter().zip(source.override_starts()) {
+        overrides::apply(&mut document, text, start)?;
+    }
+    file::drive(&Values::check(&document, source)?)
+}

@@ -1,0 +1,356 @@
+//! Units of measurement: their symbols and the grammar of compound units.
+//!
+//! ```text
+//! unit     = ["1"] ["/"] factor { ["*" | "·" | "/"] factor }
+//! factor   = symbol [["^"] exponent]
+//! symbol   = [prefix] unit symbol
+//! exponent = a small integer, also in superscript
+//! ```
+//!
+//! Factors side by side multiply; a `/` divides by the next factor only: `N/m s` is `(N/m)·s`.
+
+use super::{dimension::Dimension, spelling};
+use std::{f64::consts::TAU, ops::Range};
+
+/// A unit of measurement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Unit {
+    /// The unit in SI units.
+    pub(super) scale: f64,
+    /// What it measures.
+    pub(super) dimension: Dimension,
+}
+
+/// A unit with a symbol of its own.
+struct Named {
+    symbol: &'static str,
+    name: &'static str,
+    unit: Unit,
+    /// Whether the symbol takes SI prefixes.
+    metric: bool,
+}
+
+const fn metric(
+    symbol: &'static str,
+    name: &'static str,
+    scale: f64,
+    dimension: Dimension,
+) -> Named {
+    Named {
+        symbol,
+        name,
+        unit: Unit { scale, dimension },
+        metric: true,
+    }
+}
+
+const fn other(
+    symbol: &'static str,
+    name: &'static str,
+    scale: f64,
+    dimension: Dimension,
+) -> Named {
+    Named {
+        metric: false,
+        ..metric(symbol, name, scale, dimension)
+    }
+}
+
+/// International inch, m (exact).
+const INCH: f64 = 0.0254;
+/// International avoirdupois pound, kg (exact).
+const POUND: f64 = 0.453_592_37;
+/// Standard gravity, m/s² (exact).
+const GRAVITY: f64 = 9.806_65;
+
+const UNITS: [Named; 31] = [
+    metric("m", "metre", 1.0, Dimension::LENGTH),
+    other("in", "inch", INCH, Dimension::LENGTH),
+    other("ft", "foot", 12.0 * INCH, Dimension::LENGTH),
+    metric("g", "gram", 1e-3, Dimension::MASS),
+    other("lb", "pound", POUND, Dimension::MASS),
+    other("lbm", "pound mass", POUND, Dimension::MASS),
+    other("oz", "ounce", POUND / 16.0, Dimension::MASS),
+    metric("s", "second", 1.0, Dimension::TIME),
+    other("min", "minute", 60.0, Dimension::TIME),
+    other("h", "hour", 3600.0, Dimension::TIME),
+    metric("rad", "radian", 1.0, Dimension::ANGLE),
+    other("deg", "degree", TAU / 360.0, Dimension::ANGLE),
+    other("°", "degree", TAU / 360.0, Dimension::ANGLE),
+    other("rev", "revolution", TAU, Dimension::ANGLE),
+    other("rpm", "rev/min", TAU / 60.0, Dimension::ANGULAR_SPEED),
+    // A frequency of rotation: what turns at 1 Hz turns by 2π rad in a second.
+    metric("Hz", "hertz", TAU, Dimension::ANGULAR_SPEED),
+    metric("N", "newton", 1.0, Dimension::FORCE),
+    other("kgf", "kilopond", GRAVITY, Dimension::FORCE),
+    other("lbf", "pound force", POUND * GRAVITY, Dimension::FORCE),
+    metric("Pa", "pascal", 1.0, Dimension::FORCE_PER_AREA),
+    metric("bar", "bar", 1e5, Dimension::FORCE_PER_AREA),
+    other(
+        "psi",
+        "pound per square inch",
+        POUND * GRAVITY / (INCH * INCH),
+        Dimension::FORCE_PER_AREA,
+    ),
+    metric("J", "joule", 1.0, Dimension::TORQUE),
+    // The product written without a sign, as torques often are.
+    metric("Nm", "newton metre", 1.0, Dimension::TORQUE),
+    metric("W", "watt", 1.0, Dimension::POWER),
+    // Mechanical horsepower: 550 ft·lbf/s.
+    other(
+        "hp",
+        "horsepower",
+        550.0 * 12.0 * INCH * POUND * GRAVITY,
+        Dimension::POWER,
+    ),
+    other(
+        "mph",
+        "mile/h",
+        5280.0 * 12.0 * INCH / 3600.0,
+        Dimension::VELOCITY,
+    ),
+    other("mil", "mil", 1e-3 * INCH, Dimension::LENGTH),
+    other("t", "tonne", 1e3, Dimension::MASS),
+    other(
+        "ozf",
+        "ounce force",
+        POUND * GRAVITY / 16.0,
+        Dimension::FORCE,
+    ),
+    other(
+        "kip",
+        "kilopound force",
+        1e3 * POUND * GRAVITY,
+        Dimension::FORCE,
+    ),
+];
+
+/// SI prefixes: symbol, name, factor. Micro is written in three ways.
+const PREFIXES: [(&str, &str, f64); 11] = [
+    ("G", "giga", 1e9),
+    ("M", "mega", 1e6),
+    ("k", "kilo", 1e3),
+    ("h", "hecto", 1e2),
+    ("d", "deci", 1e-1),
+    ("c", "centi", 1e-2),
+    ("m", "milli", 1e-3),
+    ("u", "micro", 1e-6),
+    ("\u{b5}", "micro", 1e-6),
+    ("\u{3bc}", "micro", 1e-6),
+    ("n", "nano", 1e-9),
+];
+
+/// Largest exponent of a factor: far above any physical one, far below any overflow.
+const MAX_EXPONENT: u32 = 9;
+
+/// Reads a unit; the error is the part of `text` that is none.
+pub(super) fn parse(text: &str) -> Result<Unit, Range<usize>> {
+    let mut unit = Unit {
+        scale: 1.0,
+        dimension: Dimension::NUMBER,
+    };
+    // The 1 of "1/m" is an empty numerator, not a factor.
+    let mut position = match text.strip_prefix('1') {
+        Some(rest) if rest.trim_start().starts_with('/') => 1,
+        _ => 0,
+    };
+    // An operator that waits for its right factor.
+    let mut operator: Option<(char, Range<usize>)> = None;
+    while let Some(first) = text[position..].chars().next() {
+        let rest = &text[position..];
+        let length = match first {
+            _ if is_separator(first) => first.len_utf8(),
+            _ => rest.find(is_separator).unwrap_or(rest.len()),
+        };
+        let range = position..position + length;
+        position = range.end;
+        if first.is_whitespace() {
+            continue;
+        } else if !is_separator(first) {
+            let (factor, exponent) = factor(&text[range.clone()]).ok_or(range)?;
+            let exponent = match operator.take() {
+                Some(('/', _)) => -exponent,
+                _ => exponent,
+            };
+            unit.scale *= factor.scale.powi(exponent);
+            unit.dimension = unit.dimension.times(factor.dimension, exponent);
+        } else if operator.replace((first, range.clone())).is_some() {
+            return Err(range);
+        }
+    }
+    match operator {
+        Some((_, range)) => Err(range),
+        None => Ok(unit),
+    }
+}
+
+/// The right spelling nearest to a factor that is no unit, with its exponent.
+pub(super) fn nearest(factor: &str) -> Option<String> {
+    let (symbol, exponent) = split_exponent(factor);
+    let plain = UNITS.iter().flat_map(|named| {
+        let symbol = named.symbol.to_owned();
+        [
+            (symbol.clone(), symbol.clone()),
+            (named.name.to_owned(), symbol),
+        ]
+    });
+    let metric = UNITS.iter().filter(|named| named.metric);
+    let prefixed = metric.flat_map(|named| {
+        PREFIXES.iter().flat_map(|(prefix, name, _)| {
+            let symbol = format!("{prefix}{}", named.symbol);
+            [
+                (symbol.clone(), symbol.clone()),
+                (format!("{name}{}", named.name), symbol),
+            ]
+        })
+    });
+    spelling::nearest(symbol, plain.chain(prefixed)).map(|symbol| symbol + exponent)
+}
+
+fn is_separator(c: char) -> bool {
+    c.is_whitespace() || matches!(c, '*' | '·' | '⋅' | '/')
+}
+
+/// Reads one factor: a unit and the exponent it is raised to.
+fn factor(text: &str) -> Option<(Unit, i32)> {
+    let (symbol, exponent) = split_exponent(text);
+    let unit = lookup(symbol)?;
+    if exponent.is_empty() {
+        return Some((unit, 1));
+    }
+    let exponent: String = exponent.chars().map(plain_digit).collect();
+    let exponent: i32 = exponent
+        .strip_prefix('^')
+        .unwrap_or(&exponent)
+        .parse()
+        .ok()?;
+    (exponent != 0 && exponent.unsigned_abs() <= MAX_EXPONENT).then_some((unit, exponent))
+}
+
+fn split_exponent(factor: &str) -> (&str, &str) {
+    let is_exponent = |c| matches!(plain_digit(c), '^' | '+' | '-' | '0'..='9');
+    factor.split_at(factor.find(is_exponent).unwrap_or(factor.len()))
+}
+
+/// The ASCII form of superscript digits and signs; other characters as they are.
+fn plain_digit(c: char) -> char {
+    match c {
+        '¹' => '1',
+        '²' => '2',
+        '³' => '3',
+        '⁴' => '4',
+        '⁵' => '5',
+        '⁶' => '6',
+        '⁷' => '7',
+        '⁸' => '8',
+        '⁹' => '9',
+        '⁻' | '−' => '-',
+        _ => c,
+    }
+}
+
+/// A symbol as it stands in the table or, if it stands there not, with a prefix split off: `min` is
+/// a minute and no milli-inch.
+fn lookup(symbol: &str) -> Option<Unit> {
+    let find = |symbol| UNITS.iter().find(|named| named.symbol == symbol);
+    if let Some(named) = find(symbol) {
+        return Some(named.unit);
+    }
+    PREFIXES.iter().find_map(|(prefix, _, factor)| {
+        let named = find(symbol.strip_prefix(prefix)?).filter(|named| named.metric)?;
+        Some(Unit {
+            scale: factor * named.unit.scale,
+            ..named.unit
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn check(text: &str, scale: f64, dimension: Dimension) {
+        let unit = parse(text).unwrap_or_else(|_| panic!("{text} is a unit"));
+        assert_eq!(unit.dimension, dimension, "{text}");
+        assert!(
+            (unit.scale / scale - 1.0).abs() < 1e-14,
+            "{text}: {}",
+            unit.scale
+        );
+    }
+
+    #[test]
+    fn sensible_spellings_agree() {
+        for text in [
+            "N/m^2",
+            "N/m²",
+            "N/m2",
+            "N m^-2",
+            "N·m⁻²",
+            "N * m-2",
+            "Pa",
+            "/m^2 N",
+            "J/m³",
+        ] {
+            check(text, 1.0, Dimension::FORCE_PER_AREA);
+        }
+        for text in ["N/mm^2", "MPa", "MN/m2", "MJ/m^3"] {
+            check(text, 1e6, Dimension::FORCE_PER_AREA);
+        }
+        check("kN/m2", 1e3, Dimension::FORCE_PER_AREA);
+        check("g/cm", 0.1, Dimension::MASS_PER_LENGTH);
+        check("kg m^-1", 1.0, Dimension::MASS_PER_LENGTH);
+        check("lb/ft", 1.488_163_943_569_553_8, Dimension::MASS_PER_LENGTH);
+        check("1/m", 1.0, Dimension::INVERSE_LENGTH);
+        check("1 / mm", 1e3, Dimension::INVERSE_LENGTH);
+        check("rev/min", TAU / 60.0, Dimension::ANGULAR_SPEED);
+        check("kNm", 1e3, Dimension::TORQUE);
+        check("lbf·ft", 1.355_817_948_331_400_4, Dimension::TORQUE);
+        check("hp", 745.699_871_582_270_2, Dimension::POWER);
+        check("psi", 6_894.757_293_168_361, Dimension::FORCE_PER_AREA);
+        check("µm", 1e-6, Dimension::LENGTH);
+        check("min", 60.0, Dimension::TIME);
+    }
+
+    #[test]
+    fn every_symbol_is_read_as_itself_with_and_without_prefix() {
+        for named in &UNITS {
+            check(named.symbol, named.unit.scale, named.unit.dimension);
+            for (prefix, _, factor) in PREFIXES {
+                let prefixed = format!("{prefix}{}", named.symbol);
+                let own = UNITS.iter().any(|other| other.symbol == prefixed);
+                if named.metric && !own {
+                    check(&prefixed, factor * named.unit.scale, named.unit.dimension);
+                } else if !own {
+                    assert_eq!(parse(&prefixed), Err(0..prefixed.len()), "{prefixed}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_unit_is_pointed_at() {
+        assert_eq!(parse("kNn"), Err(0..3));
+        assert_eq!(parse("N/parsec^2"), Err(2..10));
+        assert_eq!(parse("N//m"), Err(2..3));
+        assert_eq!(parse("N/"), Err(1..2));
+        for text in [
+            "m^", "m^0", "m^99", "m^2^2", "m^2m", "2", "1", "^2", "kkg", "kin",
+        ] {
+            assert_eq!(parse(text), Err(0..text.len()), "{text}");
+        }
+    }
+
+    #[test]
+    fn misspellings_have_a_nearest_unit() {
+        let nearest = |text| nearest(text).unwrap_or_default();
+        assert_eq!(nearest("kn"), "kN");
+        assert_eq!(nearest("KN^2"), "kN^2");
+        assert_eq!(nearest("degrees"), "deg");
+        assert_eq!(nearest("kilonewtons"), "kN");
+        assert_eq!(nearest("inches"), "in");
+        assert_eq!(nearest("RPM"), "rpm");
+        assert_eq!(nearest("parsec"), "");
+    }
+}

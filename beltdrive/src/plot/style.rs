@@ -1,0 +1,289 @@
+//! What all figures have in common: canvas, colours, text, header and legend.
+
+use crate::report::{heading, law, warning};
+use crate::{SteadyState, ZoneKind};
+use plotters::coord::{CoordTranslate, Shift};
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::element::DashedPathElement;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+use std::io;
+
+/// The sheet or a rectangular part of it.
+pub(super) type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// Whether drawing succeeded.
+pub(super) type Drawn = Result<(), DrawingAreaErrorKind<io::Error>>;
+
+/// Text and axes.
+pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
+/// Secondary text and outlines.
+pub(super) const GREY: RGBColor = RGBColor(0x77, 0x77, 0x77);
+/// The second curve of a figure.
+pub(super) const WINE: RGBColor = RGBColor(0x88, 0x22, 0x55);
+const VERMILION: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
+const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xB2);
+const ORANGE: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
+
+/// Sizes of text, px.
+pub(super) const TITLE: f64 = 20.0;
+/// Size of the text that accompanies a figure, px.
+pub(super) const BODY: f64 = 14.0;
+/// Size of the text at ticks, px.
+pub(super) const SMALL: f64 = 12.0;
+
+/// Empty space at the left and right edges of a figure, px.
+pub(super) const MARGIN: f64 = 24.0;
+
+/// The backend knows whole units only; a pixel has this many of them, so that curves are smooth.
+const UNITS: f64 = 10.0;
+
+/// A length in units of the backend from one in pixels.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "a sheet has far fewer units than i32 holds"
+)]
+pub(super) fn px(length: f64) -> i32 {
+    (length * UNITS).round() as i32
+}
+
+/// A sheet of a width and height in px with what `draw` puts on it, as SVG.
+///
+/// # Panics
+/// Never: drawing into memory does not fail, and the layouts leave room for every label.
+pub(super) fn render([width, height]: [f64; 2], draw: impl FnOnce(&Canvas<'_>) -> Drawn) -> String {
+    let mut svg = String::new();
+    let units = [width, height].map(|length| px(length).unsigned_abs());
+    {
+        let canvas = SVGBackend::with_string(&mut svg, units.into()).into_drawing_area();
+        canvas
+            .fill(&WHITE)
+            .and_then(|()| draw(&canvas))
+            .and_then(|()| canvas.present())
+            .expect("a drawing in memory, with room for its labels");
+    }
+    let size = |[width, height]: [String; 2]| format!("width=\"{width}\" height=\"{height}\"");
+    let shown = size([width, height].map(|length| length.to_string()));
+    svg.replacen(&size(units.map(|length| length.to_string())), &shown, 1)
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stroke {
+    /// Colour.
+    pub(super) color: RGBColor,
+    /// Width, px.
+    pub(super) width: f64,
+    /// Dashed rather than continuous.
+    pub(super) dashed: bool,
+}
+
+impl Stroke {
+    /// A continuous line.
+    pub(super) const fn solid(color: RGBColor, width: f64) -> Self {
+        Self {
+            color,
+            width,
+            dashed: false,
+        }
+    }
+
+    /// A dashed line.
+    pub(super) const fn dashed(color: RGBColor, width: f64) -> Self {
+        Self {
+            color,
+            width,
+            dashed: true,
+        }
+    }
+
+    /// The style of the line in the backend.
+    pub(super) fn shape(self) -> ShapeStyle {
+        self.color.stroke_width(px(self.width).unsigned_abs())
+    }
+
+    /// Draws the line through points.
+    pub(super) fn draw<C: CoordTranslate>(
+        self,
+        area: &DrawingArea<SVGBackend<'_>, C>,
+        points: Vec<C::From>,
+    ) -> Drawn
+    where
+        C::From: Clone,
+    {
+        if self.dashed {
+            let [dash, gap] = [8.0, 5.0].map(px);
+            area.draw(&DashedPathElement::new(points, dash, gap, self.shape()))
+        } else {
+            area.draw(&PathElement::new(points, self.shape()))
+        }
+    }
+}
+
+/// Name and colour of a kind of zone.
+pub(super) fn zone(kind: ZoneKind) -> (&'static str, RGBColor) {
+    match kind {
+        ZoneKind::Elastic => ("elastic zone", BLUE),
+        ZoneKind::Slip => ("slip zone", ORANGE),
+    }
+}
+
+/// The kinds of zones that occur in a state.
+pub(super) fn kinds(state: &SteadyState) -> impl Iterator<Item = ZoneKind> {
+    let occurs = |kind: &ZoneKind| {
+        [&state.driver, &state.driven]
+            .iter()
+            .any(|pulley| pulley.zones.iter().any(|zone| zone.kind == *kind))
+    };
+    [ZoneKind::Elastic, ZoneKind::Slip]
+        .into_iter()
+        .filter(occurs)
+}
+
+/// The background colour of a zone.
+pub(super) fn tint(kind: ZoneKind) -> ShapeStyle {
+    zone(kind).1.mix(0.18).filled()
+}
+
+/// A text style: size in px, colour, anchor.
+pub(super) fn face(size: f64, color: RGBColor, anchor: HPos) -> TextStyle<'static> {
+    // The backend divides sizes by this factor.
+    let font = FontDesc::new(
+        FontFamily::SansSerif,
+        size * UNITS * 1.24,
+        FontStyle::Normal,
+    );
+    font.color(&color).pos(Pos::new(anchor, VPos::Center))
+}
+
+/// Writes a line of text at a position in px, vertically centred on it.
+pub(super) fn write(canvas: &Canvas<'_>, text: &str, style: &TextStyle<'_>, at: [f64; 2]) -> Drawn {
+    canvas.draw_text(text, style, at.map(px).into())
+}
+
+/// About the width that a text takes in common sans-serif fonts, px.
+fn text_width(characters: usize, size: f64) -> f64 {
+    0.55 * size * characters as f64
+}
+
+/// An entry of the legend.
+pub(super) enum Key {
+    /// A shaded background.
+    Shade(&'static str, ShapeStyle),
+    /// A line.
+    Line(&'static str, Stroke),
+}
+
+/// The height of the header of a figure, px.
+pub(super) fn header_height(state: &SteadyState) -> f64 {
+    98.0 + 20.0 * state.warnings.len() as f64
+}
+
+/// Writes what the drive is, what the figure shows, what to beware of, and the legend.
+pub(super) fn header(
+    canvas: &Canvas<'_>,
+    state: &SteadyState,
+    caption: &str,
+    legend: &[Key],
+) -> Drawn {
+    let width = f64::from(canvas.dim_in_pixel().0) / UNITS;
+    let mut bottom = 0.0;
+    let mut line = |text: &str, size: f64, color, advance: f64| {
+        bottom += advance;
+        let room = width - 2.0 * MARGIN;
+        let style = face(size, color, HPos::Left);
+        write(canvas, &fitted(text, size, room), &style, [MARGIN, bottom])
+    };
+    line(&heading(&state.drive), TITLE, INK, 26.0)?;
+    line(
+        &format!("{caption} — {}", law(&state.drive)),
+        BODY,
+        GREY,
+        26.0,
+    )?;
+    for remark in &state.warnings {
+        line(
+            &format!("Warning: {}", warning(remark)),
+            BODY,
+            VERMILION,
+            20.0,
+        )?;
+    }
+    bottom += 26.0;
+    let mut left = MARGIN;
+    for key in legend {
+        left = entry(canvas, key, [left, bottom])?;
+    }
+    Ok(())
+}
+
+/// Draws an entry of the legend and returns where the next one begins, px.
+fn entry(
+    canvas: &Canvas<'_>,
+    key: &Key,
+    [left, middle]: [f64; 2],
+) -> Result<f64, DrawingAreaErrorKind<io::Error>> {
+    let right = left + 30.0;
+    let label = match key {
+        Key::Shade(label, style) => {
+            let corners = [[left, middle - 7.0], [right, middle + 7.0]];
+            canvas.draw(&Rectangle::new(
+                corners.map(|corner| corner.map(px).into()),
+                *style,
+            ))?;
+            label
+        }
+        Key::Line(label, stroke) => {
+            stroke.draw(
+                canvas,
+                vec![(px(left), px(middle)), (px(right), px(middle))],
+            )?;
+            label
+        }
+    };
+    write(
+        canvas,
+        label,
+        &face(BODY, INK, HPos::Left),
+        [right + 8.0, middle],
+    )?;
+    Ok(right + 32.0 + text_width(label.chars().count(), BODY))
+}
+
+/// The text, cut where it would be wider than the room, px.
+fn fitted(text: &str, size: f64, room: f64) -> String {
+    let fits = (1..=text.chars().count()).take_while(|&count| text_width(count, size) <= room);
+    match fits.last() {
+        Some(count) if count < text.chars().count() => {
+            text.chars().take(count - 1).chain(['…']).collect()
+        }
+        _ => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample;
+
+    #[test]
+    fn long_titles_are_cut() {
+        assert_eq!(fitted("drive", 10.0, 100.0), "drive");
+        assert_eq!(
+            fitted("a drive with a very long title", 10.0, 55.0),
+            "a drive w…"
+        );
+    }
+
+    #[test]
+    fn the_sheet_has_its_size_in_pixels() {
+        let svg = render([300.0, 200.0], |_| Ok(()));
+        assert!(svg.starts_with("<svg width=\"300\" height=\"200\" viewBox=\"0 0 3000 2000\""));
+    }
+
+    #[test]
+    fn kinds_of_zones_are_those_present() {
+        assert_eq!(kinds(&sample::loaded()).count(), 2);
+        assert_eq!(kinds(&sample::idle()).count(), 0);
+    }
+}

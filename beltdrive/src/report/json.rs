@@ -1,0 +1,326 @@
+//! The steady state as JSON: complete, at full precision, every key with its unit.
+
+use super::columns::COLUMNS;
+use super::{power, speed_loss, warning};
+use crate::{Convergence, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind};
+use serde::{Serialize, Serializer};
+
+/// The whole state as pretty-printed JSON. Angles are in degrees (`_deg`), everything else is SI.
+/// A number that is not finite is `null`.
+///
+/// # Panics
+/// Never: strings and numbers always have a representation.
+pub fn json(state: &SteadyState) -> String {
+    serde_json::to_string_pretty(&Report::from(state)).expect("strings and numbers")
+}
+
+#[derive(Serialize)]
+#[expect(non_snake_case, reason = "the keys carry units")]
+struct Report<'a> {
+    title: Option<&'a str>,
+    friction_law: &'static str,
+    mass_flow_kg_per_s: f64,
+    belt_length_m: f64,
+    slack_span_m: f64,
+    tight_span_m: f64,
+    efficiency: f64,
+    friction_loss_W: f64,
+    speed_loss: f64,
+    driver: PulleyReport,
+    driven: PulleyReport,
+    tension_N: Spans,
+    tractive_tension_N: Spans,
+    profiles: Profiles<'a>,
+    warnings: Vec<WarningReport>,
+    checks: Vec<CheckReport>,
+    convergence: ConvergenceReport,
+}
+
+impl<'a> From<&'a SteadyState> for Report<'a> {
+    fn from(state: &'a SteadyState) -> Self {
+        Self {
+            title: state.drive.title.as_deref(),
+            friction_law: state.drive.law.name(),
+            mass_flow_kg_per_s: state.mass_flow,
+            belt_length_m: state.belt_length,
+            slack_span_m: state.slack_span,
+            tight_span_m: state.tight_span,
+            efficiency: state.efficiency,
+            friction_loss_W: state.friction_loss,
+            speed_loss: speed_loss(state),
+            driver: PulleyReport::from(&state.driver),
+            driven: PulleyReport::from(&state.driven),
+            tension_N: Spans {
+                slack: state.slack_tension,
+                tight: state.tight_tension,
+            },
+            tractive_tension_N: Spans {
+                slack: state.slack_tractive_tension,
+                tight: state.tight_tractive_tension,
+            },
+            profiles: Profiles {
+                driven: ProfileReport(&state.driven.profile),
+                driver: ProfileReport(&state.driver.profile),
+            },
+            warnings: state.warnings.iter().map(WarningReport::from).collect(),
+            checks: state
+                .checks
+                .iter()
+                .map(|check| CheckReport {
+                    name: check.name,
+                    deviation: check.deviation,
+                    limit: check.limit,
+                })
+                .collect(),
+            convergence: ConvergenceReport::from(&state.convergence),
+        }
+    }
+}
+
+#[derive(Serialize)]
+#[expect(non_snake_case, reason = "the keys carry units")]
+struct PulleyReport {
+    angular_speed_rad_per_s: f64,
+    torque_N_m: f64,
+    power_W: f64,
+    wrap_angle_deg: f64,
+    max_penetration_m: f64,
+    inclination_deg: [f64; 2],
+    zones: Vec<ZoneReport>,
+}
+
+impl From<&PulleyState> for PulleyReport {
+    fn from(pulley: &PulleyState) -> Self {
+        Self {
+            angular_speed_rad_per_s: pulley.angular_speed,
+            torque_N_m: pulley.torque,
+            power_W: power(pulley),
+            wrap_angle_deg: pulley.wrap_angle.to_degrees(),
+            max_penetration_m: pulley.max_penetration,
+            inclination_deg: pulley.inclination.map(f64::to_degrees),
+            zones: pulley.zones.iter().map(ZoneReport::from).collect(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct ZoneReport {
+    kind: ZoneKind,
+    from_deg: f64,
+    to_deg: f64,
+}
+
+impl From<&Zone> for ZoneReport {
+    fn from(zone: &Zone) -> Self {
+        Self {
+            kind: zone.kind,
+            from_deg: zone.from.to_degrees(),
+            to_deg: zone.to.to_degrees(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Spans {
+    slack: f64,
+    tight: f64,
+}
+
+#[derive(Serialize)]
+struct Profiles<'a> {
+    driven: ProfileReport<'a>,
+    driver: ProfileReport<'a>,
+}
+
+/// A profile as a map from the name of each column to its values.
+struct ProfileReport<'a>(&'a Profile);
+
+impl Serialize for ProfileReport<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(
+            COLUMNS
+                .iter()
+                .map(|column| (column.key, column.values(self.0))),
+        )
+    }
+}
+
+#[derive(Serialize)]
+struct WarningReport {
+    kind: &'static str,
+    pulley: Pulley,
+    inclination_deg: f64,
+    message: String,
+}
+
+impl From<&Warning> for WarningReport {
+    fn from(remark: &Warning) -> Self {
+        let Warning::Overhang {
+            pulley,
+            inclination,
+        } = *remark;
+        Self {
+            kind: "overhang",
+            pulley,
+            inclination_deg: inclination.to_degrees(),
+            message: warning(remark),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct CheckReport {
+    name: &'static str,
+    deviation: f64,
+    limit: f64,
+}
+
+#[derive(Serialize)]
+struct ConvergenceReport {
+    tolerance: f64,
+    defect: f64,
+    error_estimate: f64,
+    mesh_intervals: [usize; 2],
+    newton_iterations: usize,
+    rhs_evaluations: usize,
+    factorisations: usize,
+    continuation_steps: usize,
+    slip_normalisation: f64,
+    slip_normalisation_effect: f64,
+    seconds: f64,
+}
+
+impl From<&Convergence> for ConvergenceReport {
+    fn from(convergence: &Convergence) -> Self {
+        Self {
+            tolerance: convergence.tolerance,
+            defect: convergence.defect,
+            error_estimate: convergence.error_estimate,
+            mesh_intervals: convergence.mesh_intervals,
+            newton_iterations: convergence.newton_iterations,
+            rhs_evaluations: convergence.rhs_evaluations,
+            factorisations: convergence.factorisations,
+            continuation_steps: convergence.continuation_steps,
+            slip_normalisation: convergence.slip_normalisation,
+            slip_normalisation_effect: convergence.slip_normalisation_effect,
+            seconds: convergence.seconds,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample;
+    use serde_json::Value;
+
+    const KEYS: [&str; 17] = [
+        "/title",
+        "/friction_law",
+        "/mass_flow_kg_per_s",
+        "/belt_length_m",
+        "/slack_span_m",
+        "/tight_span_m",
+        "/efficiency",
+        "/friction_loss_W",
+        "/speed_loss",
+        "/tension_N/slack",
+        "/tension_N/tight",
+        "/tractive_tension_N/slack",
+        "/tractive_tension_N/tight",
+        "/warnings/0/kind",
+        "/warnings/0/inclination_deg",
+        "/warnings/0/message",
+        "/checks/0/deviation",
+    ];
+
+    const PULLEY_KEYS: [&str; 10] = [
+        "angular_speed_rad_per_s",
+        "torque_N_m",
+        "power_W",
+        "wrap_angle_deg",
+        "max_penetration_m",
+        "inclination_deg/0",
+        "inclination_deg/1",
+        "zones/0/kind",
+        "zones/0/from_deg",
+        "zones/0/to_deg",
+    ];
+
+    const PROFILE_KEYS: [&str; 10] = [
+        "angle_deg",
+        "arc_length_m",
+        "tension_N",
+        "tractive_tension_N",
+        "inclination_deg",
+        "penetration_m",
+        "displacement_m",
+        "sliding_angle_deg",
+        "normal_force_N_per_m",
+        "friction_force_N_per_m",
+    ];
+
+    const CONVERGENCE_KEYS: [&str; 12] = [
+        "tolerance",
+        "defect",
+        "error_estimate",
+        "mesh_intervals/0",
+        "mesh_intervals/1",
+        "newton_iterations",
+        "rhs_evaluations",
+        "factorisations",
+        "continuation_steps",
+        "slip_normalisation",
+        "slip_normalisation_effect",
+        "seconds",
+    ];
+
+    fn parsed(state: &SteadyState) -> Value {
+        serde_json::from_str(&json(state)).unwrap()
+    }
+
+    #[test]
+    fn has_every_key() {
+        let report = parsed(&sample::overhanging());
+        let mut keys: Vec<String> = KEYS.iter().map(ToString::to_string).collect();
+        for pulley in ["driver", "driven"] {
+            keys.extend(PULLEY_KEYS.iter().map(|key| format!("/{pulley}/{key}")));
+            keys.extend(
+                PROFILE_KEYS
+                    .iter()
+                    .map(|key| format!("/profiles/{pulley}/{key}/200")),
+            );
+        }
+        keys.extend(
+            CONVERGENCE_KEYS
+                .iter()
+                .map(|key| format!("/convergence/{key}")),
+        );
+        for key in keys {
+            let value = report
+                .pointer(&key)
+                .unwrap_or_else(|| panic!("{key} is missing"));
+            assert!(value.is_number() || value.is_string(), "{key}: {value}");
+        }
+    }
+
+    #[test]
+    fn numbers_keep_their_precision() {
+        let state = sample::loaded();
+        let report = parsed(&state);
+        assert_eq!(report["driven"]["torque_N_m"], state.driven.torque);
+        let wrap = report["driver"]["wrap_angle_deg"].as_f64().unwrap();
+        assert_eq!(wrap, state.driver.wrap_angle.to_degrees());
+        assert_eq!(report["driven"]["zones"][0]["kind"], "elastic");
+    }
+
+    #[test]
+    fn what_is_not_finite_is_null() {
+        let mut state = sample::idle();
+        state.drive.title = None;
+        state.efficiency = f64::NAN;
+        let report = parsed(&state);
+        assert!(report["efficiency"].is_null() && report["title"].is_null());
+        assert_eq!(report["speed_loss"], 0.0);
+    }
+}

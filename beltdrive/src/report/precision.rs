@@ -1,0 +1,112 @@
+//! How many digits of a number to show.
+
+use crate::Convergence;
+
+/// Shows numbers with the digits that are both known and useful.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Precision {
+    /// Relative error of the results.
+    error: f64,
+    /// Significant digits that are useful to a reader.
+    digits: f64,
+}
+
+impl Precision {
+    /// The precision of results that converged so far, shown to at most so many digits.
+    ///
+    /// The error is the larger one of the error estimate and the effect of the slip
+    /// normalisation. It is taken between 1e-12 and 0.1, so that a figure always remains.
+    pub(crate) fn of(convergence: &Convergence, digits: u8) -> Self {
+        let error = convergence
+            .error_estimate
+            .max(convergence.slip_normalisation_effect);
+        Self {
+            error: error.clamp(1e-12, 0.1),
+            digits: f64::from(digits),
+        }
+    }
+
+    /// A value whose own magnitude is the scale of its error.
+    pub(crate) fn show(&self, value: f64) -> String {
+        self.show_against(value, value)
+    }
+
+    /// A value whose error is relative to `scale`, such as a small difference of large numbers.
+    pub(crate) fn show_against(&self, value: f64, scale: f64) -> String {
+        let known = (-(self.error * scale.abs()).log10()).floor();
+        let useful = self.digits - 1.0 - value.abs().log10().floor();
+        rounded(value, known.min(useful))
+    }
+}
+
+/// The value rounded to a number of decimals, or of tens when this is negative.
+fn rounded(value: f64, decimals: f64) -> String {
+    if !value.is_finite() {
+        return "not known".to_owned();
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "clamped to 0 … 9")]
+    let places = decimals.clamp(0.0, 9.0) as usize;
+    let unit = 10_f64.powf((-decimals).max(0.0));
+    let value = if unit > 1.0 {
+        (value / unit).round() * unit
+    } else {
+        value
+    };
+    let text = format!("{value:.places$}");
+    if text.contains(|digit| matches!(digit, '1'..='9')) {
+        text
+    } else {
+        "0".to_owned()
+    }
+}
+
+/// A number from a drive file, at most six digits, none of them a trailing zero.
+pub(super) fn six_digits(value: f64) -> String {
+    let value: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    if (1e-3..1e6).contains(&value.abs()) || value == 0.0 {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn precision(error_estimate: f64) -> Precision {
+        Precision::of(
+            &Convergence {
+                error_estimate,
+                ..Convergence::default()
+            },
+            6,
+        )
+    }
+
+    #[test]
+    fn shows_no_digit_beyond_the_error() {
+        let value = 102.699_362;
+        let shown = [1e-9, 1e-5, 1e-4, 1e-3, 1e-2, 0.5].map(|error| precision(error).show(value));
+        assert_eq!(shown, ["102.699", "102.70", "102.7", "103", "100", "100"]);
+    }
+
+    #[test]
+    fn a_difference_carries_the_error_of_its_terms() {
+        assert_eq!(precision(2e-5).show_against(0.123_456, 100.0), "0.12");
+        assert_eq!(precision(1e-9).show_against(-1e-12, 100.0), "0");
+    }
+
+    #[test]
+    fn unusual_values_have_a_display() {
+        assert_eq!(precision(0.0).show(0.0), "0");
+        assert_eq!(precision(f64::NAN).show(1.5), "1.50000");
+        assert_eq!(precision(0.0).show(f64::NAN), "not known");
+    }
+
+    #[test]
+    fn given_numbers_stay_as_given() {
+        let shown = [0.4, 1620.0, 8.1e6, 0.1 + 0.2, 0.0, 2e-4].map(six_digits);
+        assert_eq!(shown, ["0.4", "1620", "8.1e6", "0.3", "0", "2e-4"]);
+    }
+}

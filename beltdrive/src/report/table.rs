@@ -1,0 +1,289 @@
+//! The steady state as a table for a terminal.
+
+use super::{Precision, heading, law, power, rpm, speed_loss, torque_scale, warning};
+use crate::{Check, Convergence, PulleyState, SteadyState, Zone, ZoneKind};
+
+/// No line of the table is wider.
+const WIDTH: usize = 100;
+
+/// Most significant digits shown; fewer where the error estimate does not support them.
+const DIGITS: u8 = 6;
+
+/// The steady state on lines of at most 100 columns: what an engineer reads at a glance.
+///
+/// Numbers have at most six significant digits, and never more than their estimated error
+/// supports.
+pub fn table(state: &SteadyState) -> String {
+    let precision = Precision::of(&state.convergence, DIGITS);
+    let mut lines = vec![heading(&state.drive), law(&state.drive)];
+    for remark in &state.warnings {
+        lines.push(String::new());
+        lines.push(format!("WARNING: {}", warning(remark)));
+    }
+    for block in [
+        pulleys(state, precision),
+        spans(state, precision),
+        whole(state, precision),
+        accuracy(&state.convergence),
+        state.checks.iter().map(check).collect(),
+    ] {
+        if !block.is_empty() {
+            lines.push(String::new());
+            lines.extend(block);
+        }
+    }
+    lines.iter().map(|line| fitted(line) + "\n").collect()
+}
+
+/// Driver and driven pulley side by side.
+fn pulleys(state: &SteadyState, precision: Precision) -> Vec<String> {
+    let pulleys = [&state.driver, &state.driven];
+    let number = |label, quantity: fn(&PulleyState) -> f64, unit| {
+        row(
+            label,
+            pulleys.map(|pulley| precision.show(quantity(pulley))),
+            unit,
+        )
+    };
+    // Torque is a difference of tensions and carries their error; angles that of a radian.
+    let torque = torque_scale(state);
+    let angle = |value: f64| precision.show_against(value.to_degrees(), 1_f64.to_degrees());
+    let mut lines = vec![
+        row("", ["driver", "driven"].map(str::to_owned), ""),
+        number("speed", |pulley| pulley.angular_speed, "rad/s"),
+        number("", rpm, "rpm"),
+        row(
+            "torque",
+            pulleys.map(|pulley| precision.show_against(pulley.torque, torque)),
+            "N·m",
+        ),
+        row(
+            "power",
+            pulleys.map(|pulley| {
+                let scale = torque * pulley.angular_speed;
+                precision.show_against(power(pulley) * 1e-3, scale * 1e-3)
+            }),
+            "kW",
+        ),
+        row(
+            "wrap angle",
+            pulleys.map(|pulley| angle(pulley.wrap_angle)),
+            "°",
+        ),
+        number(
+            "largest penetration",
+            |pulley| pulley.max_penetration * 1e3,
+            "mm",
+        ),
+        row(
+            "inclination at entry",
+            pulleys.map(|pulley| angle(pulley.inclination[0])),
+            "°",
+        ),
+        row(
+            "inclination at exit",
+            pulleys.map(|pulley| angle(pulley.inclination[1])),
+            "°",
+        ),
+    ];
+    let zone = |zone: &Zone| {
+        let kind = match zone.kind {
+            ZoneKind::Elastic => "elastic",
+            ZoneKind::Slip => "slip",
+        };
+        format!("{kind} {} – {}", angle(zone.from), angle(zone.to))
+    };
+    let longest = state.driver.zones.len().max(state.driven.zones.len());
+    lines.extend((0..longest).map(|place| {
+        let label = if place == 0 { "zones" } else { "" };
+        row(
+            label,
+            pulleys.map(|pulley| pulley.zones.get(place).map_or_else(String::new, zone)),
+            "°",
+        )
+    }));
+    lines
+}
+
+/// Slack and tight span side by side.
+fn spans(state: &SteadyState, precision: Precision) -> Vec<String> {
+    let tension = |value| precision.show_against(value, state.tight_tension);
+    vec![
+        row("", ["slack span", "tight span"].map(str::to_owned), ""),
+        row(
+            "belt tension T",
+            [state.slack_tension, state.tight_tension].map(tension),
+            "N",
+        ),
+        row(
+            "tractive tension F",
+            [state.slack_tractive_tension, state.tight_tractive_tension].map(tension),
+            "N",
+        ),
+        row(
+            "length",
+            [state.slack_span, state.tight_span].map(|span| precision.show(span)),
+            "m",
+        ),
+    ]
+}
+
+/// The quantities of the drive as a whole.
+fn whole(state: &SteadyState, precision: Precision) -> Vec<String> {
+    // Losses are differences: of two speeds, of two powers.
+    let input = power(&state.driver);
+    vec![
+        single(
+            "belt length, unstretched",
+            precision.show(state.belt_length),
+            "m",
+        ),
+        single("mass flow", precision.show(state.mass_flow), "kg/s"),
+        single(
+            "speed loss",
+            precision.show_against(100.0 * speed_loss(state), 100.0),
+            "%",
+        ),
+        single(
+            "efficiency",
+            precision.show_against(100.0 * state.efficiency, 100.0),
+            "%",
+        ),
+        single(
+            "friction loss",
+            precision.show_against(state.friction_loss, input),
+            "W",
+        ),
+    ]
+}
+
+/// How far the numbers can be trusted, and what they cost.
+fn accuracy(convergence: &Convergence) -> Vec<String> {
+    let small = |value: f64| format!("{value:.1e}");
+    let mut lines = vec![
+        single("relative tolerance", small(convergence.tolerance), ""),
+        single("estimated error", small(convergence.error_estimate), ""),
+        single("largest defect", small(convergence.defect), ""),
+    ];
+    if convergence.slip_normalisation > 0.0 {
+        let label = format!("effect of ε = {}", small(convergence.slip_normalisation));
+        lines.push(single(
+            &label,
+            small(convergence.slip_normalisation_effect),
+            "",
+        ));
+    }
+    let [driver, driven] = convergence.mesh_intervals;
+    lines.extend([
+        row(
+            "mesh",
+            [format!("driver {driver}"), format!("driven {driven}")],
+            "intervals",
+        ),
+        single(
+            "Newton steps",
+            convergence.newton_iterations.to_string(),
+            "",
+        ),
+        single("time", format!("{:.1}", convergence.seconds * 1e3), "ms"),
+    ]);
+    lines
+}
+
+/// A verified invariant, and whether it holds.
+fn check(check: &Check) -> String {
+    let verdict = if check.deviation <= check.limit {
+        "holds"
+    } else {
+        "VIOLATED"
+    };
+    format!(
+        "check: {:<45} {:<9} deviation {:.1e}, limit {:.1e}",
+        check.name, verdict, check.deviation, check.limit
+    )
+}
+
+fn row(label: &str, [left, right]: [String; 2], unit: &str) -> String {
+    format!("{label:<26}{left:>28}{right:>28}  {unit}")
+}
+
+fn single(label: &str, value: String, unit: &str) -> String {
+    format!("{label:<26}{value:>28}  {unit}")
+}
+
+/// The line without blanks at its end, and cut where it is too wide.
+fn fitted(line: &str) -> String {
+    let line = line.trim_end();
+    if line.chars().count() <= WIDTH {
+        line.to_owned()
+    } else {
+        line.chars().take(WIDTH - 1).chain(['…']).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample;
+
+    #[test]
+    fn is_no_wider_than_a_terminal() {
+        let mut state = sample::overhanging();
+        state.drive.title = Some("very long ".repeat(20));
+        state.checks.push(Check {
+            name: "a name ".repeat(9).leak(),
+            deviation: 1.0,
+            limit: 0.5,
+        });
+        state.driver.angular_speed = -1.234_567_89e-7;
+        state.driven.angular_speed = 9.876_543_21e12;
+        for line in table(&state).lines() {
+            assert!(line.chars().count() <= WIDTH, "{line}");
+        }
+    }
+
+    #[test]
+    fn states_the_numbers_an_engineer_looks_for() {
+        let text = table(&sample::loaded());
+        for needle in [
+            "104.720",
+            "102.625",
+            "1000.00",
+            "150.000",
+            "700.000",
+            "171.000",
+            "3.4e-9",
+            "96.2380",
+            "2.0000  %",
+            "590.93  W",
+            "elastic 0 – 97.4028",
+            "holds",
+        ] {
+            assert!(text.contains(needle), "{needle} is not in\n{text}");
+        }
+        assert!(!text.contains("WARNING"));
+    }
+
+    #[test]
+    fn warnings_and_violations_stand_out() {
+        let mut state = sample::overhanging();
+        state.checks[0].deviation = f64::NAN;
+        let text = table(&state);
+        assert!(
+            text.lines()
+                .nth(3)
+                .unwrap()
+                .starts_with("WARNING: the belt overhangs")
+        );
+        assert!(text.contains("VIOLATED"));
+    }
+
+    #[test]
+    fn a_standing_drive_has_a_table() {
+        let text = table(&sample::idle());
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+        let mut empty = sample::idle();
+        empty.checks.clear();
+        assert!(!table(&empty).contains("zones"));
+    }
+}

@@ -1,0 +1,178 @@
+//! The steady state of a drive: everything that reports, tables and figures show.
+
+use crate::Drive;
+use serde::Serialize;
+
+/// The steady state of a two-pulley drive. SI units; the names of serialised keys carry theirs.
+#[derive(Clone, Debug)]
+pub struct SteadyState {
+    /// The drive that was solved.
+    pub drive: Drive,
+    /// Mass flow G through every cross-section, kg/s.
+    pub mass_flow: f64,
+    /// Unstretched length of the whole belt, m.
+    pub belt_length: f64,
+    /// Length of the free slack span, m.
+    pub slack_span: f64,
+    /// Length of the free tight span, m.
+    pub tight_span: f64,
+    /// Belt tension T in the slack span, N.
+    pub slack_tension: f64,
+    /// Belt tension T in the tight span, N.
+    pub tight_tension: f64,
+    /// Tractive tension F = T − G V in the slack span, N.
+    pub slack_tractive_tension: f64,
+    /// Tractive tension F = T − G V in the tight span, N.
+    pub tight_tractive_tension: f64,
+    /// Power taken by the driven pulley over power given by the driver; 0 where no power flows.
+    pub efficiency: f64,
+    /// Power lost in friction, W; not negative.
+    pub friction_loss: f64,
+    /// State of the driver.
+    pub driver: PulleyState,
+    /// State of the driven pulley.
+    pub driven: PulleyState,
+    /// Remarks on the validity of the state that a user must read.
+    pub warnings: Vec<Warning>,
+    /// The verified invariants of the state, each with its relative deviation.
+    pub checks: Vec<Check>,
+    /// How the numbers were reached and how accurate they are.
+    pub convergence: Convergence,
+}
+
+/// The state of one pulley and of the belt on it.
+#[derive(Clone, Debug)]
+pub struct PulleyState {
+    /// Angular speed, rad/s.
+    pub angular_speed: f64,
+    /// Torque between belt and pulley, N·m; positive in the sense of power transmission.
+    pub torque: f64,
+    /// Angle swept by the belt on the pulley, rad.
+    pub wrap_angle: f64,
+    /// Largest penetration of the belt into the groove, m.
+    pub max_penetration: f64,
+    /// Inclination θ of the belt to the local circle at entry and exit, rad; positive outward.
+    pub inclination: [f64; 2],
+    /// Friction zones in the order in which the belt passes them.
+    pub zones: Vec<Zone>,
+    /// The belt along the pulley, from entry to exit.
+    pub profile: Profile,
+}
+
+/// What the belt does over a part of the wrap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ZoneKind {
+    /// Friction below its limit: the belt sticks through its bristles.
+    Elastic,
+    /// Friction at its limit μ p: the belt slides.
+    Slip,
+}
+
+/// A part of the wrap where friction is of one kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Zone {
+    /// Kind of friction.
+    pub kind: ZoneKind,
+    /// Angle from the entry where the zone begins, rad.
+    pub from: f64,
+    /// Angle from the entry where the zone ends, rad.
+    pub to: f64,
+}
+
+/// Quantities along the belt on one pulley, all of one length, from entry to exit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Profile {
+    /// Angle φ from the entry, rad.
+    pub angle: Vec<f64>,
+    /// Arc length s along the belt from the entry, m.
+    pub arc_length: Vec<f64>,
+    /// Belt tension T, N.
+    pub tension: Vec<f64>,
+    /// Tractive tension F = T − G V, N.
+    pub tractive_tension: Vec<f64>,
+    /// Inclination θ to the local circle, rad; positive outward.
+    pub inclination: Vec<f64>,
+    /// Penetration x into the groove, m.
+    pub penetration: Vec<f64>,
+    /// Axial displacement u of the belt against the pulley, m.
+    pub displacement: Vec<f64>,
+    /// Sliding angle γ, rad: direction of the slip velocity from the outward radius towards the
+    /// motion of the pulley.
+    pub sliding_angle: Vec<f64>,
+    /// Normal force p per length on each groove face, N/m.
+    pub normal_force: Vec<f64>,
+    /// Friction force f per length on each groove face, N/m.
+    pub friction_force: Vec<f64>,
+}
+
+/// One of the two pulleys of a drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Pulley {
+    /// The pulley that is driven by the belt.
+    Driven,
+    /// The pulley that drives the belt.
+    Driver,
+}
+
+impl Pulley {
+    /// The name of the pulley in outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Driven => "driven pulley",
+            Self::Driver => "driver",
+        }
+    }
+}
+
+/// A remark on the validity of a state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Warning {
+    /// The inclination exceeds 90° on a pulley: the belt overhangs itself, which is a solution of
+    /// the equations but not a design.
+    Overhang {
+        /// The pulley on which it happens.
+        pulley: Pulley,
+        /// Largest inclination, rad.
+        inclination: f64,
+    },
+}
+
+/// A verified invariant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Check {
+    /// What was verified.
+    pub name: &'static str,
+    /// Relative deviation found.
+    pub deviation: f64,
+    /// Relative deviation allowed.
+    pub limit: f64,
+}
+
+/// How a steady state was reached and how accurate it is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Convergence {
+    /// Relative tolerance asked for.
+    pub tolerance: f64,
+    /// Largest relative defect of the profiles in the differential equations.
+    pub defect: f64,
+    /// Estimated largest relative error of all profiles and constants.
+    pub error_estimate: f64,
+    /// Final number of mesh intervals: driver, driven.
+    pub mesh_intervals: [usize; 2],
+    /// Newton steps in all, starting from the drive file.
+    pub newton_iterations: usize,
+    /// Evaluations of the right-hand side (with or without its derivatives).
+    pub rhs_evaluations: usize,
+    /// Factorisations of the Newton matrix.
+    pub factorisations: usize,
+    /// Boundary value problems solved on the way to this one.
+    pub continuation_steps: usize,
+    /// Normalisation ε of the slip direction in the final state (0 for the bristle law).
+    pub slip_normalisation: f64,
+    /// Estimated relative effect of ε on the constants of the drive.
+    pub slip_normalisation_effect: f64,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+}

@@ -1,0 +1,351 @@
+//! The belt in the groove of one pulley: local mechanics at a point of the contact.
+//!
+//! Everything is written in the plane of a groove face, with axes t along the motion of the pulley
+//! and w along the face outward. The slip of the belt per unit of its own speed is
+//!
+//! ```text
+//! e_t = v_t = cos θ − ω r/V          e_w = v_r/cos β = sin θ/cos β
+//! ```
+//!
+//! Each face carries the normal load p and the traction q against the slip, both per length.
+//! Balance across the belt, outward load n and retarding load t of both faces together:
+//!
+//! ```text
+//! p cos β + q_w sin β = k x/2        n = 2 (p sin β − q_w cos β)        t = 2 q_t
+//! dF/ds = t cos θ − n sin θ          dθ/ds = cos θ/r − (n cos θ + t sin θ)/F
+//! dx/ds = −sin θ                     dφ/ds = cos θ/r
+//! ```
+//!
+//! With the sliding angle γ these are the equations of Kong and Parker (2006) and Kim (2009,
+//! chapter 3), who write them in the polar angle. That form is singular where the belt overhangs
+//! (θ = 90°); the arc length is not.
+//!
+//! ```text
+//! tan γ = v_t/v_r            tan β_s = tan β cos γ        so sin β_s = sin β e_w/|e|, and
+//! q_t = f cos β_s sin γ      q_w = f cos β_s cos γ/cos β   is the friction f along e
+//! ```
+//!
+//! How q depends on slip and deflection is in `groove`.
+
+use super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION, elastic};
+use super::{Groove, Law, Regime, Strand};
+use bvp::Real;
+
+/// All local quantities at one point of the contact, scaled.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contact<T> {
+    /// Tractive tension F.
+    pub(crate) tractive: T,
+    /// Belt tension T.
+    pub(crate) tension: T,
+    /// Belt speed V.
+    pub(crate) speed: T,
+    /// Local radius r = R − x.
+    pub(crate) radius: T,
+    /// Sine of the inclination θ; also the outward slip velocity `v_r`.
+    pub(crate) sin_theta: T,
+    /// Cosine of the inclination θ.
+    pub(crate) cos_theta: T,
+    /// Slip `e_t` = `v_t` along the pulley and `e_w` up the groove face, per unit of belt speed.
+    pub(crate) slip: [T; 2],
+    /// Normalised slip |e|.
+    pub(crate) slip_norm: T,
+    /// Transverse load k x of both faces.
+    pub(crate) transverse: T,
+    /// Normal load p of each face per length.
+    pub(crate) pressure: T,
+    /// Traction `q_t`, `q_w` of each face on the belt per length, positive against positive slip.
+    pub(crate) traction: [T; 2],
+    /// Outward load n of both faces on the belt per length.
+    pub(crate) outward: T,
+    /// Load t of both faces per length that retards the belt and drives the pulley.
+    pub(crate) retarding: T,
+}
+
+impl<T: Real> Contact<T> {
+    /// The contact in `state`, on a pulley of speed `omega`, with the mass flow `flow`.
+    pub(crate) fn new(groove: &Groove, regime: Regime, state: &[T], omega: T, flow: T) -> Self {
+        let one = T::from_f64(1.0);
+        let [tractive, theta, penetration] =
+            [state[TENSION], state[INCLINATION], state[PENETRATION]];
+        let (sin_half, cos_half) = (theta * 0.5).sin_cos();
+        let versine = sin_half * sin_half * 2.0;
+        let (sin_theta, cos_theta) = (sin_half * cos_half * 2.0, one - versine);
+        let tension = groove.strand.tension(tractive, flow);
+        let speed = groove.strand.speed(tension, flow);
+
+        // Where the belt locks v_t is 1e-9 … 1e-6, a difference of numbers near 1. Written as
+        // (V − ω r)/V − (1 − cos θ) with V = G + G T/EA and r = 1 − x, the units cancel exactly in
+        // G − ω; what remains is the rounding of the small terms (1e-18) and that of the unknowns
+        // G and ω themselves (1e-16), which shifts v_t by one constant along the whole pulley.
+        let creep = (flow - omega) + flow * groove.strand.strain(tension) + omega * penetration;
+        let slip_t = creep / speed - versine;
+        let slip_w = sin_theta / groove.cos_beta;
+        let norm = slip_t * slip_t + slip_w * slip_w + groove.normalisation().powi(2);
+        let slip_norm = norm.sqrt();
+
+        let transverse = penetration * groove.radial_stiffness;
+        let (pressure, traction) = match groove.law {
+            Law::Bristle { .. } => {
+                let pressure = groove.pressure(transverse * 0.5, state[LAW + 1]);
+                (pressure, [state[LAW] * pressure, state[LAW + 1] * pressure])
+            }
+            Law::Coulomb | Law::Epp { .. } => {
+                let direction = [slip_t / slip_norm, slip_w / slip_norm];
+                let mu = groove.friction_coefficient;
+                let limit = groove.pressure(transverse * 0.5, direction[1] * mu) * mu;
+                let friction = groove.friction(regime, state, limit);
+                let traction = direction.map(|d| d * friction);
+                let axial = transverse * 0.5 - traction[1] * groove.sin_beta;
+                (axial / groove.cos_beta, traction)
+            }
+        };
+        Self {
+            tractive,
+            tension,
+            speed,
+            radius: one - penetration,
+            sin_theta,
+            cos_theta,
+            slip: [slip_t, slip_w],
+            slip_norm,
+            transverse,
+            pressure,
+            traction,
+            outward: (pressure * groove.sin_beta - traction[1] * groove.cos_beta) * 2.0,
+            retarding: traction[0] * 2.0,
+        }
+    }
+
+    /// Derivatives of the states with respect to the arc length.
+    pub(crate) fn rates(&self, groove: &Groove, state: &[T], rates: &mut [T]) {
+        let turning =
+            (self.outward * self.cos_theta + self.retarding * self.sin_theta) / self.tractive;
+        let sweep = self.cos_theta / self.radius;
+        rates[TENSION] = self.retarding * self.cos_theta - self.outward * self.sin_theta;
+        rates[INCLINATION] = sweep - turning;
+        rates[PENETRATION] = -self.sin_theta;
+        rates[ANGLE] = sweep;
+        match groove.law {
+            Law::Coulomb => {}
+            Law::Epp { unstretched, .. } => rates[LAW] = self.displacement_rate(unstretched),
+            Law::Bristle { stiffness } => {
+                let saturation = self.slip_norm / groove.friction_coefficient;
+                for (axis, &slip) in self.slip.iter().enumerate() {
+                    rates[LAW + axis] = (slip - saturation * state[LAW + axis]) * stiffness;
+                }
+            }
+        }
+    }
+
+    /// du/ds = (T − `T_o`)/EA, the displacement of the belt against the pulley; for laws that do
+    /// not have it as a state, to be integrated over a solution.
+    pub(crate) fn displacement_rate(&self, unstretched: f64) -> T {
+        self.tension - unstretched
+    }
+
+    /// Unstretched belt per arc length, 1/(1 + T/EA).
+    pub(crate) fn unstretched_rate(&self, strand: &Strand) -> T {
+        T::from_f64(1.0) / (strand.strain(self.tension) + 1.0)
+    }
+
+    /// Torque of the belt on the pulley per arc length, t r. Its integral between two points is
+    /// the difference of F r cos θ.
+    pub(crate) fn torque_density(&self) -> T {
+        self.retarding * self.radius
+    }
+
+    /// Power against friction per arc length, 2 (q · e) V.
+    pub(crate) fn friction_power_density(&self) -> T {
+        let [slip_t, slip_w] = self.slip;
+        (self.traction[0] * slip_t + self.traction[1] * slip_w) * self.speed * 2.0
+    }
+
+    /// Power stored in the transverse compression of the belt per arc length, k x tan β V dx/ds.
+    /// With it the power balance V dF/ds = t ω r + friction + stored holds at every point.
+    pub(crate) fn transverse_power_density(&self, groove: &Groove) -> T {
+        let tan_beta = groove.sin_beta / groove.cos_beta;
+        -(self.transverse * self.sin_theta * self.speed * tan_beta)
+    }
+
+    /// Friction force |q| of each face per length.
+    pub(crate) fn friction(&self) -> T {
+        self.traction[0].hypot(self.traction[1])
+    }
+
+    /// Sliding angle γ, from the outward radius towards the motion of the pulley.
+    pub(crate) fn sliding_angle(&self) -> T {
+        self.slip[0].atan2(self.sin_theta)
+    }
+}
+
+/// Excess `k_f` |u| − μ p of the elastic friction over its limit: zero where elastic and slip zones
+/// of EPP friction meet, positive in slip. Other laws have no limit to exceed; they give zero.
+pub(crate) fn limit_excess<T: Real>(groove: &Groove, state: &[T], omega: T, flow: T) -> T {
+    match groove.law {
+        Law::Epp { stiffness, .. } => {
+            let slip = Contact::new(groove, Regime::Slip, state, omega, flow);
+            elastic(stiffness, state) - slip.pressure * groove.friction_coefficient
+        }
+        Law::Coulomb | Law::Bristle { .. } => T::from_f64(0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn groove(law: Law, epsilon: f64) -> Groove {
+        let (sin_beta, cos_beta) = 18_f64.to_radians().sin_cos();
+        Groove {
+            strand: Strand {
+                inertia: 0.1,
+                compliance: 6e-3,
+            },
+            sin_beta,
+            cos_beta,
+            friction_coefficient: 0.4,
+            radial_stiffness: 80.0,
+            law,
+            epsilon,
+        }
+    }
+
+    fn epp(weight: f64) -> Law {
+        Law::Epp {
+            stiffness: 4.0,
+            unstretched: 0.15,
+            weight,
+        }
+    }
+
+    /// F, θ, x, φ, then the state of EPP, with ω and G.
+    const STATE: [f64; 5] = [0.7, 0.12, 0.03, 1.1, 0.3];
+    const OMEGA: f64 = 0.96;
+    const FLOW: f64 = 0.95;
+
+    fn contact(law: Law, epsilon: f64, regime: Regime, state: &[f64]) -> Contact<f64> {
+        Contact::new(&groove(law, epsilon), regime, state, OMEGA, FLOW)
+    }
+
+    #[test]
+    fn the_face_plane_form_is_the_published_one() {
+        let groove = groove(Law::Coulomb, 0.05);
+        let c = Contact::new(&groove, Regime::Slip, &STATE[..4], OMEGA, FLOW);
+        let [tractive, theta, x, _, _] = STATE;
+        let tension = groove.strand.tension(tractive, FLOW);
+        let v_t = theta.cos() - OMEGA / FLOW * (1.0 - x) / (1.0 + 6e-3 * tension);
+        let v_r = theta.sin();
+        let v = (v_t * v_t + v_r * v_r + 0.05 * 0.05).sqrt();
+        let (sin_gamma, cos_gamma) = (v_t / v, v_r / v);
+        let beta = 18_f64.to_radians();
+        let beta_s = (beta.tan() * cos_gamma).atan();
+        let p = 80.0 * x / (2.0 * (beta.cos() + 0.4 * beta_s.sin()));
+        let f = 0.4 * p;
+        // cos(θ + γ) and sin(θ + γ) with the normalised sine and cosine of γ.
+        let cosine = theta.cos() * cos_gamma - theta.sin() * sin_gamma;
+        let sine = theta.sin() * cos_gamma + theta.cos() * sin_gamma;
+        let tension_rate = -2.0 * p * beta.sin() * theta.sin() + 2.0 * f * beta_s.cos() * sine;
+        let bending = p * beta.sin() * theta.cos() - f * beta_s.cos() * cosine;
+        let inclination_rate = theta.cos() / (1.0 - x) - 2.0 / tractive * bending;
+        let mut rates = [0.0; 4];
+        c.rates(&groove, &STATE[..4], &mut rates);
+        assert!((c.pressure - p).abs() < 1e-14);
+        assert!((rates[TENSION] - tension_rate).abs() < 1e-14);
+        assert!((rates[INCLINATION] - inclination_rate).abs() < 1e-14);
+        let torque = 2.0 * f * beta_s.cos() * sin_gamma * (1.0 - x);
+        assert!((c.torque_density() - torque).abs() < 1e-14);
+    }
+
+    #[test]
+    fn bristles_bent_to_their_limit_along_the_slip_are_coulomb_friction() {
+        let coulomb = contact(Law::Coulomb, 0.0, Regime::Slip, &STATE[..4]);
+        let bend = coulomb.slip.map(|e| 0.4 * e / coulomb.slip_norm);
+        let state = [&STATE[..4], &bend[..]].concat();
+        let law = Law::Bristle { stiffness: 400.0 };
+        let bristle = contact(law, 0.0, Regime::Slip, &state);
+        assert!((bristle.outward - coulomb.outward).abs() < 1e-14);
+        assert!((bristle.retarding - coulomb.retarding).abs() < 1e-14);
+        assert!((bristle.friction() - 0.4 * bristle.pressure).abs() < 1e-14);
+        let mut rates = [0.0; 6];
+        bristle.rates(&groove(law, 0.0), &state, &mut rates);
+        assert!(rates[LAW].abs() < 1e-13 && rates[LAW + 1].abs() < 1e-13);
+    }
+
+    #[test]
+    fn epp_slips_as_coulomb_and_blends_into_it() {
+        let coulomb = contact(Law::Coulomb, 0.01, Regime::Slip, &STATE[..4]);
+        let slip = contact(epp(1.0), 0.01, Regime::Slip, &STATE);
+        let unblended = contact(epp(0.0), 0.01, Regime::Either, &STATE);
+        assert_eq!(slip.traction, coulomb.traction);
+        assert_eq!(unblended.traction, coulomb.traction);
+        let mut state = STATE;
+        state[LAW] = 1e-3;
+        let elastic = contact(epp(1.0), 0.0, Regime::Either, &state);
+        assert!((elastic.friction() - 4e-3).abs() < 1e-15);
+    }
+
+    #[test]
+    fn epp_is_continuous_where_it_begins_to_slip() {
+        let groove = groove(epp(1.0), 0.0);
+        let slip = Contact::new(&groove, Regime::Slip, &STATE, OMEGA, FLOW);
+        let mut state = STATE;
+        state[LAW] = 0.4 * slip.pressure / 4.0;
+        assert!(limit_excess(&groove, &state, OMEGA, FLOW).abs() < 1e-15);
+        for regime in [Regime::Elastic, Regime::Slip, Regime::Either] {
+            let c = Contact::new(&groove, regime, &state, OMEGA, FLOW);
+            assert!((c.pressure - slip.pressure).abs() < 1e-14);
+            assert!((c.retarding - slip.retarding).abs() < 1e-14);
+        }
+        state[LAW] *= 1.1;
+        assert!(limit_excess(&groove, &state, OMEGA, FLOW) > 0.0);
+    }
+
+    #[test]
+    fn no_friction_holds_a_belt_at_the_frictionless_penetration() {
+        let mut groove = groove(Law::Coulomb, 1e-3);
+        groove.friction_coefficient = 0.0;
+        // Exact for a belt along a circle of radius 1 − x: k x tan β = F/(1 − x).
+        let x = 0.03;
+        let tractive = x * (1.0 - x) / groove.frictionless_penetration(1.0);
+        let state = [tractive, 0.0, x, 0.0];
+        let mut rates = [0.0; 4];
+        let c = Contact::new(&groove, Regime::Slip, &state, OMEGA, FLOW);
+        c.rates(&groove, &state, &mut rates);
+        assert!(rates[..3].iter().all(|rate: &f64| rate.abs() < 1e-14));
+        assert_eq!(c.torque_density(), 0.0);
+    }
+
+    #[test]
+    fn power_is_balanced_at_every_point() {
+        for (law, extra) in [
+            (Law::Coulomb, &[][..]),
+            (epp(0.7), &[0.02]),
+            (Law::Bristle { stiffness: 400.0 }, &[-0.3, 0.1]),
+        ] {
+            let groove = groove(law, 0.02);
+            let state = [&STATE[..4], extra].concat();
+            let c = Contact::new(&groove, Regime::Either, &state, OMEGA, FLOW);
+            let mut rates = vec![0.0; state.len()];
+            c.rates(&groove, &state, &mut rates);
+            let spent = c.torque_density() * OMEGA
+                + c.friction_power_density()
+                + c.transverse_power_density(&groove);
+            assert!((c.speed * rates[TENSION] - spent).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn locked_slip_keeps_its_digits() {
+        // G and ω such that V = ω r (1 + 1e-9): the slip is 1e-9 to the rounding of G.
+        let state = [0.7, 0.0, 0.03, 0.0];
+        let groove = groove(Law::Coulomb, 0.0);
+        let mut flow = OMEGA * 0.97;
+        for _ in 0..30 {
+            let tension = groove.strand.tension(state[TENSION], flow);
+            flow = OMEGA * 0.97 * (1.0 + 1e-9) / (1.0 + groove.strand.strain(tension));
+        }
+        let c = Contact::new(&groove, Regime::Slip, &state, OMEGA, flow);
+        assert!((c.slip[0] / 1e-9 - 1.0).abs() < 5e-7);
+    }
+}

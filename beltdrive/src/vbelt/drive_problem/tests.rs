@@ -1,0 +1,146 @@
+//! The statement is complete, free of units, and differentiated exactly.
+
+use super::*;
+use crate::vbelt::scaling::tests::kim;
+use bvp::Equations;
+use proptest::prelude::*;
+
+const LAWS: [FrictionLaw; 3] = [
+    FrictionLaw::Coulomb,
+    FrictionLaw::Epp { stiffness: 8.1e6 },
+    FrictionLaw::Bristle { stiffness: 1620.0 },
+];
+
+fn problem(law: FrictionLaw) -> DriveProblem {
+    let drive = kim(law, 0.2);
+    DriveProblem::new(&drive, Scales::new(&drive), 0.02)
+}
+
+#[test]
+fn every_condition_is_written_and_none_is_missing() {
+    let epp = problem(LAWS[1]).with_zones(
+        &[Regime::Elastic, Regime::Slip],
+        &[Regime::Slip, Regime::Elastic, Regime::Slip],
+    );
+    let fixed = epp
+        .clone()
+        .with_unknown_tight_tension(Instead::DriverLength(3.4));
+    for (problem, unknowns) in LAWS.map(problem).into_iter().chain([epp, fixed]).zip([
+        2 * 4 + 4,
+        2 * 5 + 4,
+        2 * 6 + 4,
+        5 * 5 + 7,
+        5 * 5 + 8,
+    ]) {
+        assert_eq!(Problem::condition_count(&problem), unknowns);
+        let segments = Problem::segments(&problem);
+        let values = vec![0.1; segments.iter().map(|s| 2 * s.states).sum()];
+        let p = vec![1.0; Problem::parameters(&problem)];
+        // One entry more than there are conditions must stay untouched.
+        let mut r = vec![f64::NAN; unknowns + 1];
+        Problem::conditions(&problem, Ends::new(segments, &values), &p, &mut r);
+        assert!(r[..unknowns].iter().all(|r| r.is_finite()));
+        assert!(r[unknowns].is_nan());
+    }
+}
+
+#[test]
+fn belt_and_tractive_tension_state_the_same_load() {
+    let tractive = kim(FrictionLaw::Coulomb, 0.2);
+    let scales = Scales::new(&tractive);
+    let flow = 0.95;
+    let mut belt = tractive.clone();
+    let strand = scales.strand();
+    let tension = |span: SpanTension| {
+        SpanTension::Belt(strand.tension(span.value() / scales.force, flow) * scales.force)
+    };
+    belt.load.slack = tension(belt.load.slack);
+    belt.load.tight = tension(belt.load.tight);
+    let p = [0.98, flow, 3.2, 3.5];
+    let slack = tractive.load.slack.value() / scales.force;
+    for drive in [tractive, belt] {
+        let problem = DriveProblem::new(&drive, scales, 0.0);
+        for (pulley, tight, force) in [(DRIVEN, false, slack), (DRIVER, true, 1.0)] {
+            let excess = problem.tension_excess(pulley, tight, &[force], &p);
+            assert!(excess.abs() < 1e-14);
+        }
+    }
+}
+
+#[test]
+fn the_equations_do_not_depend_on_units() {
+    let y = [0.6, 0.1, 0.02, 1.0, 0.2, -0.1];
+    let p = [0.97, 0.96, 3.2, 3.5];
+    for law in LAWS {
+        let drive = kim(law, 0.2);
+        // Lengths in other units by a factor l, times by t, masses by m.
+        let (l, t, m) = (3.7, 0.21, 11.0);
+        let force = m * l / (t * t);
+        let mut other = drive.clone();
+        other.belt.mass_per_length *= m / l;
+        other.belt.axial_stiffness *= force;
+        other.belt.radial_stiffness *= force / (l * l);
+        other.driver_radius *= l;
+        other.driven_radius *= l;
+        other.driver_speed /= t;
+        other.centre_distance *= l;
+        other.load.slack = scaled(drive.load.slack, 1.0 / force);
+        other.load.tight = scaled(drive.load.tight, 1.0 / force);
+        match &mut other.law {
+            FrictionLaw::Coulomb => {}
+            FrictionLaw::Epp { stiffness } => *stiffness *= force / (l * l),
+            FrictionLaw::Bristle { stiffness } => *stiffness /= l,
+        }
+        let [one, two] =
+            [drive, other].map(|drive| DriveProblem::new(&drive, Scales::new(&drive), 0.02));
+        let states = one.groove(DRIVEN).states();
+        let (mut a, mut b) = (vec![0.0; states], vec![0.0; states]);
+        for segment in [DRIVEN, DRIVER] {
+            Problem::rhs(&one, segment, 0.0, &y[..states], &p, &mut a);
+            Problem::rhs(&two, segment, 0.0, &y[..states], &p, &mut b);
+            for (a, b) in a.iter().zip(&b) {
+                assert!((a - b).abs() <= 1e-12 * a.abs().max(1.0));
+            }
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn automatic_and_central_differences_agree(
+        unit in prop::array::uniform6(0.0..1.0_f64),
+        speed in 0.7..1.0_f64,
+        segment in 0..2_usize,
+    ) {
+        let (low, high) = ([0.2, -1.0, 0.01, 0.0, -0.3, -0.3], [1.2, 1.0, 0.2, 3.0, 0.3, 0.3]);
+        let y: Vec<f64> = (0..6).map(|i| low[i] + (high[i] - low[i]) * unit[i]).collect();
+        let p = [speed, 0.9, 3.2, 3.5];
+        for law in LAWS {
+            let problem = problem(law);
+            if matches!(law, FrictionLaw::Epp { .. }) {
+                // Keep away from the kinks at u = 0 and at the limit of the elastic friction.
+                let speed = DriveProblem::speed(segment, &p);
+                let excess = limit_excess(problem.groove(segment), &y[..5], speed, p[1]);
+                prop_assume!(y[4].abs() > 1e-4 && excess.abs() > 1e-2);
+            }
+            let n = problem.groove(segment).states();
+            let z: Vec<f64> = y[..n].iter().chain(&p).copied().collect();
+            let (mut dy, mut jacobian) = (vec![0.0; n], vec![0.0; n * z.len()]);
+            problem.rhs_jacobian(segment, 0.0, &z[..n], &p, &mut dy, &mut jacobian);
+            for j in 0..z.len() {
+                let [up, down] = [1e-6, -1e-6].map(|step| {
+                    let mut z = z.clone();
+                    z[j] += step;
+                    let mut dy = vec![0.0; n];
+                    Problem::rhs(&problem, segment, 0.0, &z[..n], &z[n..], &mut dy);
+                    dy
+                });
+                for i in 0..n {
+                    let difference = (up[i] - down[i]) / 2e-6;
+                    let exact = jacobian[i * z.len() + j];
+                    prop_assert!((difference - exact).abs() < 1e-5 * exact.abs().max(1e2));
+                }
+            }
+        }
+    }
+}

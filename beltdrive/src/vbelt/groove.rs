@@ -1,0 +1,131 @@
+//! The constants of the belt on one pulley, and the laws of friction.
+//!
+//! The belt slips by e = (`e_t`, `e_w`) along the pulley and up the groove face, per unit of its own
+//! speed (see `contact`). The traction q of a face against that slip is
+//!
+//! ```text
+//! Coulomb   q = μ p e/|e|,  |e| = sqrt(e_t² + e_w² + ε²)  (e/|e| is 0/0 where the belt locks)
+//! EPP       q = f e/|e|,    f = min(k_f |u|, μ p),         du/ds = (T − T_o)/EA
+//! bristle   q = p B,        dB/ds = κ (e − |e| B/μ),       after Dahl (1968), a vector here
+//! ```
+//!
+//! A slipping contact is a bristle contact with B = μ e/|e|.
+
+use super::Strand;
+use bvp::Real;
+
+/// Index of the tractive tension F among the states.
+pub(super) const TENSION: usize = 0;
+/// Index of the inclination θ.
+pub(super) const INCLINATION: usize = 1;
+/// Index of the penetration x.
+pub(super) const PENETRATION: usize = 2;
+/// Index of the swept angle φ.
+pub(super) const ANGLE: usize = 3;
+/// Index of the first state of the friction law: u, or `B_t` followed by `B_w`.
+pub(super) const LAW: usize = 4;
+
+/// The largest number of states of any law.
+pub(super) const MAX_STATES: usize = LAW + 2;
+
+/// A friction law, scaled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Law {
+    /// States F, θ, x, φ.
+    Coulomb,
+    /// States F, θ, x, φ, u.
+    Epp {
+        /// Stiffness `k_f` R²/EA.
+        stiffness: f64,
+        /// Tension `T_o` at which the displacement does not grow.
+        unstretched: f64,
+        /// Share of this law in a blend with Coulomb's, 0 to 1, where the regime is
+        /// [`Either`](Regime::Either).
+        weight: f64,
+    },
+    /// States F, θ, x, φ, `B_t`, `B_w`.
+    Bristle {
+        /// Stiffness κ R.
+        stiffness: f64,
+    },
+}
+
+/// What is known about the friction on a segment of the contact. Only EPP friction distinguishes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Regime {
+    /// f = `k_f` |u|.
+    Elastic,
+    /// f = μ p.
+    Slip,
+    /// The smaller of the two; not smooth where they cross.
+    Either,
+}
+
+/// The belt on one pulley: constants of the local mechanics, scaled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Groove {
+    /// The belt as a moving string.
+    pub(crate) strand: Strand,
+    /// Sine of the half groove angle β.
+    pub(crate) sin_beta: f64,
+    /// Cosine of the half groove angle β.
+    pub(crate) cos_beta: f64,
+    /// Coefficient of friction μ.
+    pub(crate) friction_coefficient: f64,
+    /// Radial stiffness k R²/`F_ref`.
+    pub(crate) radial_stiffness: f64,
+    /// Friction law.
+    pub(crate) law: Law,
+    /// Normalisation ε of the slip direction, per unit of belt speed; bristles do not use it.
+    pub(crate) epsilon: f64,
+}
+
+impl Groove {
+    /// Number of states of the contact.
+    pub(crate) fn states(&self) -> usize {
+        match self.law {
+            Law::Coulomb => LAW,
+            Law::Epp { .. } => LAW + 1,
+            Law::Bristle { .. } => LAW + 2,
+        }
+    }
+
+    /// Penetration that carries the tension F on the pitch circle without friction, to first order
+    /// in x/R: there 2 p cos β = k x and F = 2 p sin β r, so k r x tan β = F.
+    pub(crate) fn frictionless_penetration(&self, tractive: f64) -> f64 {
+        tractive * self.cos_beta / (self.radial_stiffness * self.sin_beta)
+    }
+
+    /// Normalisation of the slip. Bristles have no 0/0 to be regularised; theirs only keeps the
+    /// derivative of |e| finite where e = 0.
+    pub(super) fn normalisation(&self) -> f64 {
+        match self.law {
+            Law::Bristle { .. } => 1e-20,
+            Law::Coulomb | Law::Epp { .. } => self.epsilon,
+        }
+    }
+
+    /// Normal load of a face when its traction is p B.
+    pub(super) fn pressure<T: Real>(&self, half_load: T, bristle_w: T) -> T {
+        half_load / (bristle_w * self.sin_beta + self.cos_beta)
+    }
+
+    /// The friction force f per length of Coulomb's law and of EPP, whose `limit` is μ p in slip.
+    pub(super) fn friction<T: Real>(&self, regime: Regime, state: &[T], limit: T) -> T {
+        match (self.law, regime) {
+            (Law::Epp { stiffness, .. }, Regime::Elastic) => elastic(stiffness, state),
+            (
+                Law::Epp {
+                    stiffness, weight, ..
+                },
+                Regime::Either,
+            ) => limit.min(limit + (elastic(stiffness, state) - limit) * weight),
+            _ => limit,
+        }
+    }
+}
+
+/// Elastic friction `k_f` |u|.
+pub(super) fn elastic<T: Real>(stiffness: f64, state: &[T]) -> T {
+    state[LAW].abs() * stiffness
+}

@@ -1,0 +1,224 @@
+//! The state of a drive nearly without friction, from which Newton's method starts.
+//!
+//! On each pulley F runs linearly between the tensions of the spans and presses the belt to the
+//! depth a = F/(k R tan β). The belt enters and leaves on the pitch circle; linearised in x, its
+//! way there is x'' = λ² (x − a) in φ with λ² = k R² tan β/F = 1/a, so in units of R
+//!
+//! ```text
+//! x = a (1 − e^(−λφ)) (1 − e^(−λ(Φ−φ)))        θ = −dx/dφ
+//! ```
+//!
+//! with λ of each end in its own boundary layer (seating and unseating, Gerbert and Sorge 2002).
+//! Thus θ = −√a at entry and √a at exit; the sweeps Φ are those that close the drive with these
+//! inclinations. Bristles are deflected by half of their limit along the motion: undeflected ones
+//! fail as a start at high loads, as do speeds without any loss.
+
+use super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
+use super::{DRIVEN, DRIVER, DriveProblem, EndAngles, Law};
+use crate::SpanTension;
+
+/// A first approximation to the solution of a [`DriveProblem`].
+#[derive(Clone, Debug)]
+pub(crate) struct Guess<'a> {
+    problem: &'a DriveProblem,
+    flow: f64,
+    pulleys: [Contacting; 2],
+}
+
+/// The belt on one pulley.
+#[derive(Clone, Copy, Debug)]
+struct Contacting {
+    /// Tractive tension at entry and exit.
+    tension: [f64; 2],
+    /// Swept angle Φ, also the scaled contact length.
+    swept: f64,
+}
+
+impl<'a> Guess<'a> {
+    /// The approximation at the prescribed load.
+    pub(crate) fn new(problem: &'a DriveProblem) -> Self {
+        let strand = problem.groove(DRIVER).strand;
+        let [slack, tight] = problem.load();
+        // The belt meets the driver at its circumferential speed, 1.
+        let tension = match tight {
+            SpanTension::Tractive(force) => strand.tension(force, 1.0),
+            SpanTension::Belt(tension) => tension,
+        };
+        let flow = 1.0 / strand.speed(tension, 1.0);
+        let [slack, tight] = [slack, tight].map(|span| match span {
+            SpanTension::Tractive(force) => force,
+            SpanTension::Belt(tension) => strand.tractive(tension, flow),
+        });
+        let tensions = [[slack, tight], [tight, slack]];
+        let ends = [DRIVEN, DRIVER].map(|pulley| {
+            let [entry, exit] = tensions[pulley].map(|force| {
+                let depth = problem.groove(pulley).frictionless_penetration(force);
+                depth.max(0.0).sqrt()
+            });
+            EndAngles {
+                entry: -entry,
+                exit,
+            }
+        });
+        let swept = problem.layout().wraps(ends);
+        Self {
+            problem,
+            flow,
+            pulleys: [DRIVEN, DRIVER].map(|pulley| Contacting {
+                tension: tensions[pulley],
+                swept: swept[pulley],
+            }),
+        }
+    }
+
+    /// The state at `s` in \[0, 1\] of a segment. The zones of a pulley have equal lengths.
+    pub(crate) fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
+        let pulley = self.problem.pulley(segment);
+        let groove = self.problem.groove(pulley);
+        let Contacting {
+            tension: [entry, exit],
+            swept,
+        } = self.pulleys[pulley];
+        let part = (self.zone(segment) + s) * self.zone_share(pulley);
+        let angle = part * swept;
+        let slope = (exit - entry) / swept;
+        let force = entry + slope * angle;
+
+        let depth = groove.frictionless_penetration(force);
+        let depth_slope = groove.frictionless_penetration(slope);
+        let layer = |end: f64, distance: f64| {
+            let lambda = 1.0
+                / groove
+                    .frictionless_penetration(end)
+                    .max(f64::MIN_POSITIVE)
+                    .sqrt();
+            let decay = (-lambda * distance).exp();
+            (1.0 - decay, lambda * decay)
+        };
+        let (rise, rise_slope) = layer(entry, angle);
+        let (fall, fall_slope) = layer(exit, swept - angle);
+        y[TENSION] = force;
+        y[INCLINATION] =
+            -(depth_slope * rise * fall + depth * (rise_slope * fall - rise * fall_slope));
+        y[PENETRATION] = depth * rise * fall;
+        y[ANGLE] = angle;
+        match groove.law {
+            Law::Coulomb => {}
+            Law::Epp { unstretched, .. } => {
+                let [start, here] =
+                    [entry, force].map(|force| groove.strand.tension(force, self.flow));
+                y[LAW] = ((start + here) / 2.0 - unstretched) * angle;
+            }
+            Law::Bristle { .. } => {
+                y[LAW] = 0.5 * groove.friction_coefficient.copysign(slope);
+                y[LAW + 1] = 0.0;
+            }
+        }
+    }
+
+    /// The parameters; the tight tension is that of the load if it is unknown.
+    pub(crate) fn parameters(&self, p: &mut [f64]) {
+        let [_, tight] = self.problem.load();
+        p.fill(tight.value());
+        // The mean depth of the belt, half of that at the tight end, slows it on the driver; the
+        // driven pulley loses as much again.
+        let force = self.pulleys[DRIVER].tension[0];
+        let [driven, driver] = [DRIVEN, DRIVER].map(|pulley| {
+            let depth = self.problem.groove(pulley).frictionless_penetration(force);
+            1.0 / (1.0 + 0.5 * depth)
+        });
+        p[DriveProblem::MASS_FLOW] = self.flow * driver;
+        p[DriveProblem::DRIVEN_SPEED] = driver * driven;
+        for pulley in [DRIVEN, DRIVER] {
+            for segment in self.problem.zones(pulley) {
+                p[DriveProblem::length_index(segment)] =
+                    self.pulleys[pulley].swept * self.zone_share(pulley);
+            }
+        }
+    }
+
+    /// Position of a segment among the zones of its pulley.
+    fn zone(&self, segment: usize) -> f64 {
+        let first = self.problem.zones(self.problem.pulley(segment)).start;
+        (segment - first) as f64
+    }
+
+    /// Part of the contact that one zone of `pulley` takes.
+    fn zone_share(&self, pulley: usize) -> f64 {
+        1.0 / self.problem.zones(pulley).len() as f64
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::scaling::tests::kim;
+    use super::super::{Regime, Scales};
+    use super::*;
+    use crate::FrictionLaw;
+    use bvp::{Ends, Problem};
+
+    /// Both ends of every segment, in the layout of `Ends`, and the parameters.
+    fn ends(problem: &DriveProblem) -> (Vec<f64>, Vec<f64>) {
+        let guess = Guess::new(problem);
+        let mut values = Vec::new();
+        for (segment, shape) in problem.segments().iter().enumerate() {
+            for s in [0.0, 1.0] {
+                let mut y = vec![f64::NAN; shape.states];
+                guess.state(segment, s, &mut y);
+                values.extend(y);
+            }
+        }
+        let mut p = vec![f64::NAN; problem.parameters()];
+        guess.parameters(&mut p);
+        (values, p)
+    }
+
+    #[test]
+    fn the_guess_meets_the_conditions_up_to_its_boundary_layers() {
+        for (law, radius) in [(FrictionLaw::Coulomb, 0.25), (FrictionLaw::Coulomb, 0.15)] {
+            let drive = kim(law, radius);
+            let problem = DriveProblem::new(&drive, Scales::new(&drive), 1e-3);
+            let (values, p) = ends(&problem);
+            let mut r = vec![f64::NAN; problem.condition_count()];
+            problem.conditions(Ends::new(problem.segments(), &values), &p, &mut r);
+            for residual in r {
+                assert!(residual.abs() < 1e-5, "{residual}");
+            }
+        }
+    }
+
+    #[test]
+    fn zones_share_a_pulley_continuously() {
+        let drive = kim(FrictionLaw::Epp { stiffness: 8.1e6 }, 0.2);
+        let whole = DriveProblem::new(&drive, Scales::new(&drive), 1e-3);
+        let zoned = whole
+            .clone()
+            .with_zones(&[Regime::Elastic, Regime::Slip], &[Regime::Slip]);
+        let (mut left, mut right, mut middle) = ([0.0; 5], [0.0; 5], [0.0; 5]);
+        Guess::new(&zoned).state(0, 1.0, &mut left);
+        Guess::new(&zoned).state(1, 0.0, &mut right);
+        Guess::new(&whole).state(0, 0.5, &mut middle);
+        assert_eq!(left, right);
+        assert_eq!(left, middle);
+        let (_, p) = ends(&zoned);
+        let (_, q) = ends(&whole);
+        assert!((p[2] + p[3] - q[2]).abs() < 1e-15 && p[4] == q[3]);
+    }
+
+    #[test]
+    fn the_inclination_is_the_slope_of_the_penetration() {
+        let drive = kim(FrictionLaw::Coulomb, 0.2);
+        let problem = DriveProblem::new(&drive, Scales::new(&drive), 1e-3);
+        let guess = Guess::new(&problem);
+        let at = |s: f64| {
+            let mut y = [0.0; 4];
+            guess.state(1, s, &mut y);
+            y
+        };
+        for s in [0.01, 0.2, 0.97] {
+            let (before, here, after) = (at(s - 1e-5), at(s), at(s + 1e-5));
+            let slope = (after[PENETRATION] - before[PENETRATION]) / (after[ANGLE] - before[ANGLE]);
+            assert!((here[INCLINATION] + slope).abs() < 1e-6);
+        }
+    }
+}

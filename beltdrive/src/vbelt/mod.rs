@@ -1,0 +1,38 @@
+//! The V-belt drive: a string with axial stretch that sinks into the groove of each pulley, in
+//! steady motion, as a boundary value problem.
+//!
+//! The belt meets pulley 1 (driven), the tight span, pulley 2 (driver) and the slack span in this
+//! order. On each pulley the arc length s starts where the belt enters; angles are positive along
+//! the motion, the inclination θ and all radial forces on the belt are positive outward, the
+//! penetration x = R − r is positive inward.
+//!
+//! Sources: D. Kim, MS thesis, Georgia Institute of Technology (2009), chapter 3; L. Kong and
+//! R. G. Parker, J. Mech. Des. 128 (2006); G. Gerbert and F. Sorge, J. Mech. Des. 124 (2002);
+//! P. R. Dahl, Aerospace Corp. TOR-0158 (1968) for the bristles.
+
+mod closure;
+mod contact;
+mod drive_problem;
+mod groove;
+mod guess;
+mod path;
+mod scaling;
+mod solve;
+mod state;
+mod zones;
+
+pub(crate) use closure::{EndAngles, Layout};
+pub(crate) use contact::{Contact, limit_excess};
+pub(crate) use drive_problem::{DriveProblem, Instead};
+pub(crate) use groove::{Groove, Law, Regime};
+pub(crate) use guess::Guess;
+pub(crate) use scaling::{Scales, Strand};
+
+use groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
+
+pub use solve::{SolveError, SolveOptions, solve};
+
+/// Index of the driven pulley, which comes first.
+pub(crate) const DRIVEN: usize = 0;
+/// Index of the driver.
+pub(crate) const DRIVER: usize = 1;

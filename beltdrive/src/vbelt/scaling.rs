@@ -1,0 +1,187 @@
+//! The units in which the equations of a drive are pure numbers of order one.
+
+use super::{DRIVEN, DRIVER};
+use crate::Drive;
+use bvp::Real;
+
+/// The units of a drive. A scaled quantity times its unit is the quantity in SI.
+///
+/// ```text
+/// forces F, T          F_ref           lengths s, x on pulley i    Rᵢ
+/// mass flow G          m ω₂ R₂         line loads p, f             F_ref/Rᵢ
+/// belt speed V         ω₂ R₂           displacement u              F_ref Rᵢ/EA
+/// driven speed ω₁      ω₂ R₂/R₁        torque                      F_ref Rᵢ
+/// ```
+///
+/// The driver turns at 1, and the driven pulley at 1 where nothing slips or stretches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scales {
+    /// Reference force `F_ref`, N; positive.
+    pub(crate) force: f64,
+    /// Circumferential speed ω₂ R₂ of the driver, m/s.
+    pub(crate) speed: f64,
+    /// Pitch radii of the driven pulley and of the driver, m.
+    pub(crate) radius: [f64; 2],
+    /// Mass per unstretched length, kg/m.
+    mass_per_length: f64,
+    /// Axial stiffness EA, N.
+    axial_stiffness: f64,
+}
+
+impl Scales {
+    /// Units by the largest prescribed tension: tensions are then of order one at every load.
+    pub(crate) fn new(drive: &Drive) -> Self {
+        let force = drive.load.tight.value().max(drive.load.slack.value());
+        Self::with_force(drive, force)
+    }
+
+    /// Units with a given reference force in N, to compare states of different loads.
+    pub(crate) fn with_force(drive: &Drive, force: f64) -> Self {
+        Self {
+            force,
+            speed: drive.driver_speed * drive.driver_radius,
+            radius: [drive.driven_radius, drive.driver_radius],
+            mass_per_length: drive.belt.mass_per_length,
+            axial_stiffness: drive.belt.axial_stiffness,
+        }
+    }
+
+    /// Unit of line loads on `pulley`, N/m.
+    pub(crate) fn line_load(&self, pulley: usize) -> f64 {
+        self.force / self.radius[pulley]
+    }
+
+    /// Unit of the displacement on `pulley`, m: the stretch of a length R under `F_ref`.
+    pub(crate) fn displacement(&self, pulley: usize) -> f64 {
+        self.force * self.radius[pulley] / self.axial_stiffness
+    }
+
+    /// Unit of torque on `pulley`, N·m.
+    pub(crate) fn torque(&self, pulley: usize) -> f64 {
+        self.force * self.radius[pulley]
+    }
+
+    /// Unit of power, W.
+    pub(crate) fn power(&self) -> f64 {
+        self.force * self.speed
+    }
+
+    /// Unit of the mass flow, kg/s.
+    pub(crate) fn mass_flow(&self) -> f64 {
+        self.mass_per_length * self.speed
+    }
+
+    /// Unit of the angular speed of `pulley`, rad/s.
+    pub(crate) fn angular_speed(&self, pulley: usize) -> f64 {
+        self.speed / self.radius[pulley]
+    }
+
+    /// The belt as a moving string, in these units.
+    pub(crate) fn strand(&self) -> Strand {
+        Strand {
+            inertia: self.mass_per_length * self.speed.powi(2) / self.force,
+            compliance: self.force / self.axial_stiffness,
+        }
+    }
+
+    /// Scaled radial stiffness k R²/`F_ref` of both pulleys, from k in N/m².
+    pub(crate) fn radial_stiffness(&self, stiffness: f64) -> [f64; 2] {
+        [DRIVEN, DRIVER].map(|pulley| stiffness * self.radius[pulley] / self.line_load(pulley))
+    }
+
+    /// Scaled friction stiffness `k_f` R²/EA of both pulleys, from `k_f` in N/m².
+    pub(crate) fn friction_stiffness(&self, stiffness: f64) -> [f64; 2] {
+        [DRIVEN, DRIVER]
+            .map(|pulley| stiffness * self.displacement(pulley) / self.line_load(pulley))
+    }
+}
+
+/// The belt as a string in steady motion, scaled: everything that follows from F and G alone.
+///
+/// ```text
+/// F = T − G V,  V = (G/m)(1 + T/EA)   ⇔   T = (F + c G²)/(1 − c e G²),  V = G (1 + e T)
+/// c = m (ω₂R₂)²/F_ref,  e = F_ref/EA
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Strand {
+    /// Centrifugal tension c of the reference speed.
+    pub(crate) inertia: f64,
+    /// Strain e of the reference force.
+    pub(crate) compliance: f64,
+}
+
+impl Strand {
+    /// Belt tension T from the tractive tension F and the mass flow G.
+    pub(crate) fn tension<T: Real>(&self, tractive: T, flow: T) -> T {
+        let momentum = flow * flow * self.inertia;
+        (tractive + momentum) / (T::from_f64(1.0) - momentum * self.compliance)
+    }
+
+    /// Tractive tension F from the belt tension T and the mass flow G.
+    pub(crate) fn tractive<T: Real>(&self, tension: T, flow: T) -> T {
+        tension - flow * self.speed(tension, flow) * self.inertia
+    }
+
+    /// Belt speed V.
+    pub(crate) fn speed<T: Real>(&self, tension: T, flow: T) -> T {
+        flow * (self.strain(tension) + 1.0)
+    }
+
+    /// Strain T/EA.
+    pub(crate) fn strain<T: Real>(&self, tension: T) -> T {
+        tension * self.compliance
+    }
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::{Belt, FrictionLaw, Load, SpanTension};
+
+    /// The drive of Kim (2009), table 3, with unequal radii if asked for.
+    pub(in crate::vbelt) fn kim(law: FrictionLaw, driven_radius: f64) -> Drive {
+        Drive {
+            title: None,
+            belt: Belt {
+                mass_per_length: 0.108,
+                axial_stiffness: 120e3,
+                radial_stiffness: 900e3,
+            },
+            half_angle: 18_f64.to_radians(),
+            friction_coefficient: 0.4,
+            law,
+            driver_radius: 0.25,
+            driver_speed: 1000.0 * std::f64::consts::PI / 30.0,
+            driven_radius,
+            centre_distance: 1.393_327_732_346_075,
+            load: Load {
+                slack: SpanTension::Tractive(100.0),
+                tight: SpanTension::Tractive(700.0),
+            },
+        }
+    }
+
+    #[test]
+    fn tension_and_tractive_tension_are_inverse() {
+        let strand = Scales::new(&kim(FrictionLaw::Coulomb, 0.2)).strand();
+        for (tractive, flow) in [(0.1, 0.97), (1.0, 0.93), (0.0, 1.02)] {
+            let tension = strand.tension(tractive, flow);
+            assert!((strand.tractive(tension, flow) - tractive).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn units_turn_scaled_tensions_into_newtons() {
+        let drive = kim(FrictionLaw::Coulomb, 0.2);
+        let scales = Scales::new(&drive);
+        let (m, stiffness) = (drive.belt.mass_per_length, drive.belt.axial_stiffness);
+        let (force, flow) = (433.0, 2.7);
+        let expected = (force + flow * flow / m) / (1.0 - flow * flow / (m * stiffness));
+        let tension = scales
+            .strand()
+            .tension(force / scales.force, flow / scales.mass_flow());
+        assert!((tension * scales.force / expected - 1.0).abs() < 1e-14);
+        let speed = scales.strand().speed(tension, flow / scales.mass_flow()) * scales.speed;
+        assert!((speed / (flow / m * (1.0 + expected / stiffness)) - 1.0).abs() < 1e-14);
+    }
+}

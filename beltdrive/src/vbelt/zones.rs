@@ -1,0 +1,201 @@
+//! Zones of EPP friction: where it is elastic and where it slips.
+//!
+//! The two friction forces cross at places that are not known beforehand, and the right-hand side
+//! has a kink there. Once the zones are segments whose lengths are unknown, every segment is
+//! smooth.
+
+use super::path::Solved;
+use super::{DRIVEN, DRIVER, DriveProblem, MAX_STATES, Regime, limit_excess};
+
+/// Samples per mesh interval in search of crossings.
+const SAMPLES: usize = 8;
+/// A zone shorter than this share of the contact is not told from its neighbours.
+const SHORTEST_ZONE: f64 = 1e-4;
+
+/// A zone of one kind between two places on a pulley, in scaled arc length from the entry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Zone {
+    regime: Regime,
+    from: f64,
+    to: f64,
+}
+
+/// The zones of both pulleys.
+#[derive(Clone, Debug)]
+pub(super) struct Split {
+    pulleys: [Vec<Zone>; 2],
+}
+
+impl Split {
+    /// The zones of a solution where they differ from the segments of its problem, or `None` where
+    /// every segment is of one kind and known to be.
+    pub(super) fn of(solved: &Solved) -> Option<Self> {
+        let pulleys = [DRIVEN, DRIVER].map(|pulley| zones(solved, pulley));
+        let kinds = |zones: &[Zone]| zones.iter().map(|zone| zone.regime).collect::<Vec<_>>();
+        let known = [DRIVEN, DRIVER].map(|pulley| {
+            let segments = solved.problem.zones(pulley);
+            segments
+                .map(|i| solved.problem.regime(i))
+                .collect::<Vec<_>>()
+        });
+        let same = (0..2).all(|pulley| kinds(&pulleys[pulley]) == known[pulley]);
+        (!same && solved.problem.has_zones()).then_some(Self { pulleys })
+    }
+
+    /// The problem with these zones as segments.
+    pub(super) fn problem(&self, solved: &Solved) -> DriveProblem {
+        let kinds = |pulley: usize| -> Vec<Regime> {
+            self.pulleys[pulley]
+                .iter()
+                .map(|zone| zone.regime)
+                .collect()
+        };
+        solved
+            .problem
+            .clone()
+            .with_zones(&kinds(DRIVEN), &kinds(DRIVER))
+    }
+
+    /// The solution cut at the zones, as the guess of that problem.
+    pub(super) fn guess<'a>(&'a self, solved: &'a Solved) -> impl bvp::Guess + 'a {
+        Cut {
+            zones: self.pulleys.concat(),
+            driven: self.pulleys[DRIVEN].len(),
+            solved,
+        }
+    }
+}
+
+/// The zones of one pulley, from the sign of the excess of elastic over slipping friction.
+fn zones(solved: &Solved, pulley: usize) -> Vec<Zone> {
+    let mut zones: Vec<Zone> = Vec::new();
+    let p = solved.solution.parameters();
+    let total = solved.problem.contact_length(pulley, p);
+    let mut before = 0.0;
+    // The last sample, and the size of the limit, below which a sign is rounding.
+    let (mut last, mut largest) = (None::<(f64, f64)>, 0.0f64);
+    for segment in solved.problem.zones(pulley) {
+        let length = p[DriveProblem::length_index(segment)];
+        let mut y = [0.0; MAX_STATES];
+        let y = &mut y[..solved.solution.segments()[segment].states];
+        for pair in solved.solution.mesh(segment).windows(2) {
+            for sample in 0..SAMPLES {
+                let s = pair[0] + (pair[1] - pair[0]) * (sample as f64 + 0.5) / SAMPLES as f64;
+                solved.solution.state(segment, s, y);
+                let speed = DriveProblem::speed(pulley, p);
+                let groove = solved.problem.groove(pulley);
+                let excess = limit_excess(groove, y, speed, DriveProblem::flow(p));
+                let place = before + s * length;
+                largest = largest.max(excess.abs());
+                if excess.abs() <= 1e-9 * largest {
+                    continue;
+                }
+                let regime = if excess > 0.0 {
+                    Regime::Slip
+                } else {
+                    Regime::Elastic
+                };
+                match zones.last_mut() {
+                    Some(zone) if zone.regime == regime => zone.to = place,
+                    Some(zone) => {
+                        let (at, value) = last.unwrap_or((place, excess));
+                        let crossing = at + (place - at) * value / (value - excess);
+                        zone.to = crossing;
+                        zones.push(Zone {
+                            regime,
+                            from: crossing,
+                            to: place,
+                        });
+                    }
+                    None => zones.push(Zone {
+                        regime,
+                        from: 0.0,
+                        to: place,
+                    }),
+                }
+                last = Some((place, excess));
+            }
+        }
+        before += length;
+    }
+    if let Some(zone) = zones.last_mut() {
+        zone.to = total;
+    }
+    merge_short(zones, SHORTEST_ZONE * total)
+}
+
+/// Gives zones shorter than `shortest` to their neighbours and joins zones of one kind.
+fn merge_short(zones: Vec<Zone>, shortest: f64) -> Vec<Zone> {
+    let mut merged: Vec<Zone> = Vec::with_capacity(zones.len());
+    for mut zone in zones {
+        match merged.last_mut() {
+            Some(last) if last.to - last.from < shortest => {
+                zone.from = last.from;
+                *last = zone;
+            }
+            Some(last) if last.regime == zone.regime || zone.to - zone.from < shortest => {
+                last.to = zone.to;
+            }
+            _ => merged.push(zone),
+        }
+    }
+    merged.dedup_by(|next, zone| {
+        let same = zone.regime == next.regime;
+        if same {
+            zone.to = next.to;
+        }
+        same
+    });
+    merged
+}
+
+/// A solution cut anew into zones.
+struct Cut<'a> {
+    zones: Vec<Zone>,
+    driven: usize,
+    solved: &'a Solved,
+}
+
+impl Cut<'_> {
+    fn pulley(&self, zone: usize) -> usize {
+        if zone < self.driven { DRIVEN } else { DRIVER }
+    }
+
+    /// The segment of the solution with a place on a pulley, and s there.
+    fn locate(&self, pulley: usize, place: f64) -> (usize, f64) {
+        let p = self.solved.solution.parameters();
+        let mut segments = self.solved.problem.zones(pulley);
+        let last = segments.end - 1;
+        let mut before = 0.0;
+        let within = segments.find(|&segment| {
+            let length = p[DriveProblem::length_index(segment)];
+            let found = segment == last || place <= before + length;
+            if !found {
+                before += length;
+            }
+            found
+        });
+        let segment = within.unwrap_or(last);
+        (
+            segment,
+            (place - before) / p[DriveProblem::length_index(segment)],
+        )
+    }
+}
+
+impl bvp::Guess for Cut<'_> {
+    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
+        let Zone { from, to, .. } = self.zones[segment];
+        let (known, s) = self.locate(self.pulley(segment), from + s * (to - from));
+        self.solved.solution.state(known, s, y);
+    }
+
+    fn parameters(&self, p: &mut [f64]) {
+        p[..DriveProblem::length_index(0)]
+            .copy_from_slice(&self.solved.solution.parameters()[..DriveProblem::length_index(0)]);
+        for (segment, zone) in self.zones.iter().enumerate() {
+            p[DriveProblem::length_index(segment)] = zone.to - zone.from;
+        }
+        p[DriveProblem::length_index(self.zones.len())..].fill(self.solved.tight_tension());
+    }
+}

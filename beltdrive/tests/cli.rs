@@ -1,0 +1,217 @@
+//! The binary as its user meets it: what it prints where, and its exit status.
+
+use std::{
+    fs,
+    io::Write,
+    path::PathBuf,
+    process::{Command, Output, Stdio},
+};
+
+fn beltdrive(args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_beltdrive"));
+    command.args(args);
+    command
+}
+
+fn run(args: &[&str]) -> Output {
+    beltdrive(args).output().unwrap()
+}
+
+fn run_with_input(args: &[&str], input: &str) -> Output {
+    let mut child = beltdrive(args)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // A process that fails early does not read its input.
+    let _ = child.stdin.take().unwrap().write_all(input.as_bytes());
+    child.wait_with_output().unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+#[track_caller]
+fn fails(output: &Output, status: i32, message: &str) {
+    let text = stderr(output);
+    assert_eq!(output.status.code(), Some(status), "{text}");
+    assert!(text.contains(message), "{text}");
+    assert!(!text.contains("panicked"), "{text}");
+    assert_eq!(stdout(output), "");
+}
+
+#[track_caller]
+fn succeeds(output: &Output) {
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(output));
+}
+
+/// A fresh directory of this test run.
+fn directory(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+fn example(name: &str) -> String {
+    let output = run(&["examples", name]);
+    succeeds(&output);
+    stdout(&output)
+}
+
+#[test]
+fn help_carries_examples() {
+    for args in [
+        &["--help"][..],
+        &["solve", "--help"],
+        &["examples", "--help"],
+    ] {
+        let output = run(args);
+        succeeds(&output);
+        assert!(
+            stdout(&output).contains("Example:\n  beltdrive "),
+            "{}",
+            stdout(&output)
+        );
+    }
+}
+
+#[test]
+fn a_bad_command_line_is_status_2() {
+    fails(&run(&[]), 2, "Usage:");
+    fails(&run(&["sovle"]), 2, "unrecognized subcommand");
+    fails(&run(&["solve"]), 2, "<FILE>");
+    fails(
+        &run(&["solve", "a.toml", "--tolerance", "1"]),
+        2,
+        "must be within 1e-12 and 1e-2",
+    );
+    fails(
+        &run(&["solve", "a.toml", "--tolerance", "x"]),
+        2,
+        "not a number",
+    );
+    let both = run(&["solve", "a.toml", "--json", "-", "--csv", "-"]);
+    fails(&both, 2, "only one of --json and --csv");
+}
+
+#[test]
+fn examples_are_listed_and_printed() {
+    let output = run(&["examples"]);
+    succeeds(&output);
+    let list = stdout(&output);
+    for example in beltdrive::examples::EXAMPLES {
+        assert!(
+            list.contains(example.name) && list.contains(&example.title()),
+            "{list}"
+        );
+    }
+    assert_eq!(
+        example("kim2009"),
+        beltdrive::examples::find("kim2009").unwrap().text
+    );
+    fails(&run(&["examples", "kim2008"]), 2, "did you mean `kim2009`?");
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    fails(
+        &run(&["solve", "no/such.toml"]),
+        2,
+        "cannot read no/such.toml",
+    );
+    let output = run(&["solve", "kim2009"]);
+    fails(&output, 2, "`beltdrive examples kim2009 > kim2009.toml`");
+}
+
+#[test]
+fn bad_input_is_shown_in_place() {
+    let text = example("kim2009").replace("120 kN", "120 kNn");
+    let output = run_with_input(&["solve", "-"], &text);
+    fails(&output, 2, "unknown unit `kNn`");
+    assert!(
+        stderr(&output).contains("--> standard input:8:24"),
+        "{}",
+        stderr(&output)
+    );
+
+    let overrides = ["solve", "-", "--set", "friction.lwa=epp"];
+    let output = run_with_input(&overrides, &example("kim2009"));
+    fails(&output, 2, "--> command line:1:16");
+
+    let file = directory("bytes").join("bytes.toml");
+    fs::write(&file, b"title = \"\xff\"").unwrap();
+    fails(
+        &run(&["solve", file.to_str().unwrap()]),
+        2,
+        "no text in UTF-8: byte 9",
+    );
+}
+
+#[test]
+fn solving_prints_the_table_unless_asked_otherwise() {
+    let text = example("kim2009");
+    let output = run_with_input(&["solve", "-"], &text);
+    succeeds(&output);
+    assert_ne!(stdout(&output), "");
+
+    let output = run_with_input(&["solve", "-", "--quiet"], &text);
+    succeeds(&output);
+    assert_eq!((stdout(&output), stderr(&output)), Default::default());
+
+    let output = run_with_input(&["solve", "-", "--json", "-"], &text);
+    succeeds(&output);
+    let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
+    assert!(json.is_object());
+}
+
+#[test]
+fn outputs_are_written_and_named() {
+    let directory = directory("outputs");
+    let path = |name: &str| directory.join(name).to_str().unwrap().to_owned();
+    let (json, csv, figures) = (path("a.json"), path("a.csv"), path("figures"));
+    let args = [
+        "solve", "-", "--json", &json, "--csv", &csv, "--plot", &figures,
+    ];
+    let output = run_with_input(&args, &example("kim2009"));
+    succeeds(&output);
+    assert!(
+        stderr(&output).contains(&format!("wrote {json}")),
+        "{}",
+        stderr(&output)
+    );
+    assert!(fs::metadata(csv).unwrap().len() > 0);
+    assert!(fs::read_dir(figures).unwrap().count() > 0);
+}
+
+#[test]
+fn an_unwritable_output_is_named() {
+    let missing = directory("unwritable").join("missing");
+    let file = missing.join("a.json").to_str().unwrap().to_owned();
+    let text = example("kim2009");
+    let output = run_with_input(&["solve", "-", "--quiet", "--json", &file], &text);
+    fails(&output, 2, &format!("cannot write {file}"));
+    fs::write(&missing, "a file, not a directory").unwrap();
+    let figures = missing.to_str().unwrap();
+    let output = run_with_input(&["solve", "-", "--quiet", "--plot", figures], &text);
+    fails(&output, 2, &format!("cannot draw figures into {figures}"));
+}
+
+#[test]
+fn a_closed_standard_output_is_no_failure() {
+    let mut child = beltdrive(&["examples", "kim2009"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    succeeds(&output);
+    assert_eq!(stderr(&output), "");
+}

@@ -1,0 +1,186 @@
+//! Boundary value problems with known solutions, shared by the tests and the benches.
+//!
+//! [`all`] lists 89 cases. Each states a problem
+//!
+//! ```text
+//! dy/dx = f(x, y, p)  on its segments,      g(all ends, p) = 0,
+//! ```
+//!
+//! with an initial guess and a table of its solution to compare with by [`scaled_error`]: the
+//! closed form where there is one, else a solution of order 16 confirmed by a second code. The
+//! cases named T are those of the test set of Cash, Wright and Mazzia under their own numbers, in
+//! up to three degrees of difficulty; the cases named E come from the examples of other codes and
+//! textbooks and from this project. [`exact_problems`] lists smooth problems whose solution is a
+//! function to be evaluated anywhere, for convergence orders.
+//!
+//! ```
+//! use reference_problems::{case, scaled_error};
+//!
+//! // y″ = y, y(0) = 1, y(1) = 0.
+//! let case = case("E11a").expect("a case of this crate");
+//! for (_, x, y) in &case.reference.points {
+//!     let computed = [(1.0 - x).sinh() / 1f64.sinh(), -(1.0 - x).cosh() / 1f64.sinh()];
+//!     assert!(scaled_error(&computed, y) < 1e-15);
+//! }
+//! ```
+
+#[path = "problems/eigenvalues.rs"]
+mod eigenvalues;
+#[path = "problems/exact.rs"]
+mod exact;
+#[path = "problems/fluid_flow.rs"]
+mod fluid_flow;
+#[path = "problems/linear_layers.rs"]
+mod linear_layers;
+#[path = "problems/multiple_solutions.rs"]
+mod multiple_solutions;
+#[path = "problems/multipoint.rs"]
+mod multipoint;
+#[path = "problems/nonlinear_layers.rs"]
+mod nonlinear_layers;
+#[path = "problems/periodic.rs"]
+mod periodic;
+#[path = "problems/reference.rs"]
+mod reference;
+#[path = "problems/special_conditions.rs"]
+mod special_conditions;
+#[path = "problems/systems.rs"]
+mod systems;
+#[path = "problems/turning_points.rs"]
+mod turning_points;
+
+use bvp::{Ends, Equations, Real, Segment};
+pub use exact::{ExactProblem, exact_problems};
+pub use reference::Reference;
+
+/// An initial guess: writes the states at x of a segment into the slice.
+pub type Guess = Box<dyn Fn(usize, f64, &mut [f64]) + Send + Sync>;
+
+/// A boundary value problem with an initial guess and a known solution.
+pub struct Case {
+    /// Short name: T and the number of the test set, or E and a number, then a letter for the
+    /// variant.
+    pub id: &'static str,
+    /// What the problem is.
+    pub name: &'static str,
+    /// Where the statement comes from.
+    pub source: &'static str,
+    /// The statement.
+    pub equations: Box<dyn Equations + Send + Sync>,
+    /// The initial guess of the states.
+    pub guess: Guess,
+    /// The initial guess of the unknown parameters.
+    pub parameter_guess: Vec<f64>,
+    /// Intervals of the initial mesh in all, to be shared over the segments.
+    pub initial_intervals: usize,
+    /// The solution.
+    pub reference: Reference,
+}
+
+impl Case {
+    /// A case without unknown parameters, guessed zero, on ten initial intervals.
+    fn new(
+        id: &'static str,
+        name: &'static str,
+        source: &'static str,
+        equations: impl Equations + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            id,
+            name,
+            source,
+            equations: Box::new(equations),
+            guess: Box::new(|_, _, y| y.fill(0.0)),
+            parameter_guess: Vec::new(),
+            initial_intervals: 10,
+            reference: Reference::of(id),
+        }
+    }
+
+    /// The same case with a guess of the states that is a function of x.
+    fn with_guess<const N: usize>(
+        mut self,
+        guess: impl Fn(f64) -> [f64; N] + Send + Sync + 'static,
+    ) -> Self {
+        self.guess = Box::new(move |_, x, y| y.copy_from_slice(&guess(x)));
+        self
+    }
+
+    /// The same case with a guess of the unknown parameters.
+    fn with_parameter_guess(mut self, guess: &[f64]) -> Self {
+        self.parameter_guess = guess.to_vec();
+        self
+    }
+
+    /// The same case with another initial mesh.
+    fn with_intervals(mut self, intervals: usize) -> Self {
+        self.initial_intervals = intervals;
+        self
+    }
+}
+
+/// All cases, grouped by kind.
+pub fn all() -> Vec<Case> {
+    [
+        linear_layers::cases(),
+        turning_points::cases(),
+        nonlinear_layers::cases(),
+        multiple_solutions::cases(),
+        fluid_flow::cases(),
+        eigenvalues::cases(),
+        periodic::cases(),
+        multipoint::cases(),
+        special_conditions::cases(),
+        systems::cases(),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// The case named `id`, if there is one.
+pub fn case(id: &str) -> Option<Case> {
+    all().into_iter().find(|case| case.id == id)
+}
+
+/// The error measure of the reference tables: max |y − yref| / (1 + |yref|).
+///
+/// A value that is not a number gives a result that is not a number.
+///
+/// # Panics
+/// If the slices differ in length.
+pub fn scaled_error(computed: &[f64], reference: &[f64]) -> f64 {
+    assert_eq!(computed.len(), reference.len(), "one value per component");
+    let errors = computed
+        .iter()
+        .zip(reference)
+        .map(|(y, yref)| (y - yref).abs() / (1.0 + yref.abs()));
+    // Not f64::max, which would drop a NaN.
+    errors.fold(0.0, |max: f64, error| {
+        if max.is_nan() || error <= max {
+            max
+        } else {
+            error
+        }
+    })
+}
+
+/// The source of the cases T.
+const TEST_SET: &str = "Cash, Wright and Mazzia, test set for boundary value problem solvers";
+
+/// Two states on 0 ≤ x ≤ 1.
+const UNIT: &[Segment] = &[Segment::new(2)];
+
+/// Two states on −1 ≤ x ≤ 1.
+const SYMMETRIC: &[Segment] = &[Segment::on(2, -1.0, 1.0)];
+
+/// The conditions y₁ = `left` at the left end of segment 0 and y₁ = `right` at its right end.
+fn end_values<T: Real>(at: Ends<'_, T>, left: f64, right: f64, r: &mut [T]) {
+    r[0] = at.start(0)[0] - left;
+    r[1] = at.end(0)[0] - right;
+}
+
+/// The straight line from `left` at x = 0 to `right` at x = 1, and its slope.
+fn straight(left: f64, right: f64) -> impl Fn(f64) -> [f64; 2] {
+    move |x| [left + (right - left) * x, right - left]
+}
