@@ -12,4 +12,4 @@ pub use drive::{Belt, Drive, FrictionLaw, Load, SpanTension};
 pub use steady_state::{
     Check, Convergence, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind,
 };
-pub use vbelt::{SolveError, SolveOptions, solve};
+pub use vbelt::{LimitReason, SolveError, SolveOptions, solve};

@@ -15,6 +15,7 @@ mod contact;
 mod drive_problem;
 mod groove;
 mod guess;
+mod limit;
 mod path;
 mod scaling;
 mod solve;
@@ -30,6 +31,7 @@ pub(crate) use scaling::{Scales, Strand};
 
 use groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 
+pub use limit::LimitReason;
 pub use solve::{SolveError, SolveOptions, solve};
 
 /// Index of the driven pulley, which comes first.

@@ -11,10 +11,11 @@
 //! guess. Every arrow is one Newton solve where that converges; where it does not, the parameter
 //! moves in steps that grow on success and shrink on failure. Solutions on the way are rough.
 
-use super::zones::{self, Split};
+use super::zones::Split;
 use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, Guess, MAX_STATES, Scales};
 use crate::{Drive, FrictionLaw};
 use bvp::{Function, GlobalError, Options, Scheme, Solution, Stats};
+use std::f64::consts::LN_10;
 
 /// Bristle stiffness of the start, κ R/μ: friction is fully developed after a thousandth of a
 /// radius of sliding, so that its layers are no finer than those of seating.
@@ -23,11 +24,13 @@ const START_STIFFNESS: f64 = 1000.0;
 /// works: of the order of the largest slip.
 const FIRST_EPSILONS: [f64; 3] = [1e-3, 1e-2, 1e-1];
 /// ε at which the profile is first resolved to the tolerance.
-const RESOLVED_EPSILON: f64 = 1e-6;
+const RESOLVED_EPSILON: f64 = 1e-7;
 /// ε below which slip velocities drown in the rounding of the speeds they are differences of.
 const SMALLEST_EPSILON: f64 = 1e-12;
-/// Steps of a homotopy in ln ε: a factor of 150 where it is easy, of 3 where it is not.
-const GREAT_STEP: f64 = 5.0;
+/// The effect of ε may be this share of the tolerance.
+const EPSILON_SHARE: f64 = 0.3;
+/// First steps of a homotopy in ln ε or ln κ: a factor of 10, or of 3 where that failed.
+const GREAT_STEP: f64 = LN_10;
 const SMALL_STEP: f64 = 1.1;
 /// A solve with at most so many Newton steps lets the next step of a homotopy be twice as long.
 const EASY: usize = 8;
@@ -148,6 +151,8 @@ impl<'a> Path<'a> {
             scheme: Scheme::Gauss { stages },
             initial_intervals: 16,
             max_newton_steps,
+            // A shorter step of the homotopy is a better answer to a failure than a finer mesh.
+            retries: 0,
             global_error: match effort {
                 Effort::Final => GlobalError::HalvedMesh,
                 _ => GlobalError::Skip,
@@ -186,7 +191,7 @@ impl<'a> Path<'a> {
                     if solved.solution.stats().newton_steps <= EASY {
                         step *= 2.0;
                     }
-                    (here, t) = (solved, next);
+                    (here, t) = (self.split_zones(solved, effort)?, next);
                 }
                 Err(cause) => {
                     step = 0.4 * (next - t).abs();
@@ -266,9 +271,19 @@ impl<'a> Path<'a> {
     /// From Coulomb to EPP friction at the same ε: its share grows, then its zones become segments.
     fn enter_epp(&mut self, start: Solved, tight: f64) -> Result<Solved, Stuck> {
         let epp = self.problem(self.drive.law, start.problem.epsilon(), tight);
-        let blended = self.follow(start, [0.0, 1.0], 1.0, Effort::Rough, |_, share| {
-            epp.clone().with_epp_weight(share)
-        })?;
+        // With no share of it the law only adds the displacement.
+        let unblended = self
+            .attempt(
+                epp.clone().with_epp_weight(0.0),
+                &Carried(&start),
+                Effort::Rough,
+            )
+            .map_err(|cause| Stuck {
+                last: Some(Box::new(start)),
+                cause,
+            })?;
+        let member = |_: &DriveProblem, share| epp.clone().with_epp_weight(share);
+        let blended = self.follow(unblended, [0.0, 1.0], 1.0, Effort::Rough, member)?;
         self.split_zones(blended, Effort::Rough)
     }
 
@@ -296,18 +311,24 @@ impl<'a> Path<'a> {
     fn sharpen(&mut self, start: Solved) -> Result<Solved, Stuck> {
         let rough = self.lower_epsilon(start, RESOLVED_EPSILON)?;
         let mut here = self.again(rough, Effort::Full)?;
+        here = self.split_zones(here, Effort::Full)?;
         loop {
-            let (before, epsilon) = (here.constants(), here.problem.epsilon());
+            let epsilon = here.problem.epsilon();
             let range = [epsilon.ln(), (0.1 * epsilon).ln()];
-            here = self.follow(here, range, GREAT_STEP, Effort::Final, with_epsilon)?;
-            here = self.split_zones(here, Effort::Final)?;
-            let change = before.iter().zip(here.constants());
-            let largest = change.map(|(a, b)| (a - b).abs() / (1.0 + b.abs()));
-            // The effect vanishes at least as fast as ε, so a ninth of the last change is left.
-            self.epsilon_effect = largest.fold(0.0, f64::max) / 9.0;
-            if self.epsilon_effect <= 0.1 * self.tolerance || epsilon <= SMALLEST_EPSILON {
-                return Ok(here);
+            let finer = self.follow(here.clone(), range, GREAT_STEP, Effort::Full, with_epsilon)?;
+            let constants = here.constants().into_iter().zip(finer.constants());
+            let change = constants
+                .map(|(a, b)| (a - b).abs() / (1.0 + b.abs()))
+                .fold(0.0, f64::max);
+            // The effect vanishes at least as fast as ε: ten ninths of the change were that of
+            // the larger ε, one ninth is that of the smaller.
+            for (solved, effect) in [(here, change / 0.9), (finer.clone(), change / 9.0)] {
+                if effect <= EPSILON_SHARE * self.tolerance || epsilon <= SMALLEST_EPSILON {
+                    self.epsilon_effect = effect;
+                    return self.again(solved, Effort::Final);
+                }
             }
+            here = finer;
         }
     }
 

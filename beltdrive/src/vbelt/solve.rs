@@ -1,8 +1,9 @@
 //! The public face: a drive in, a steady state or the reason why there is none out.
 
+use super::limit::{Found, LimitReason};
 use super::path::{Path, Stuck};
 use super::state::steady_state;
-use crate::{Check, Drive, SteadyState};
+use crate::{Check, Drive, SpanTension, SteadyState};
 use std::time::Instant;
 
 /// How a steady state is sought.
@@ -13,6 +14,7 @@ pub struct SolveOptions {
 }
 
 impl Default for SolveOptions {
+    /// Relative tolerance 1e-6.
     fn default() -> Self {
         Self { tolerance: 1e-6 }
     }
@@ -22,34 +24,101 @@ impl Default for SolveOptions {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SolveError {
+    /// No steady state carries the load.
+    #[error(
+        "no steady state: {quantity} {asked:.2} N exceeds the limit {limit:.2} N of this drive, \
+         where {reason} (driven speed {driven_speed:.2} rad/s, inclination at the driver's exit \
+         {:.1}°)", .exit_inclination.to_degrees()
+    )]
+    NoSteadyState {
+        /// The prescribed quantity that is too large.
+        quantity: &'static str,
+        /// Its value, N.
+        asked: f64,
+        /// The largest value that the drive carries, N.
+        limit: f64,
+        /// What happens there.
+        reason: LimitReason,
+        /// Angular speed of the driven pulley there, rad/s.
+        driven_speed: f64,
+        /// Inclination of the belt where it leaves the driver there, rad.
+        exit_inclination: f64,
+    },
     /// The way to the steady state was not found.
-    #[error("not converged: {cause}")]
+    #[error("not converged: {}; {cause}", reached(*.tight))]
     NotConverged {
-        /// Why the last problem on the way was not solved.
-        cause: bvp::Error,
+        /// Tight tension up to which the state was found, N.
+        tight: Option<f64>,
+        /// Why the next problem on the way was not solved.
+        cause: Box<bvp::Error>,
+    },
+    /// The tolerance is out of range.
+    #[error("tolerance {tolerance:e} is outside 1e-12 to 1e-2")]
+    Tolerance {
+        /// The tolerance asked for.
+        tolerance: f64,
     },
     /// A state was found that violates an invariant.
-    #[error("the state found violates the {}: relative deviation {:.1e}, limit {:.1e}", .0.name, .0.deviation, .0.limit)]
+    #[error(
+        "the state found violates an invariant, {}: relative deviation {:.1e}, limit {:.1e}",
+        .0.name, .0.deviation, .0.limit
+    )]
     Violated(Check),
+}
+
+fn reached(tight: Option<f64>) -> String {
+    match tight {
+        Some(tight) => format!("the state was followed to a tight tension of {tight:.2} N"),
+        None => "no state was found on the way".to_owned(),
+    }
 }
 
 /// Finds the steady state of a drive, from nothing but the drive.
 ///
+/// Every state returned satisfies its differential equations and conditions to the tolerance and
+/// has passed the checks listed in [`SteadyState::checks`].
+///
 /// # Errors
-/// [`SolveError`].
+/// [`SolveError::NoSteadyState`] where the load exceeds what the drive carries,
+/// [`SolveError::NotConverged`] where that could not be decided, [`SolveError::Violated`] if an
+/// invariant fails, [`SolveError::Tolerance`].
 pub fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
-    let mut path = Path::new(drive, options.tolerance);
-    let target = drive.load.tight.value() / path.scales.force;
-    let solved = path
-        .at_load(target)
-        .map_err(|Stuck { cause, .. }| SolveError::NotConverged { cause })?;
+    let tolerance = options.tolerance;
+    if !(1e-12..=1e-2).contains(&tolerance) {
+        return Err(SolveError::Tolerance { tolerance });
+    }
+    let mut path = Path::new(drive, tolerance);
+    let scales = path.scales;
+    let asked = drive.load.tight.value();
+    let found = path.find(asked / scales.force).map_err(|stuck| {
+        let Stuck { last, cause } = stuck;
+        SolveError::NotConverged {
+            tight: last.map(|last| last.tight_tension() * scales.force),
+            cause: Box::new(cause),
+        }
+    })?;
+    let solved = match found {
+        Found::State(solved) => solved,
+        Found::Beyond(limit) => {
+            let state = &limit.state;
+            let exit = state.problem.zones(super::DRIVER).end - 1;
+            return Err(SolveError::NoSteadyState {
+                quantity: match drive.load.tight {
+                    SpanTension::Tractive(_) => "tight tractive tension",
+                    SpanTension::Belt(_) => "tight tension",
+                },
+                asked,
+                limit: state.tight_tension() * scales.force,
+                reason: limit.reason,
+                driven_speed: state.driven_speed() * scales.angular_speed(super::DRIVEN),
+                exit_inclination: state.solution.end(exit)[super::INCLINATION],
+            });
+        }
+    };
     let state = steady_state(&path, &solved, start.elapsed().as_secs_f64());
-    match state
-        .checks
-        .iter()
-        .find(|check| !(check.deviation <= check.limit))
-    {
+    let violated = |check: &&Check| check.deviation.is_nan() || check.deviation > check.limit;
+    match state.checks.iter().find(violated) {
         Some(check) => Err(SolveError::Violated(check.clone())),
         None => Ok(state),
     }

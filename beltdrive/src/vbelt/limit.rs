@@ -1,0 +1,221 @@
+//! How far a drive can be loaded: approaching a load from a smaller one, and the end of the range.
+//!
+//! Along the branch of steady states that begins without load, the tight tension rises with the
+//! contact length of the driver until one of three things happens:
+//!
+//! - the speed of the driven pulley falls to zero: it slips grossly;
+//! - the tension has a maximum at small inclination: the driver slips grossly;
+//! - the tension has a maximum where the belt overhangs at the exit of the driver.
+//!
+//! A maximum of the tension is a limit point, at which the tension cannot be prescribed; the
+//! contact length of the driver can, so near it that is prescribed and the tension is an unknown.
+
+use super::path::{Carried, Effort, Path, Solved, Stuck};
+use super::{DRIVER, DriveProblem, INCLINATION, Instead};
+use std::f64::consts::FRAC_PI_2;
+
+/// Shares of the load (geometrically between slack and tight tension) from which it is approached,
+/// in this order.
+const SMALLER_LOADS: [f64; 5] = [0.75, 0.55, 0.35, 0.2, 0.08];
+/// First step of the approach, in the logarithm of the tight tension.
+const LOAD_STEP: f64 = 0.1;
+/// First step in the logarithm of the contact length of the driver.
+const LENGTH_STEP: f64 = 0.01;
+/// Steps in that length before the search is given up.
+const MAX_LENGTH_STEPS: usize = 200;
+/// Relative accuracy of a limit.
+const LIMIT_ACCURACY: f64 = 1e-7;
+
+/// What ends the load range of a drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LimitReason {
+    /// The driven pulley slips grossly: its speed has fallen to zero.
+    DrivenSlips,
+    /// The driver slips grossly: a limit point at small inclination.
+    DriverSlips,
+    /// The belt overhangs at the exit of the driver: a limit point beyond 90° of inclination.
+    Overhang,
+}
+
+impl std::fmt::Display for LimitReason {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::DrivenSlips => "the driven pulley slips grossly and stops",
+            Self::DriverSlips => "the driver slips grossly",
+            Self::Overhang => "the belt overhangs at the exit of the driver",
+        })
+    }
+}
+
+/// The end of the load range.
+#[derive(Clone, Debug)]
+pub(super) struct Limit {
+    pub(super) reason: LimitReason,
+    /// The state at the end.
+    pub(super) state: Solved,
+}
+
+/// The outcome of a search at one load.
+pub(super) enum Found {
+    /// A steady state.
+    State(Box<Solved>),
+    /// There is none: the load lies beyond the end of the range.
+    Beyond(Box<Limit>),
+}
+
+impl Path<'_> {
+    /// The steady state at the scaled tight tension `target`, or the limit that it exceeds.
+    pub(super) fn find(&mut self, target: f64) -> Result<Found, Stuck> {
+        let direct = match self.at_load(target) {
+            Ok(solved) => return self.classify(solved),
+            Err(stuck) => stuck,
+        };
+        let slack = self.drive.load.slack.value() / self.scales.force;
+        for share in SMALLER_LOADS {
+            let smaller = slack * (target / slack).powf(share);
+            if let Ok(solved) = self.at_load(smaller) {
+                return match self.classify(solved)? {
+                    Found::State(solved) => self.climb(*solved, target),
+                    beyond @ Found::Beyond(_) => Ok(beyond),
+                };
+            }
+        }
+        Err(direct)
+    }
+
+    /// A state, unless the driven pulley does not turn with the belt: then the load at which it
+    /// stops.
+    fn classify(&mut self, solved: Solved) -> Result<Found, Stuck> {
+        if solved.driven_speed() > 0.0 {
+            return Ok(Found::State(Box::new(solved)));
+        }
+        let range = [solved.driven_speed(), 0.0];
+        let stopped = self.follow(solved, range, 0.5, Effort::Full, |problem, speed| {
+            let instead = Instead::DrivenSpeed(speed);
+            problem.clone().with_unknown_tight_tension(instead)
+        })?;
+        Ok(Found::Beyond(Box::new(Limit {
+            reason: LimitReason::DrivenSlips,
+            state: stopped,
+        })))
+    }
+
+    /// Raises the load of a state to `target`, around a limit point if there is one on the way.
+    fn climb(&mut self, start: Solved, target: f64) -> Result<Found, Stuck> {
+        let range = [start.tight_tension().ln(), target.ln()];
+        let member = |problem: &DriveProblem, t: f64| problem.clone().with_tight_tension(t.exp());
+        match self.follow(start, range, LOAD_STEP, Effort::Careful, member) {
+            Ok(solved) => {
+                let solved = self.again(solved, Effort::Final)?;
+                self.classify(solved)
+            }
+            Err(Stuck {
+                last: Some(last), ..
+            }) if last.driven_speed() > 0.0 => self.lengthen(*last, target),
+            Err(Stuck {
+                last: Some(last), ..
+            }) => self.classify(*last),
+            Err(stuck) => Err(stuck),
+        }
+    }
+
+    /// Follows the branch by the contact length of the driver until the tension reaches `target`,
+    /// or has passed its maximum, or the driven pulley stops.
+    fn lengthen(&mut self, start: Solved, target: f64) -> Result<Found, Stuck> {
+        let (mut before, mut here) = (None, start);
+        let mut step = LENGTH_STEP;
+        for _ in 0..MAX_LENGTH_STEPS {
+            let length = here.driver_length() * step.exp();
+            let next = match self.at_length(&here, length, Effort::Careful) {
+                Ok(next) => next,
+                Err(_) if step > 1e-3 * LENGTH_STEP => {
+                    step *= 0.4;
+                    continue;
+                }
+                Err(cause) => {
+                    let last = Some(Box::new(here));
+                    return Err(Stuck { last, cause });
+                }
+            };
+            if next.driven_speed() <= 0.0 {
+                return self.classify(next);
+            }
+            if next.tight_tension() >= target {
+                let problem = next.problem.clone().with_tight_tension(target);
+                let solved = self
+                    .attempt(problem, &Carried(&next), Effort::Final)
+                    .map_err(|cause| Stuck {
+                        last: Some(Box::new(next)),
+                        cause,
+                    })?;
+                return self.classify(solved);
+            }
+            if next.tight_tension() < here.tight_tension() {
+                let first = before.unwrap_or_else(|| here.clone());
+                return self.maximum([first, here, next]);
+            }
+            step *= 1.3;
+            before = Some(std::mem::replace(&mut here, next));
+        }
+        self.again(here, Effort::Final)
+            .map(|solved| Found::State(Box::new(solved)))
+    }
+
+    /// The state with another contact length of the driver, from a neighbour.
+    fn at_length(
+        &mut self,
+        from: &Solved,
+        length: f64,
+        effort: Effort,
+    ) -> Result<Solved, bvp::Error> {
+        let problem = from
+            .problem
+            .clone()
+            .with_unknown_tight_tension(Instead::DriverLength(length));
+        self.attempt(problem, &Carried(from), effort)
+    }
+
+    /// The maximum of the tight tension over the contact length, between three states around it, by
+    /// successive parabolas (Brent 1973, chapter 5, without the safeguard of golden sections: the
+    /// states bracket one smooth maximum).
+    fn maximum(&mut self, states: [Solved; 3]) -> Result<Found, Stuck> {
+        let [mut low, mut top, mut high] = states;
+        for _ in 0..20 {
+            let point = |s: &Solved| (s.driver_length(), s.tight_tension());
+            let [(a, fa), (b, fb), (c, fc)] = [point(&low), point(&top), point(&high)];
+            let (left, right) = ((b - a) * (fb - fc), (b - c) * (fb - fa));
+            let shift = 0.5 * ((b - a) * left - (b - c) * right) / (left - right);
+            let length = b - shift;
+            let settled = shift.abs() <= LIMIT_ACCURACY.sqrt() * b || !shift.is_finite();
+            let inside = if length > a && length < c {
+                length
+            } else {
+                0.5 * (a + b)
+            };
+            let next = self
+                .at_length(&top, inside, Effort::Full)
+                .map_err(|cause| Stuck {
+                    last: Some(Box::new(top.clone())),
+                    cause,
+                })?;
+            let better = next.tight_tension() >= top.tight_tension();
+            match (better, inside < b) {
+                (true, true) => high = std::mem::replace(&mut top, next),
+                (true, false) => low = std::mem::replace(&mut top, next),
+                (false, true) => low = next,
+                (false, false) => high = next,
+            }
+            if settled {
+                break;
+            }
+        }
+        let exit = top.problem.zones(DRIVER).end - 1;
+        let reason = if top.solution.end(exit)[INCLINATION] > FRAC_PI_2 {
+            LimitReason::Overhang
+        } else {
+            LimitReason::DriverSlips
+        };
+        Ok(Found::Beyond(Box::new(Limit { reason, state: top })))
+    }
+}

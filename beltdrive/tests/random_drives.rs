@@ -1,0 +1,120 @@
+//! Many random drives within the range of ordinary V-belt drives: every one is solved, or refused
+//! with the reason why no steady state carries its load.
+
+use beltdrive::{Belt, Drive, FrictionLaw, Load, SolveError, SolveOptions, SpanTension, solve};
+use std::f64::consts::PI;
+
+/// A reproducible sequence of numbers in \[0, 1): the minimal standard generator of Park & Miller.
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0 * 48_271 % 2_147_483_647;
+        self.0 as f64 / 2_147_483_647.0
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    /// Uniform in the logarithm.
+    fn scale(&mut self, low: f64, high: f64) -> f64 {
+        self.between(low.ln(), high.ln()).exp()
+    }
+}
+
+fn drive(random: &mut Random, law: FrictionLaw) -> Drive {
+    loop {
+        let driver_radius = random.scale(0.04, 0.4);
+        let driven_radius = driver_radius * random.scale(1.0 / 3.0, 3.0);
+        let largest = driver_radius.max(driven_radius);
+        let slack = random.scale(50.0, 800.0);
+        let tight = slack * random.scale(1.02, 12.0);
+        let radial_stiffness = random.scale(3e5, 3e6);
+        let half_angle = random.between(15.0, 20.0).to_radians();
+        // A belt that would sink through a tenth of the smaller pulley is no sensible drive.
+        let smallest = driver_radius.min(driven_radius);
+        let depth = tight / (radial_stiffness * smallest * half_angle.tan());
+        let drive = Drive {
+            title: None,
+            belt: Belt {
+                mass_per_length: random.scale(0.05, 0.6),
+                axial_stiffness: random.scale(30e3, 300e3),
+                radial_stiffness,
+            },
+            half_angle,
+            friction_coefficient: random.between(0.15, 0.8),
+            law,
+            driver_radius,
+            driver_speed: random.scale(300.0, 4000.0) * PI / 30.0,
+            driven_radius,
+            centre_distance: largest * random.between(2.5, 10.0),
+            load: Load {
+                slack: SpanTension::Tractive(slack),
+                tight: SpanTension::Tractive(tight),
+            },
+        };
+        let speed = drive.driver_speed * driver_radius;
+        let subsonic =
+            drive.belt.mass_per_length * speed.powi(2) < 0.2 * drive.belt.axial_stiffness;
+        let fits = (0.04..=0.4).contains(&driven_radius)
+            && drive.centre_distance > 1.02 * (driver_radius + driven_radius);
+        if fits && subsonic && depth < 0.1 * smallest {
+            return drive;
+        }
+    }
+}
+
+fn survey(law: FrictionLaw, count: usize, seed: u64) {
+    let mut random = Random(seed);
+    let (mut solved, mut refused, mut failed) = (0, 0, Vec::new());
+    let mut seconds = Vec::new();
+    for index in 0..count {
+        let drive = drive(&mut random, law);
+        match solve(&drive, &SolveOptions::default()) {
+            Ok(state) => {
+                solved += 1;
+                assert!(state.driven.angular_speed > 0.0);
+                seconds.push(state.convergence.seconds);
+            }
+            Err(SolveError::NoSteadyState { asked, limit, .. }) => {
+                refused += 1;
+                assert!(limit < asked * (1.0 + 1e-6));
+            }
+            Err(error) => failed.push(format!("{index}: {error}\n{drive:?}")),
+        }
+    }
+    seconds.sort_by(f64::total_cmp);
+    let median = seconds[seconds.len() / 2];
+    println!(
+        "{}: {solved} solved, {refused} refused with a reason, {} failed; median {:.1} ms, 90 % {:.1} ms, slowest {:.1} ms",
+        law.name(),
+        failed.len(),
+        1e3 * median,
+        1e3 * seconds[seconds.len() * 9 / 10],
+        1e3 * seconds[seconds.len() - 1],
+    );
+    for failure in &failed {
+        println!("{failure}");
+    }
+    assert!(
+        failed.is_empty(),
+        "{} of {count} drives failed",
+        failed.len()
+    );
+}
+
+#[test]
+fn coulomb() {
+    survey(FrictionLaw::Coulomb, 200, 20_260_001);
+}
+
+#[test]
+fn bristle() {
+    survey(FrictionLaw::Bristle { stiffness: 2000.0 }, 200, 20_260_002);
+}
+
+#[test]
+fn epp() {
+    survey(FrictionLaw::Epp { stiffness: 8e6 }, 100, 20_260_003);
+}
