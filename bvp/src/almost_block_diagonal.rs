@@ -22,15 +22,15 @@
 //! └ −Γᵢ    I     0    −Pᵢ ┘   ──Qᵀ──▶  └   0     B'     A'    C' ┘   the link from y₀ to yᵢ₊₁
 //! ```
 //!
-//! so that one link A δy₀ + B δy_N + C δp = d is left per segment. Those links and the conditions
+//! so that one link A δy₀ + `B δy_N` + C δp = d is left per segment. Those links and the conditions
 //! form a dense system for all ends and parameters. Eliminating with orthogonal transformations is
 //! stable where row-pivoted block elimination loses all digits: S. J. Wright, "A collection of
 //! problems for which Gaussian elimination with partial pivoting is unstable", SIAM J. Sci.
 //! Comput. 14 (1993) 231-238; the method is that of S. J. Wright, "Stable parallel algorithms for
 //! two-point boundary value problems", SIAM J. Sci. Stat. Comput. 13 (1992) 742-764.
 
-use crate::collocation::Iterate;
 use crate::dense::{SingularRow, add_scaled, dot, lu_factor, lu_solve};
+use crate::iterate::Iterate;
 
 /// Where the Newton matrix is singular to working precision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +56,7 @@ pub(crate) struct Chain {
     tau: Vec<f64>,
     /// \[E F H\], n × (2n + k) per interior node.
     couplings: Vec<f64>,
-    /// The remaining link \[A B C\] between δy₀, δy_N and δp, n × (2n + k).
+    /// The remaining link \[A B C\] between both ends and the parameters, n × (2n + k).
     reduced: Vec<f64>,
     /// The 2n rows in work, 2n × (3n + k).
     work: Vec<f64>,
@@ -123,8 +123,8 @@ impl Chain {
                 row[n + i] = 1.0;
                 add_scaled(&mut row[3 * n..], -1.0, &link[n..]);
             }
-            for j in 0..n {
-                tau[j] = reflect(&mut self.work, width, j, &mut self.row).ok_or(interior + 1)?;
+            for (j, tau) in tau.iter_mut().enumerate() {
+                *tau = reflect(&mut self.work, width, j, &mut self.row).ok_or(interior + 1)?;
             }
             for (panel, row) in panel.chunks_exact_mut(n).zip(self.work.chunks_exact(width)) {
                 panel.copy_from_slice(&row[..n]);
@@ -371,3 +371,6 @@ fn inverse_of_largest(x: &[f64]) -> Option<f64> {
     let finite = x.iter().all(|x| x.is_finite());
     (finite && largest > 0.0).then(|| 1.0 / largest)
 }
+
+#[cfg(test)]
+mod tests;

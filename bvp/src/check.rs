@@ -59,7 +59,7 @@ pub fn check_jacobians(a: &dyn Equations, b: &dyn Equations, along: &dyn Guess) 
     let mut compare = |a: f64, b: f64, place: Place| {
         let difference = (a - b).abs() / (1.0 + a.abs());
         // A NaN on either side is the worst difference of all.
-        if !(difference <= worst.difference) {
+        if difference.is_nan() || difference > worst.difference {
             worst = JacobianCheck { difference, place };
         }
     };

@@ -94,6 +94,12 @@ pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     }
 }
 
+/// The larger of two numbers, NaN if either is: what [`f64::max`] would lose.
+#[inline]
+pub(crate) fn max_or_nan(a: f64, b: f64) -> f64 {
+    if b <= a || a.is_nan() { a } else { b }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -124,6 +130,18 @@ mod tests {
                 prop_assert!((b[i] - x[i]).abs() < 1e-9);
                 prop_assert!((bt[i] - x[i]).abs() < 1e-9);
             }
+        }
+    }
+
+    #[test]
+    fn a_maximum_keeps_nan() {
+        assert_eq!([1.0, 3.0, 2.0].into_iter().fold(0.0, max_or_nan), 3.0);
+        for values in [
+            [f64::NAN, 1.0, 2.0],
+            [1.0, f64::NAN, 2.0],
+            [1.0, 2.0, f64::NAN],
+        ] {
+            assert!(values.into_iter().fold(0.0, max_or_nan).is_nan());
         }
     }
 

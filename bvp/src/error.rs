@@ -52,13 +52,45 @@ pub enum Error {
         /// Right end of the segment.
         to: f64,
     },
+    /// The guess has too few or too many numbers for the states of a segment.
+    #[error("the guess has {found} numbers for the states of segment {segment}, {needed} needed")]
+    GuessStates {
+        /// Index of the segment.
+        segment: usize,
+        /// Numbers given, over all nodes if it has a table of them.
+        found: usize,
+        /// Numbers needed.
+        needed: usize,
+    },
+    /// The guess has too few or too many parameters.
+    #[error("the guess has {found} parameters, {needed} needed")]
+    GuessParameters {
+        /// Parameters given.
+        found: usize,
+        /// Parameters needed.
+        needed: usize,
+    },
     /// The guess is not finite.
     #[error("the guess is not finite in segment {segment} at s = {s}")]
     Guess {
-        /// Index of the segment; that of no segment (their number) for a parameter.
+        /// Index of the segment.
         segment: usize,
         /// Where.
         s: f64,
+    },
+    /// A guessed parameter is not finite.
+    #[error("the guess of parameter {parameter} is not finite")]
+    GuessParameter {
+        /// Index of the parameter.
+        parameter: usize,
+    },
+    /// The first mesh is larger than the mesh limit.
+    #[error("the first mesh has {intervals} intervals, {limit} allowed")]
+    FirstMesh {
+        /// Intervals to start on, over all segments.
+        intervals: usize,
+        /// Intervals allowed.
+        limit: usize,
     },
     /// The tolerance is out of range.
     #[error("tolerance {tolerance:e} is outside 1e-13 to 1e-1")]
@@ -147,6 +179,30 @@ pub enum Error {
         /// The solution on the last mesh.
         best: Box<Solution>,
     },
+    /// The tolerance is not met although many meshes were tried, or intervals shrank to the spacing
+    /// of floating-point numbers: the right-hand side is probably not smooth there. Put a junction
+    /// between two segments at a kink or jump.
+    #[error(
+        "defect {defect:.1e}, estimated error {error:.1e}, tolerance {tolerance:.1e} after {meshes} meshes; worst in segment {segment} near s = {s}, interval length {length:.1e}"
+    )]
+    Unresolved {
+        /// Index of the segment with the largest defect.
+        segment: usize,
+        /// Left end of the interval with the largest defect.
+        s: f64,
+        /// Its length.
+        length: f64,
+        /// Meshes tried.
+        meshes: usize,
+        /// Relative defect reached.
+        defect: f64,
+        /// Estimated relative global error reached; infinite where it is not known.
+        error: f64,
+        /// Tolerance asked for.
+        tolerance: f64,
+        /// The solution on the last mesh.
+        best: Box<Solution>,
+    },
     /// The conditions hold less accurately than the tolerance asks.
     #[error("condition {condition} violated: residual {residual:.1e}, tolerance {tolerance:.1e}")]
     ConditionViolated {
@@ -171,6 +227,7 @@ impl Error {
             | Self::SingularConditions { best }
             | Self::NoConvergence { best, .. }
             | Self::MeshLimit { best, .. }
+            | Self::Unresolved { best, .. }
             | Self::ConditionViolated { best, .. } => Some(best),
             _ => None,
         }

@@ -51,9 +51,12 @@ pub(crate) fn next_mesh(mesh: &Mesh, defects: &[Vec<f64>], tolerance: f64, m: us
     mesh.iter().zip(defects).map(next).collect()
 }
 
-/// The mesh with all intervals shortened so that an error ∝ h^order falls from `error` to `aim`.
-pub(crate) fn denser(mesh: &Mesh, error: f64, aim: f64, order: usize) -> Mesh {
-    let factor = (error / aim).powf(1.0 / order as f64).clamp(1.2, 4.0);
+/// The mesh with all intervals shortened so that an error ∝ h^order falls from `error` well below
+/// `tolerance`.
+pub(crate) fn denser(mesh: &Mesh, error: f64, tolerance: f64, order: usize) -> Mesh {
+    let factor = (error / (AIM * tolerance))
+        .powf(1.0 / order as f64)
+        .clamp(1.2, 4.0);
     mesh.iter()
         .map(|nodes| {
             let density: Vec<f64> = nodes.windows(2).map(|p| 1.0 / (p[1] - p[0])).collect();
@@ -79,4 +82,88 @@ fn grade(density: &mut [f64]) {
 )]
 fn ceil(x: f64) -> usize {
     x.ceil() as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::intervals;
+
+    fn uniform(count: u32) -> Vec<f64> {
+        (0..=count)
+            .map(|i| f64::from(i) / f64::from(count))
+            .collect()
+    }
+
+    /// Defects C(s) hᵐ of a problem with a layer at the left end.
+    fn model(nodes: &[f64], m: i32) -> Vec<f64> {
+        let defect = |pair: &[f64]| {
+            let (s, h) = (0.5 * (pair[0] + pair[1]), pair[1] - pair[0]);
+            ((1.0 + 1e3 * (-s / 0.02).exp()) * h).powi(m)
+        };
+        nodes.windows(2).map(defect).collect()
+    }
+
+    #[test]
+    fn a_power_law_is_met_in_a_few_meshes_of_sensible_size() {
+        for m in 1..=7 {
+            let tolerance = 1e-4;
+            let mut mesh = vec![uniform(10)];
+            let mut meshes = 1;
+            while model(&mesh[0], m).iter().any(|&r| r > tolerance) {
+                let defects = vec![model(&mesh[0], m)];
+                mesh = next_mesh(&mesh, &defects, tolerance, usize::try_from(m).unwrap());
+                meshes += 1;
+                assert!(meshes < 12, "m = {m}");
+                assert!(mesh[0].windows(2).all(|pair| pair[0] < pair[1]));
+                assert_eq!((mesh[0].first(), mesh[0].last()), (Some(&0.0), Some(&1.0)));
+            }
+            // An interval is as long as it may be where h C^(1/m) = tolerance^(1/m).
+            let best = (1.0 + 1e3 * 0.02) / tolerance.powf(1.0 / f64::from(m));
+            assert!(
+                (intervals(&mesh) as f64) < 5.0 * best + 10.0,
+                "m = {m}: {mesh:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn one_long_interval_is_cut_and_the_others_stay() {
+        let nodes = uniform(20);
+        let mut defects = vec![0.5e-6; 20];
+        defects[7] = 1e-5;
+        let finer = next_mesh(&vec![nodes.clone()], &[defects], 1e-6, 4);
+        assert!(nodes.iter().all(|s| finer[0].contains(s)));
+        assert!(finer[0].len() > nodes.len());
+        assert!(
+            finer[0]
+                .iter()
+                .all(|s| nodes.contains(s) || (0.35..0.4).contains(s))
+        );
+    }
+
+    #[test]
+    fn a_segment_far_too_fine_is_coarsened_while_another_is_refined() {
+        let mesh = vec![uniform(40), uniform(10)];
+        let defects = vec![vec![1e-14; 40], vec![1e-3; 10]];
+        let next = next_mesh(&mesh, &defects, 1e-6, 4);
+        assert!(next[0].len() < 20 && next[1].len() > 20);
+    }
+
+    #[test]
+    fn neighbouring_intervals_are_graded() {
+        let mut density = [1.0, 1.0, 100.0, 1.0];
+        grade(&mut density);
+        assert_eq!(density, [16.0, 40.0, 100.0, 40.0]);
+    }
+
+    #[test]
+    fn a_denser_mesh_has_the_same_shape() {
+        let mesh = vec![vec![0.0, 0.1, 0.4, 1.0]];
+        let finer = denser(&mesh, 1e-4, 1e-5, 4);
+        // (1e-4 / 0.3e-5)^(1/4) = 2.4, times three intervals.
+        assert_eq!(intervals(&finer), 8);
+        assert!(finer[0].windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!(intervals(&denser(&mesh, f64::INFINITY, 1e-5, 4)), 12);
+    }
 }

@@ -1,11 +1,12 @@
 //! Initial guesses.
 
 use crate::mesh::Mesh;
+use crate::{Error, Segment};
 
 /// A first guess of the solution: constants, a function, a table, or a previous
-/// [`Solution`](crate::Solution) on any mesh.
+/// [`Solution`](crate::Solution) of any scheme on any mesh.
 pub trait Guess {
-    /// Writes the guessed states of `segment` at `s` into `y`.
+    /// Writes the guessed states of `segment` at `s` into `y`; asked anywhere on the segment.
     fn state(&self, segment: usize, s: f64, y: &mut [f64]);
 
     /// Writes the guessed parameters into `p`.
@@ -16,6 +17,48 @@ pub trait Guess {
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {
         None
     }
+
+    /// Checks that the guess has the states and parameters of a problem with these segments and so
+    /// many parameters; called once, after the mesh is found to fit and before anything is written.
+    /// The default accepts everything.
+    ///
+    /// # Errors
+    /// [`Error::GuessStates`] or [`Error::GuessParameters`].
+    fn check_shape(&self, segments: &[Segment], parameters: usize) -> Result<(), Error> {
+        let _ = (segments, parameters);
+        Ok(())
+    }
+}
+
+/// Compares the numbers of values of each segment and of parameters with those needed.
+pub(crate) fn compare_shape(
+    found: impl Fn(usize) -> usize,
+    needed: impl Iterator<Item = usize>,
+    found_parameters: usize,
+    needed_parameters: usize,
+) -> Result<(), Error> {
+    for (segment, needed) in needed.enumerate() {
+        let found = found(segment);
+        if found != needed {
+            return Err(Error::GuessStates {
+                segment,
+                found,
+                needed,
+            });
+        }
+    }
+    if found_parameters != needed_parameters {
+        return Err(Error::GuessParameters {
+            found: found_parameters,
+            needed: needed_parameters,
+        });
+    }
+    Ok(())
+}
+
+/// The number of values in a list of segments; none where there is no such segment.
+fn values(states: &[Vec<f64>], segment: usize) -> usize {
+    states.get(segment).map_or(0, Vec::len)
 }
 
 /// The same states everywhere on a segment.
@@ -35,6 +78,15 @@ impl Guess for Constant {
     fn parameters(&self, p: &mut [f64]) {
         p.copy_from_slice(&self.parameters);
     }
+
+    fn check_shape(&self, segments: &[Segment], parameters: usize) -> Result<(), Error> {
+        compare_shape(
+            |segment| values(&self.states, segment),
+            segments.iter().map(|segment| segment.states),
+            self.parameters.len(),
+            parameters,
+        )
+    }
 }
 
 /// States given by a function of (segment, s) that writes them.
@@ -53,6 +105,11 @@ impl<F: Fn(usize, f64, &mut [f64])> Guess for Function<F> {
 
     fn parameters(&self, p: &mut [f64]) {
         p.copy_from_slice(&self.parameters);
+    }
+
+    fn check_shape(&self, _segments: &[Segment], parameters: usize) -> Result<(), Error> {
+        let none = std::iter::empty();
+        compare_shape(|_| 0, none, self.parameters.len(), parameters)
     }
 }
 
@@ -80,6 +137,18 @@ impl Guess for Table {
 
     fn parameters(&self, p: &mut [f64]) {
         p.copy_from_slice(&self.parameters);
+    }
+
+    fn check_shape(&self, segments: &[Segment], parameters: usize) -> Result<(), Error> {
+        compare_shape(
+            |segment| values(&self.states, segment),
+            segments
+                .iter()
+                .zip(&self.nodes)
+                .map(|(segment, nodes)| segment.states * nodes.len()),
+            self.parameters.len(),
+            parameters,
+        )
     }
 
     fn mesh(&self) -> Option<Mesh> {

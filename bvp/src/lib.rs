@@ -1,15 +1,161 @@
-//! Adaptive collocation for boundary value problems.
+//! Adaptive collocation for boundary value problems of ordinary differential equations.
+//!
+//! # The problem
+//!
+//! Find functions yᵢ on one or several smooth *segments* and constants p with
+//!
+//! ```text
+//! dyᵢ/ds = fᵢ(s, yᵢ, p),    aᵢ ≤ s ≤ bᵢ,    i = 1 … number of segments
+//! g( y₁(a₁), y₁(b₁), y₂(a₂), y₂(b₂), …, p ) = 0
+//! ```
+//!
+//! Segment i has nᵢ states and there are k parameters. A solution of the differential equations is
+//! fixed by nᵢ constants per segment, so with the parameters
+//!
+//! ```text
+//! unknown constants  Σ nᵢ + k  =  number of conditions g
+//! ```
+//!
+//! and [`solve`] refuses any other count. Conditions may be nonlinear and may couple everything
+//! with everything. This one form holds
+//!
+//! * two-point problems: one segment;
+//! * eigenvalues and unknown loads: parameters, each with one more condition;
+//! * periodic orbits: y(a) = y(b), the period a parameter, and a phase condition;
+//! * multipoint and interface problems: several segments, joined by conditions;
+//! * free ends and lengths: s in \[0, 1\], the length a parameter that multiplies f.
+//!
+//! # Example
+//!
+//! The fourth eigenvalue of Mathieu's equation y'' + (λ − 2q cos 2s) y = 0 for q = 5, even and of
+//! period π, the amplitude fixed by y(0) = 1: two states, one parameter, three conditions.
+//!
+//! ```
+//! use bvp::{Ends, Function, Options, Problem, Real, Segment, solve};
+//! use std::f64::consts::PI;
+//!
+//! struct Mathieu;
+//!
+//! impl Problem for Mathieu {
+//!     fn segments(&self) -> &[Segment] {
+//!         &[Segment { states: 2, from: 0.0, to: PI }]
+//!     }
+//!
+//!     fn parameters(&self) -> usize {
+//!         1
+//!     }
+//!
+//!     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
+//!         dy[0] = y[1];
+//!         dy[1] = -(p[0] - (s * 2.0).cos() * 10.0) * y[0];
+//!     }
+//!
+//!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+//!         r[0] = at.start(0)[1];
+//!         r[1] = at.end(0)[1];
+//!         r[2] = at.start(0)[0] - 1.0;
+//!     }
+//! }
+//!
+//! let guess = Function {
+//!     state: |_segment: usize, s: f64, y: &mut [f64]| {
+//!         y[0] = (4.0 * s).cos();
+//!         y[1] = -4.0 * (4.0 * s).sin();
+//!     },
+//!     parameters: vec![15.0],
+//! };
+//! let options = Options { tolerance: 1e-9, ..Options::default() };
+//! let solution = solve(&Mathieu, &guess, &options)?;
+//!
+//! let mut y = [0.0; 2];
+//! solution.state(0, PI / 2.0, &mut y);
+//! println!("y(π/2) = {:.9}", y[0]);
+//! assert!((solution.parameters()[0] - 17.096_581_684_366).abs() < 1e-8);
+//! # Ok::<(), bvp::Error>(())
+//! ```
+//!
+//! The right-hand side is generic in its scalar [`Real`], so the solver has exact Jacobians
+//! without being given any.
+//!
+//! # The method
+//!
+//! **Discretisation.** Collocation with a [`Scheme`] of m stages: on every interval of a mesh the
+//! solution is a polynomial of degree m that satisfies the differential equations at m points, and
+//! the polynomials join continuously.
+//!
+//! | scheme | stages m | order at the nodes | order in between |
+//! | --- | --- | --- | --- |
+//! | Lobatto IIIA | 3, 4 | 2m − 2 | m + 1 |
+//! | Gauss (default, m = 4) | 1 … 7 | 2m | m + 1 |
+//!
+//! **Newton's method** with affine-invariant damping: a step is judged by corrections, not by
+//! residuals, so the scaling of equations and conditions does not matter; Jacobians are kept while
+//! corrections contract fast.
+//!
+//! **Linear algebra.** The stages of every interval are condensed, the interior nodes eliminated by
+//! Householder reflections, and a small dense system is left for all ends and parameters. The cost
+//! is proportional to the number of intervals. Orthogonal elimination is stable for growing and
+//! decaying modes with coupled ends, where row pivoting is not.
+//!
+//! **Mesh selection.** The defect S' − f(s, S, p) of the polynomials S, measured on every interval,
+//! decides where nodes are added, moved and removed.
+//!
+//! # What success means
+//!
+//! [`solve`] returns `Ok` only if all of these are at most [`Options::tolerance`]:
+//!
+//! * the defect of every interval relative to 1 + |f|, root mean square over the interval;
+//! * the residual of every condition, relative to the size of its terms where that exceeds one;
+//! * the estimated global error of every state and parameter relative to 1 + |value|, from one
+//!   Newton correction on the mesh with every interval halved ([`GlobalError::Skip`] omits it).
+//!
+//! Everything else is an [`Error`]: mistakes of the statement are found before any arithmetic, and
+//! numerical failures carry their best iterate, which is a [`Guess`] for another attempt.
+//! Like every estimate, the one of the error sees the problem only at finitely many points; and a
+//! solution found need not be the only one.
+//!
+//! # From `bvp4c` or `solve_bvp`
+//!
+//! | `bvp4c` | `solve_bvp` | here |
+//! | --- | --- | --- |
+//! | `odefun(x, y, p)` | `fun(x, y, p)`, vectorised | [`Problem::rhs`], one point at a time |
+//! | `bcfun(ya, yb, p)` | `bc(ya, yb, p)` | [`Problem::conditions`] on [`Ends`] |
+//! | `bvpinit` | `x`, `y`, `p` | [`Constant`], [`Function`], [`Table`], or a [`Solution`] |
+//! | `FJacobian`, `BCJacobian` | `fun_jac`, `bc_jac` | exact; or [`Equations`] by hand, or [`FiniteDifferences`] |
+//! | region index of multipoint problems | — | segment index |
+//! | `RelTol`, `AbsTol` | `tol`, `bc_tol` | [`Options::tolerance`], of defect and global error |
+//! | `NMax` | `max_nodes` | [`Options::max_intervals`] |
+//! | Lobatto IIIA, order 4 | the same | [`Scheme::LobattoIIIA`] with 3 stages; default Gauss, order 8 |
+//! | `deval(sol, x)` | `sol.sol(x)` | [`Solution::state`], [`Solution::derivative`] |
+//! | `sol.stats` | `rms_residuals`, `niter` | [`Solution::defects`], [`Solution::stats`] |
+//! | `SingularTerm` | `S` | none; Gauss points avoid the ends |
+//!
+//! # References
+//!
+//! * U. M. Ascher, R. M. M. Mattheij & R. D. Russell, *Numerical Solution of Boundary Value
+//!   Problems for Ordinary Differential Equations*, SIAM 1995: the theory, collocation, mesh
+//!   selection.
+//! * J. Kierzenka & L. F. Shampine, "A BVP solver based on residual control and the MATLAB PSE",
+//!   ACM Trans. Math. Softw. 27 (2001) 299-316: control of the defect.
+//! * P. Deuflhard, *Newton Methods for Nonlinear Problems*, Springer 2004: damping.
+//! * S. J. Wright, "Stable parallel algorithms for two-point boundary value problems", SIAM J. Sci.
+//!   Stat. Comput. 13 (1992) 742-764: orthogonal elimination.
 
 mod almost_block_diagonal;
+mod automatic;
 mod check;
 mod collocation;
+mod condensation;
+mod defect;
 mod dense;
 mod difference;
 mod dual;
 mod equations;
 mod error;
 mod error_control;
+mod global_error;
 mod guess;
+mod iterate;
 mod mesh;
 mod newton;
 mod options;
@@ -18,6 +164,7 @@ mod real;
 mod scheme;
 mod solution;
 mod solver;
+mod statement;
 mod stats;
 
 pub use check::{Differenced, JacobianCheck, Place, check_jacobians};

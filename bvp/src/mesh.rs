@@ -5,6 +5,9 @@ use crate::Segment;
 /// The nodes of every segment: ascending, the first and the last are the ends of the segment.
 pub(crate) type Mesh = Vec<Vec<f64>>;
 
+/// An interval must be longer than so many spacings of floating-point numbers.
+const FEWEST_SPACINGS: f64 = 64.0;
+
 /// A mesh with `intervals` equal intervals on every segment.
 pub(crate) fn uniform(segments: &[Segment], intervals: usize) -> Mesh {
     let nodes = |segment: &Segment| -> Vec<f64> {
@@ -55,6 +58,13 @@ pub(crate) fn equidistribute(nodes: &[f64], density: &[f64], intervals: usize) -
     placed
 }
 
+/// Whether floating-point numbers resolve every interval: collocation points must stay apart.
+pub(crate) fn is_representable(mesh: &Mesh) -> bool {
+    let spacing = |pair: &[f64]| f64::EPSILON * pair[0].abs().max(pair[1].abs());
+    let resolved = |pair: &[f64]| pair[1] - pair[0] > FEWEST_SPACINGS * spacing(pair);
+    mesh.iter().all(|nodes| nodes.windows(2).all(resolved))
+}
+
 /// Total number of intervals.
 pub(crate) fn intervals(mesh: &Mesh) -> usize {
     mesh.iter().map(|nodes| nodes.len() - 1).sum()
@@ -72,6 +82,25 @@ mod tests {
         for (found, exact) in placed.iter().zip(expected) {
             assert!((found - exact).abs() < 1e-15, "{placed:?}");
         }
+    }
+
+    #[test]
+    fn intervals_at_the_spacing_of_numbers_are_not_representable() {
+        assert!(is_representable(&vec![vec![0.0, 1e-300, 1.0]]));
+        assert!(is_representable(&vec![vec![1.0, 1.0 + 1e-13, 2.0]]));
+        assert!(!is_representable(&vec![vec![1.0, 1.0 + 1e-15, 2.0]]));
+        assert!(!is_representable(&vec![
+            vec![0.0, 1.0],
+            vec![0.0, 0.0, 1.0]
+        ]));
+    }
+
+    #[test]
+    fn halving_doubles_every_segment() {
+        let mesh = uniform(&[Segment::new(1), Segment::on(2, -1.0, 3.0)], 2);
+        assert_eq!(mesh, [vec![0.0, 0.5, 1.0], vec![-1.0, 1.0, 3.0]]);
+        assert_eq!(intervals(&halved(&mesh)), 8);
+        assert_eq!(halved(&mesh)[1], [-1.0, 0.0, 1.0, 2.0, 3.0]);
     }
 
     #[test]

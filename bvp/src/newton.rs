@@ -4,11 +4,14 @@
 //! Jacobian, is smaller: ‖Δx̄‖ ≤ (1 − λ/4) ‖Δx‖. The test does not change when the equations are
 //! multiplied by any matrix, so it needs no scaling of residuals. Where the simplified corrections
 //! contract fast, the Jacobian is kept and they are the next steps. P. Deuflhard, *Newton Methods
-//! for Nonlinear Problems* (Springer 2004), algorithms NLEQ-ERR (section 3.3.3) and QNERR.
+//! for Nonlinear Problems* (Springer 2004), algorithms NLEQ-ERR (section 3.3.3) and QNERR; a damped
+//! step that could have been longer is not repeated.
 
 use crate::Stats;
 use crate::almost_block_diagonal::Singular;
-use crate::collocation::{Collocation, Iterate, LinearisationError, NonFinite, Residual};
+use crate::collocation::{Collocation, LinearisationError};
+use crate::dense::max_or_nan;
+use crate::iterate::{Iterate, NonFinite, Residual};
 
 /// Simplified corrections that shrink at least this much per step keep the Jacobian: three such
 /// steps gain more than one new linearisation and cost less.
@@ -17,7 +20,8 @@ const KEEP_JACOBIAN_BELOW: f64 = 0.25;
 /// The shortest damped step: below it the path of the iteration has ended at a singular Jacobian.
 const SMALLEST_DAMPING: f64 = 1e-5;
 
-/// A correction this many times the stopping tolerance that no longer shrinks is rounding.
+/// Corrections this many times the stopping tolerance that no longer shrink, or not as fast as those
+/// of Newton's method do so near a solution, are rounding.
 const ROUNDING_FACTOR: f64 = 100.0;
 
 /// Why the iteration stopped short.
@@ -55,12 +59,7 @@ fn norm(x: &Iterate, corrections: &[(f64, &Iterate)]) -> Norm {
     let mut add = |x: f64, delta: f64| {
         let relative = delta / (1.0 + x.abs());
         square += relative * relative;
-        // NaN must not be lost, as f64::max would.
-        largest = if relative.abs() <= largest {
-            largest
-        } else {
-            relative.abs()
-        };
+        largest = max_or_nan(largest, relative.abs());
         count += 1;
     };
     for (index, segment) in x.segments.iter().enumerate() {
@@ -79,11 +78,6 @@ fn norm(x: &Iterate, corrections: &[(f64, &Iterate)]) -> Norm {
         mean: (square / count as f64).sqrt(),
         largest,
     }
-}
-
-/// The largest entry of a correction relative to 1 + |x|.
-pub(crate) fn size(x: &Iterate, correction: &Iterate) -> f64 {
-    norm(x, &[(1.0, correction)]).largest
 }
 
 /// The buffers of the iteration.
@@ -151,15 +145,22 @@ impl Newton {
             }
             self.linearise(collocation, x, stats)?;
             let next = norm(x, &[(1.0, &self.delta)]);
+            let negligible = next.largest <= ROUNDING_FACTOR * tolerance;
+            if negligible && next.mean > KEEP_JACOBIAN_BELOW * size.mean {
+                return Ok(());
+            }
             // Prediction of the damping from the curvature seen over the last step.
             let bent = norm(x, &[(1.0, &self.simplified), (-1.0, &self.delta)]);
             let curvature = bent.mean * next.mean;
             damping = if curvature > 0.0 {
-                (damping * size.mean * shrunk.mean / curvature).min(1.0)
+                (damping * size.mean * shrunk.mean / curvature).clamp(SMALLEST_DAMPING, 1.0)
             } else {
                 1.0
             };
             (size, fresh) = (next, true);
+        }
+        if size.largest <= tolerance {
+            return Ok(());
         }
         Err(Failure::NoConvergence {
             correction: size.largest,
@@ -193,7 +194,7 @@ impl Newton {
         loop {
             self.trial.set_sum(x, *damping, &self.delta);
             let shorter = match collocation.residual(&self.trial, &mut self.residual, stats) {
-                Err(what) if *damping < SMALLEST_DAMPING || !fresh => {
+                Err(what) if 0.25 * *damping < SMALLEST_DAMPING || !fresh => {
                     return Err(Failure::NonFinite(what));
                 }
                 Err(_) => 0.25 * *damping,
@@ -220,6 +221,45 @@ impl Newton {
                 });
             }
             *damping = shorter;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::iterate::SegmentIterate;
+
+    fn iterate(nodes: &[f64], p: &[f64]) -> Iterate {
+        Iterate {
+            segments: vec![SegmentIterate {
+                nodes: nodes.to_vec(),
+                stages: vec![],
+            }],
+            p: p.to_vec(),
+        }
+    }
+
+    #[test]
+    fn a_norm_is_relative_and_counts_parameters() {
+        let x = iterate(&[0.0, 3.0], &[-1.0]);
+        let size = norm(&x, &[(1.0, &iterate(&[1.0, 4.0], &[6.0]))]);
+        assert_eq!(size.largest, 3.0);
+        assert_eq!(size.mean, (11.0f64 / 3.0).sqrt());
+        let minus = iterate(&[0.5, 2.0], &[3.0]);
+        let none = norm(&x, &[(1.0, &iterate(&[1.0, 4.0], &[6.0])), (-2.0, &minus)]);
+        assert_eq!((none.mean, none.largest), (0.0, 0.0));
+    }
+
+    #[test]
+    fn a_norm_keeps_nan_wherever_it_stands() {
+        let x = iterate(&[0.0, 0.0], &[0.0]);
+        for place in 0..3 {
+            let mut values = [1.0; 3];
+            values[place] = f64::NAN;
+            let correction = iterate(&values[..2], &values[2..]);
+            let size = norm(&x, &[(1.0, &correction)]);
+            assert!(size.mean.is_nan() && size.largest.is_nan());
         }
     }
 }

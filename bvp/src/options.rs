@@ -9,9 +9,10 @@ use crate::{Error, Scheme};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The relative defect of the solution in the differential equations, the residuals of the
-    /// conditions, and (unless skipped) the estimated global error relative to 1 + |y| are all
-    /// brought below this number. Between 1e-13 and 1e-1; default 1e-6.
+    /// The defect of the solution in the differential equations relative to 1 + |f|, the residuals
+    /// of the conditions (relative to the size of their terms where that exceeds one), and, unless
+    /// skipped, the estimated global error relative to 1 + |y| are all brought to at most this
+    /// number. Between 1e-13 and 1e-1; default 1e-6.
     pub tolerance: f64,
     /// The collocation scheme; default Gauss with 4 stages.
     pub scheme: Scheme,
@@ -20,8 +21,11 @@ pub struct Options {
     pub initial_intervals: usize,
     /// Largest number of intervals over all segments; default 10 000.
     pub max_intervals: usize,
-    /// Largest number of Newton steps on one mesh; default 40.
+    /// Largest number of Newton steps on one mesh; default 60.
     pub max_newton_steps: usize,
+    /// How often, after a failure of Newton's method, the mesh is halved and the guess taken again;
+    /// default 2. Callers that have a better answer to a failure set 0.
+    pub retries: usize,
     /// How the global error is estimated; default on a halved mesh.
     pub global_error: GlobalError,
 }
@@ -43,7 +47,8 @@ impl Default for Options {
             scheme: Scheme::default(),
             initial_intervals: 10,
             max_intervals: 10_000,
-            max_newton_steps: 40,
+            max_newton_steps: 60,
+            retries: 2,
             global_error: GlobalError::HalvedMesh,
         }
     }

@@ -97,7 +97,8 @@ pub trait Problem {
         self.segments().iter().map(|s| s.states).sum::<usize>() + self.parameters()
     }
 
-    /// The right-hand side: `dy` = f(s, y, p) on `segment`. `dy` has as many entries as `y`.
+    /// The right-hand side: `dy` = f(s, y, p) on `segment`. `dy` has as many entries as `y`, and
+    /// every one must be written.
     fn rhs<T: Real>(&self, segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T]);
 
     /// The conditions: `r` = g(ends, p), zero at the solution. Every entry must be written.

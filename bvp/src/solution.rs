@@ -1,13 +1,15 @@
 //! The continuous solution.
 
-use crate::collocation::Iterate;
-use crate::guess::interval_of;
+use crate::dense::{add_scaled, max_or_nan};
+use crate::global_error::GlobalErrors;
+use crate::guess::{compare_shape, interval_of};
+use crate::iterate::Iterate;
 use crate::mesh::Mesh;
 use crate::scheme::{MAX_STAGES, Tableau};
-use crate::{Guess, Scheme, Segment, Stats};
+use crate::{Error, Guess, Scheme, Segment, Stats};
 use std::sync::Arc;
 
-/// A solution (or, in an [`Error`](crate::Error), the best iterate): a collocation polynomial on
+/// A solution (or, in an [`Error`], the best iterate): a collocation polynomial on
 /// every interval, the parameters, and what is known of their accuracy.
 #[derive(Clone, Debug)]
 pub struct Solution {
@@ -30,17 +32,17 @@ pub(crate) struct Quality {
     pub(crate) errors: Option<GlobalErrors>,
 }
 
-/// Estimated global errors, relative to 1 + |value|.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct GlobalErrors {
-    pub(crate) states: Vec<Vec<f64>>,
-    pub(crate) parameters: Vec<f64>,
-}
-
-impl GlobalErrors {
-    pub(crate) fn largest(&self) -> f64 {
-        let all = self.states.iter().flatten().chain(&self.parameters);
-        all.copied().fold(0.0, f64::max)
+impl Quality {
+    /// Nothing is known.
+    pub(crate) fn unknown(mesh: &Mesh) -> Self {
+        let defects = mesh
+            .iter()
+            .map(|nodes| vec![f64::INFINITY; nodes.len() - 1]);
+        Self {
+            defects: defects.collect(),
+            conditions: f64::INFINITY,
+            errors: None,
+        }
     }
 }
 
@@ -54,10 +56,8 @@ impl Solution {
         let (i, h, theta) = self.locate(segment, s);
         let mut weights = [0.0; MAX_STAGES];
         self.tableau.value_weights(theta, &mut weights);
-        let n = self.segments[segment].states;
         y.copy_from_slice(self.node(segment, i));
         self.add_stages(segment, i, &weights, h, y);
-        debug_assert_eq!(y.len(), n);
     }
 
     /// The derivatives dy/ds of the continuous solution of `segment` at `s`, into `slope`.
@@ -131,7 +131,7 @@ impl Solution {
     /// The largest relative defect; infinite for an iterate that never converged.
     pub fn defect(&self) -> f64 {
         let all = self.quality.defects.iter().flatten();
-        all.copied().reduce(f64::max).unwrap_or(f64::INFINITY)
+        all.copied().reduce(max_or_nan).unwrap_or(f64::INFINITY)
     }
 
     /// The largest |residual| among the conditions; infinite for an iterate that never converged.
@@ -145,8 +145,8 @@ impl Solution {
         self.quality.errors.as_ref().map(GlobalErrors::largest)
     }
 
-    /// The estimated global error of each state of a segment, the largest over all nodes and
-    /// midpoints, relative to 1 + |y|.
+    /// The estimated global error of each state of a segment, the largest over the segment,
+    /// relative to 1 + |y|; `None` as for [`error_estimate`](Self::error_estimate).
     ///
     /// # Panics
     /// If there is no such segment.
@@ -155,7 +155,8 @@ impl Solution {
         Some(&errors.states[segment])
     }
 
-    /// The estimated global error of each parameter, relative to 1 + |p|.
+    /// The estimated global error of each parameter, relative to 1 + |p|; `None` as for
+    /// [`error_estimate`](Self::error_estimate).
     pub fn parameter_errors(&self) -> Option<&[f64]> {
         let errors = self.quality.errors.as_ref()?;
         Some(&errors.parameters)
@@ -164,6 +165,19 @@ impl Solution {
     /// What the solution has cost.
     pub fn stats(&self) -> &Stats {
         &self.stats
+    }
+
+    /// The interval with the largest defect: its segment, left end and length.
+    pub(crate) fn worst_interval(&self) -> (usize, f64, f64) {
+        let (mut worst, mut place) = (f64::NEG_INFINITY, (0, f64::NAN, f64::NAN));
+        for (segment, (nodes, defects)) in self.mesh.iter().zip(&self.quality.defects).enumerate() {
+            for (pair, &defect) in nodes.windows(2).zip(defects) {
+                if defect > worst {
+                    (worst, place) = (defect, (segment, pair[0], pair[1] - pair[0]));
+                }
+            }
+        }
+        place
     }
 
     /// The interval of `segment` with `s`, its length, and the place in it from 0 to 1.
@@ -179,7 +193,7 @@ impl Solution {
         let (n, m) = (y.len(), self.tableau.stages);
         let stages = &self.x.segments[segment].stages[i * m * n..][..m * n];
         for (weight, stage) in weights.iter().zip(stages.chunks_exact(n)) {
-            crate::dense::add_scaled(y, factor * weight, stage);
+            add_scaled(y, factor * weight, stage);
         }
     }
 }
@@ -195,5 +209,14 @@ impl Guess for Solution {
 
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {
         Some(self.mesh.clone())
+    }
+
+    fn check_shape(&self, segments: &[Segment], parameters: usize) -> Result<(), Error> {
+        compare_shape(
+            |segment| self.segments.get(segment).map_or(0, |s| s.states),
+            segments.iter().map(|segment| segment.states),
+            self.x.p.len(),
+            parameters,
+        )
     }
 }

@@ -1,0 +1,150 @@
+//! Elimination of the stages of every interval.
+//!
+//! With the Jacobians J of the right-hand side at the stages, its derivatives `F_p` with respect to
+//! the parameters, stage residuals r and continuity residual c, the linearised equations of an
+//! interval are
+//!
+//! ```text
+//! ┌                    ┐ ┌ δK    ┐   ┌ J δyᵢ + F_p δp − r ┐
+//! │  M               0 │ │       │ = │                    │      M = I − h (a ∘ J)
+//! │ −h (bᵀ ⊗ I)      I │ └ δyᵢ₊₁ ┘   └ δyᵢ − c            ┘
+//! └                    ┘
+//! ```
+//!
+//! With Xᵀ = h (bᵀ ⊗ I) M⁻¹ a link between the two nodes is left,
+//!
+//! ```text
+//! δyᵢ₊₁ = (I + Xᵀ J) δyᵢ + (Xᵀ F_p) δp − Xᵀ r − c
+//! ```
+//!
+//! so only n systems with Mᵀ are solved per interval, whatever the number of parameters. Ascher,
+//! Mattheij & Russell (1995), section 5.6.
+
+use crate::dense::{SingularRow, add_scaled, dot, lu_factor, lu_solve, lu_solve_transposed};
+use crate::iterate::SegmentIterate;
+use crate::scheme::Tableau;
+
+/// What is kept of the stages of one segment to condense residuals and to recover corrections.
+#[derive(Clone, Debug)]
+pub(crate) struct Condensation {
+    /// States n, parameters k and unknowns of all stages of an interval, mn.
+    n: usize,
+    k: usize,
+    size: usize,
+    /// LU factors of M, (mn)² per interval, and their pivots, mn per interval.
+    lu: Vec<f64>,
+    pivots: Vec<usize>,
+    /// Xᵀ, n × mn per interval.
+    adjoint: Vec<f64>,
+    /// J and `F_p` side by side at the stages, m × n × (n + k) per interval.
+    jacobians: Vec<f64>,
+}
+
+impl Condensation {
+    /// Buffers for a segment with n states, k parameters, m stages.
+    pub(crate) fn new(n: usize, k: usize, m: usize, intervals: usize) -> Self {
+        let size = m * n;
+        Self {
+            n,
+            k,
+            size,
+            lu: vec![0.0; intervals * size * size],
+            pivots: vec![0; intervals * size],
+            adjoint: vec![0.0; intervals * n * size],
+            jacobians: vec![0.0; intervals * size * (n + k)],
+        }
+    }
+
+    /// The Jacobians at the stages of interval i, to be filled before [`condense`](Self::condense).
+    pub(crate) fn jacobians_mut(&mut self, i: usize) -> &mut [f64] {
+        let size = self.size * (self.n + self.k);
+        &mut self.jacobians[i * size..][..size]
+    }
+
+    /// Eliminates the stages of interval i of length h: factors M, finds Xᵀ and the `link`
+    /// \[I + Xᵀ J, Xᵀ F\].
+    pub(crate) fn condense(
+        &mut self,
+        i: usize,
+        t: &Tableau,
+        h: f64,
+        link: &mut [f64],
+    ) -> Result<(), SingularRow> {
+        let (m, n, size, columns) = (t.stages, self.n, self.size, self.n + self.k);
+        let jacobians = &self.jacobians[i * size * columns..][..size * columns];
+        let lu = &mut self.lu[i * size * size..][..size * size];
+        let pivots = &mut self.pivots[i * size..][..size];
+        let adjoint = &mut self.adjoint[i * n * size..][..n * size];
+        let rows = lu.chunks_exact_mut(size);
+        for (row, (matrix_row, jacobian_row)) in
+            rows.zip(jacobians.chunks_exact(columns)).enumerate()
+        {
+            let stage = row / n;
+            for (block, a) in matrix_row.chunks_exact_mut(n).zip(&t.a[stage * m..]) {
+                for (x, j) in block.iter_mut().zip(jacobian_row) {
+                    *x = -h * a * j;
+                }
+            }
+            matrix_row[row] += 1.0;
+        }
+        lu_factor(lu, size, pivots)?;
+        for (row, (x, link)) in adjoint
+            .chunks_exact_mut(size)
+            .zip(link.chunks_exact_mut(columns))
+            .enumerate()
+        {
+            x.fill(0.0);
+            for (b, x) in t.b.iter().zip(x[row..].iter_mut().step_by(n)) {
+                *x = h * b;
+            }
+            lu_solve_transposed(lu, size, pivots, x);
+            link.fill(0.0);
+            link[row] = 1.0;
+            for (x, jacobian) in x.iter().zip(jacobians.chunks_exact(columns)) {
+                add_scaled(link, *x, jacobian);
+            }
+        }
+        Ok(())
+    }
+
+    /// The right-hand sides −Xᵀ r − c of all links, into the slots of nodes 1 … N of `nodes`.
+    pub(crate) fn reduce(&self, residual: &SegmentIterate, nodes: &mut [f64]) {
+        let (n, size) = (self.n, self.size);
+        let intervals = self
+            .adjoint
+            .chunks_exact(n * size)
+            .zip(residual.stages.chunks_exact(size))
+            .zip(residual.nodes[n..].chunks_exact(n))
+            .zip(nodes[n..].chunks_exact_mut(n));
+        for (((adjoint, r), c), g) in intervals {
+            for ((g, row), c) in g.iter_mut().zip(adjoint.chunks_exact(size)).zip(c) {
+                *g = -dot(row, r) - c;
+            }
+        }
+    }
+
+    /// The corrections of the stages, δK = M⁻¹ (J δy + F δp − r), once those of the nodes and of
+    /// the parameters are known.
+    pub(crate) fn recover(
+        &self,
+        residual: &SegmentIterate,
+        correction: &mut SegmentIterate,
+        dp: &[f64],
+    ) {
+        let (n, size, columns) = (self.n, self.size, self.n + self.k);
+        let SegmentIterate { nodes, stages } = correction;
+        let intervals = stages
+            .chunks_exact_mut(size)
+            .zip(nodes.chunks_exact(n))
+            .zip(residual.stages.chunks_exact(size))
+            .zip(self.jacobians.chunks_exact(size * columns));
+        for (i, (((stages, dy), r), jacobians)) in intervals.enumerate() {
+            let rows = stages.iter_mut().zip(jacobians.chunks_exact(columns));
+            for ((slope, row), r) in rows.zip(r) {
+                *slope = dot(&row[..n], dy) + dot(&row[n..], dp) - r;
+            }
+            let lu = &self.lu[i * size * size..][..size * size];
+            lu_solve(lu, size, &self.pivots[i * size..][..size], stages);
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Every kind of guess, and restarts.
+
+use crate::end_to_end::Mathieu;
+use crate::exact::{bratu, exponential};
+use bvp::{
+    Constant, Function, GlobalError, Guess, Options, Scheme, Segment, Solution, Table, solve,
+};
+
+fn options() -> Options {
+    Options {
+        tolerance: 1e-8,
+        ..Options::default()
+    }
+}
+
+#[test]
+fn constant_function_and_table_reach_the_same_solution() {
+    let problem = bratu(1.5);
+    let constant = Constant {
+        states: vec![vec![0.1, 0.0]],
+        parameters: vec![],
+    };
+    let function = Function {
+        state: |_: usize, s: f64, y: &mut [f64]| {
+            y[0] = s * (1.0 - s);
+            y[1] = 1.0 - 2.0 * s;
+        },
+        parameters: vec![],
+    };
+    let table = Table {
+        nodes: vec![vec![0.0, 0.3, 0.7, 1.0]],
+        states: vec![vec![0.0, 1.0, 0.2, 0.0, 0.2, 0.0, 0.0, -1.0]],
+        parameters: vec![],
+    };
+    let guesses: [&dyn Guess; 3] = [&constant, &function, &table];
+    for guess in guesses {
+        let solution = solve(&*problem.equations, guess, &options()).unwrap();
+        // λ = 1, lower branch: y(½) = 0.140539214400...
+        let mut y = [0.0; 2];
+        solution.state(0, 0.5, &mut y);
+        let mut exact = [0.0; 2];
+        problem.state(0, 0.5, &mut exact);
+        assert!((y[0] - exact[0]).abs() < 1e-8);
+        assert!((exact[0] - 0.140_539_214_4).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_table_brings_its_mesh() {
+    let problem = exponential(1.0);
+    let nodes = vec![0.0, 0.1, 0.4, 1.0];
+    let table = Table {
+        nodes: vec![nodes.clone()],
+        states: vec![vec![0.0; 8]],
+        parameters: vec![],
+    };
+    let loose = Options {
+        tolerance: 1e-4,
+        ..options()
+    };
+    let solution = solve(&*problem.equations, &table, &loose).unwrap();
+    assert_eq!(solution.mesh(0), nodes);
+    assert_eq!(solution.stats().meshes, 1);
+}
+
+fn mathieu() -> Solution {
+    let guess = Mathieu::guess();
+    solve(&Mathieu, &guess, &options()).unwrap()
+}
+
+#[test]
+fn a_restart_on_the_same_mesh_costs_one_linearisation_and_the_estimate() {
+    let first = mathieu();
+    let again = solve(&Mathieu, &first, &options()).unwrap();
+    assert_eq!(again.mesh(0), first.mesh(0));
+    let stats = again.stats();
+    assert_eq!(stats.meshes, 1);
+    assert_eq!(stats.newton_steps, 1);
+    // One for the step and one, on the halved mesh, for the estimate of the error.
+    assert_eq!(stats.factorisations, 2);
+    let skip = Options {
+        global_error: GlobalError::Skip,
+        ..options()
+    };
+    let cheapest = solve(&Mathieu, &first, &skip).unwrap();
+    assert_eq!(cheapest.stats().factorisations, 1);
+    assert_eq!(cheapest.error_estimate(), None);
+    assert_eq!(cheapest.state_errors(0), None);
+    assert_eq!(cheapest.parameter_errors(), None);
+}
+
+#[test]
+fn a_solution_of_another_scheme_is_a_guess() {
+    let first = mathieu();
+    let scheme = Scheme::LobattoIIIA { stages: 4 };
+    let lobatto = Options {
+        scheme,
+        ..options()
+    };
+    let other = solve(&Mathieu, &first, &lobatto).unwrap();
+    assert_eq!(other.scheme(), scheme);
+    assert!((other.parameters()[0] - first.parameters()[0]).abs() < 1e-7);
+}
+
+#[test]
+fn a_solution_can_be_asked_for_everything() {
+    let solution = mathieu();
+    assert_eq!(
+        solution.segments(),
+        [Segment::on(2, 0.0, std::f64::consts::PI)]
+    );
+    assert_eq!(solution.scheme(), Scheme::default());
+    let nodes = solution.mesh(0);
+    assert_eq!(solution.defects(0).len(), nodes.len() - 1);
+    let largest = solution.defects(0).iter().copied().fold(0.0, f64::max);
+    assert_eq!(solution.defect(), largest);
+    assert!(largest <= options().tolerance);
+    assert!(solution.condition_residual() <= options().tolerance);
+    let errors = solution.state_errors(0).unwrap();
+    let parameter = solution.parameter_errors().unwrap();
+    let largest = errors.iter().chain(parameter).copied().fold(0.0, f64::max);
+    assert_eq!(solution.error_estimate(), Some(largest));
+    assert!(largest <= options().tolerance);
+
+    // The continuous solution passes through its nodes and satisfies the equation.
+    let (mut y, mut slope) = ([0.0; 2], [0.0; 2]);
+    for (i, &s) in nodes.iter().enumerate() {
+        solution.state(0, s, &mut y);
+        let node = solution.node(0, i);
+        assert!((y[0] - node[0]).abs() < 1e-12 && (y[1] - node[1]).abs() < 1e-12);
+        solution.derivative(0, s, &mut slope);
+        assert!((slope[0] - y[1]).abs() < 1e-5);
+    }
+    assert_eq!(solution.start(0), solution.node(0, 0));
+    assert_eq!(solution.end(0), solution.node(0, nodes.len() - 1));
+}

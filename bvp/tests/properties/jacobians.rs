@@ -1,0 +1,248 @@
+//! Derivatives of one problem from three sources, and of problems of every size.
+
+use bvp::{
+    Constant, Differenced, Ends, Equations, FiniteDifferences, Function, Options, Place, Problem,
+    Real, Segment, check_jacobians, solve,
+};
+
+/// A forced pendulum with unknown duration p₀ and damping p₁, and nonlinear conditions.
+struct Pendulum;
+
+impl Problem for Pendulum {
+    fn segments(&self) -> &[Segment] {
+        const { &[Segment::new(2)] }
+    }
+
+    fn parameters(&self) -> usize {
+        2
+    }
+
+    fn rhs<T: Real>(&self, _: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
+        dy[0] = p[0] * y[1];
+        dy[1] = p[0] * (s * 0.1 - y[0].sin() - p[1] * y[1] * y[1].abs());
+    }
+
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]) {
+        let (start, end) = (at.start(0), at.end(0));
+        r[0] = start[0] - 1.0;
+        r[1] = start[1] * p[0];
+        r[2] = end[1] * p[0];
+        r[3] = end[0] * end[0] - 0.64 + p[1] * 0.1;
+    }
+}
+
+/// The same by hand.
+struct ByHand;
+
+impl Equations for ByHand {
+    fn segments(&self) -> &[Segment] {
+        const { &[Segment::new(2)] }
+    }
+
+    fn parameters(&self) -> usize {
+        2
+    }
+
+    fn condition_count(&self) -> usize {
+        4
+    }
+
+    fn rhs(&self, _: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        dy[0] = p[0] * y[1];
+        dy[1] = p[0] * (0.1 * s - y[0].sin() - p[1] * y[1] * y[1].abs());
+    }
+
+    fn rhs_jacobian(
+        &self,
+        segment: usize,
+        s: f64,
+        y: &[f64],
+        p: &[f64],
+        dy: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        self.rhs(segment, s, y, p, dy);
+        let drag = y[1] * y[1].abs();
+        jacobian.copy_from_slice(&[
+            0.0,
+            p[0],
+            y[1],
+            0.0,
+            -p[0] * y[0].cos(),
+            -2.0 * p[0] * p[1] * y[1].abs(),
+            0.1 * s - y[0].sin() - p[1] * drag,
+            -p[0] * drag,
+        ]);
+    }
+
+    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+        let (start, end) = (at.start(0), at.end(0));
+        r[0] = start[0] - 1.0;
+        r[1] = start[1] * p[0];
+        r[2] = end[1] * p[0];
+        r[3] = end[0] * end[0] - 0.64 + 0.1 * p[1];
+    }
+
+    #[rustfmt::skip]
+    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
+        self.conditions(Ends::new(self.segments(), ends), p, r);
+        jacobian.copy_from_slice(&[
+            1.0, 0.0,  0.0,           0.0,  0.0,     0.0,
+            0.0, p[0], 0.0,           0.0,  ends[1], 0.0,
+            0.0, 0.0,  0.0,           p[0], ends[3], 0.0,
+            0.0, 0.0,  2.0 * ends[2], 0.0,  0.0,     0.1,
+        ]);
+    }
+}
+
+fn by_differences() -> impl Equations {
+    FiniteDifferences {
+        segments: vec![Segment::new(2)],
+        parameters: 2,
+        condition_count: 4,
+        rhs: |segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]| {
+            ByHand.rhs(segment, s, y, p, dy);
+        },
+        conditions: |at: Ends<'_, f64>, p: &[f64], r: &mut [f64]| ByHand.conditions(at, p, r),
+    }
+}
+
+/// Half a swing from 1 to about −0.8.
+fn guess() -> Function<fn(usize, f64, &mut [f64])> {
+    Function {
+        state: |_, s, y| {
+            let angle = std::f64::consts::PI * s;
+            y[0] = 0.1 + 0.9 * angle.cos();
+            y[1] = -0.9 * angle.sin();
+        },
+        parameters: vec![3.3, 0.1],
+    }
+}
+
+#[test]
+fn three_sources_of_derivatives_agree() {
+    let exact = check_jacobians(&Pendulum, &ByHand, &guess());
+    assert!(exact.difference < 1e-13, "{exact:?}");
+    for equations in [&Pendulum as &dyn Equations, &ByHand] {
+        let check = check_jacobians(equations, &by_differences(), &guess());
+        assert!(check.difference < 1e-8, "{check:?}");
+        let check = check_jacobians(equations, &Differenced(equations), &guess());
+        assert!(check.difference < 1e-8, "{check:?}");
+    }
+}
+
+#[test]
+fn three_sources_of_derivatives_give_one_solution() {
+    let options = Options {
+        tolerance: 1e-9,
+        ..Options::default()
+    };
+    let solutions = [&Pendulum as &dyn Equations, &ByHand, &by_differences()]
+        .map(|equations| solve(equations, &guess(), &options).unwrap());
+    let [exact, by_hand, differenced] = solutions;
+    assert_eq!(exact.stats().newton_steps, by_hand.stats().newton_steps);
+    for other in [by_hand, differenced] {
+        for (a, b) in exact.parameters().iter().zip(other.parameters()) {
+            assert!((a - b).abs() < 1e-10, "{a} {b}");
+        }
+    }
+}
+
+/// A wrong entry of a hand-written Jacobian.
+struct Mistaken;
+
+impl Equations for Mistaken {
+    fn segments(&self) -> &[Segment] {
+        Equations::segments(&ByHand)
+    }
+
+    fn parameters(&self) -> usize {
+        2
+    }
+
+    fn condition_count(&self) -> usize {
+        4
+    }
+
+    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        ByHand.rhs(segment, s, y, p, dy);
+    }
+
+    fn rhs_jacobian(
+        &self,
+        segment: usize,
+        s: f64,
+        y: &[f64],
+        p: &[f64],
+        dy: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        ByHand.rhs_jacobian(segment, s, y, p, dy, jacobian);
+        jacobian[4] *= 2.0;
+    }
+
+    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+        ByHand.conditions(at, p, r);
+    }
+
+    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
+        ByHand.conditions_jacobian(ends, p, r, jacobian);
+    }
+}
+
+#[test]
+fn a_mistake_is_found_where_it_is() {
+    let check = check_jacobians(&Mistaken, &Pendulum, &guess());
+    assert!(check.difference > 0.1);
+    let Place::Rhs {
+        segment: 0,
+        component: 1,
+        column: Some(0),
+        ..
+    } = check.place
+    else {
+        panic!("{check:?}")
+    };
+}
+
+/// n states in a nonlinear ring, one parameter: every width of dual number.
+struct Ring(Vec<Segment>);
+
+impl Problem for Ring {
+    fn segments(&self) -> &[Segment] {
+        &self.0
+    }
+
+    fn parameters(&self) -> usize {
+        1
+    }
+
+    fn rhs<T: Real>(&self, _: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
+        let n = y.len();
+        for i in 0..n {
+            dy[i] = (y[(i + 1) % n] * p[0]).sin() - y[i] * s + y[(i + 5) % n].powi(2);
+        }
+    }
+
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]) {
+        let (start, end) = (at.start(0), at.end(0));
+        let n = start.len();
+        for i in 0..n {
+            r[i] = start[i] * end[(i + 2) % n] - p[0];
+        }
+        r[n] = start[0] + end[n - 1].exp();
+    }
+}
+
+#[test]
+fn every_number_of_directions_is_differentiated() {
+    for n in 1..=30 {
+        let ring = Ring(vec![Segment::new(n)]);
+        let guess = Constant {
+            states: vec![(0..n).map(|i| (1.0 + i as f64).sin()).collect()],
+            parameters: vec![0.7],
+        };
+        let check = check_jacobians(&ring, &Differenced(&ring), &guess);
+        assert!(check.difference < 1e-8, "{n}: {check:?}");
+    }
+}
