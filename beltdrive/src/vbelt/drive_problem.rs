@@ -163,6 +163,11 @@ impl DriveProblem {
         matches!(self.grooves[DRIVER].law, Law::Epp { .. })
     }
 
+    /// Whether those zones are segments.
+    pub(crate) fn is_split(&self) -> bool {
+        self.regimes.iter().all(|&regime| regime != Regime::Either)
+    }
+
     /// The normalisation ε of the slip direction.
     pub(crate) fn epsilon(&self) -> f64 {
         self.grooves[DRIVER].epsilon

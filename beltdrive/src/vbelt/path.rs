@@ -191,7 +191,13 @@ impl<'a> Path<'a> {
                     if solved.solution.stats().newton_steps <= EASY {
                         step *= 2.0;
                     }
-                    (here, t) = (self.split_zones(solved, effort)?, next);
+                    let zoned = solved.problem.is_split();
+                    here = if zoned {
+                        self.split_zones(solved, effort)?
+                    } else {
+                        solved
+                    };
+                    t = next;
                 }
                 Err(cause) => {
                     step = 0.4 * (next - t).abs();
