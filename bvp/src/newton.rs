@@ -21,8 +21,11 @@ const KEEP_JACOBIAN_BELOW: f64 = 0.25;
 const SMALLEST_DAMPING: f64 = 1e-5;
 
 /// Corrections this many times the stopping tolerance that no longer shrink, or not as fast as those
-/// of Newton's method do so near a solution, are rounding.
+/// of Newton's method do so near a solution, are rounding, ...
 const ROUNDING_FACTOR: f64 = 100.0;
+/// ... unless they are larger than this: rounding amplified by more than 1e8 is not told from a
+/// failure to converge.
+const LARGEST_ROUNDING: f64 = 1e-8;
 
 /// Why the iteration stopped short.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,6 +115,7 @@ impl Newton {
         let mut fresh = true;
         let mut size = norm(x, &[(1.0, &self.delta)]);
         let mut damping = 1.0;
+        let rounding = (ROUNDING_FACTOR * tolerance).min(LARGEST_ROUNDING);
         for _ in 0..max_steps {
             if !size.largest.is_finite() {
                 return Err(Failure::Singular(Singular::Ends));
@@ -124,7 +128,7 @@ impl Newton {
             }
             let shrunk = match self.step(collocation, x, size, &mut damping, fresh, stats) {
                 Ok(shrunk) => shrunk,
-                Err(_) if size.largest <= ROUNDING_FACTOR * tolerance => return Ok(()),
+                Err(_) if size.largest <= rounding => return Ok(()),
                 Err(_) if !fresh => {
                     // The kept Jacobian is too old: take a new one at the same point.
                     self.linearise(collocation, x, stats)?;
@@ -145,7 +149,7 @@ impl Newton {
             }
             self.linearise(collocation, x, stats)?;
             let next = norm(x, &[(1.0, &self.delta)]);
-            let negligible = next.largest <= ROUNDING_FACTOR * tolerance;
+            let negligible = next.largest <= rounding;
             if negligible && next.mean > KEEP_JACOBIAN_BELOW * size.mean {
                 return Ok(());
             }

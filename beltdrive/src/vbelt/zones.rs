@@ -12,6 +12,9 @@ const SAMPLES: usize = 8;
 /// A zone shorter than this share of the contact is not told from its neighbours.
 const SHORTEST_ZONE: f64 = 1e-4;
 
+/// Nodes nearer than this to each other or to the ends of a zone, in its length, are left out.
+const NODE_MARGIN: f64 = 1e-4;
+
 /// A zone of one kind between two places on a pulley, in scaled arc length from the entry.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Zone {
@@ -197,5 +200,30 @@ impl bvp::Guess for Cut<'_> {
             p[DriveProblem::length_index(segment)] = zone.to - zone.from;
         }
         p[DriveProblem::length_index(self.zones.len())..].fill(self.solved.tight_tension());
+    }
+
+    /// The nodes of the solution, cut at the zones.
+    fn mesh(&self) -> Option<Vec<Vec<f64>>> {
+        let p = self.solved.solution.parameters();
+        let places = [DRIVEN, DRIVER].map(|pulley| {
+            let (mut places, mut before) = (Vec::new(), 0.0);
+            for segment in self.solved.problem.zones(pulley) {
+                let length = p[DriveProblem::length_index(segment)];
+                let nodes = self.solved.solution.mesh(segment);
+                places.extend(nodes.iter().map(|s| before + s * length));
+                before += length;
+            }
+            places
+        });
+        let nodes = |(index, zone): (usize, &Zone)| {
+            let within = places[self.pulley(index)]
+                .iter()
+                .map(|place| (place - zone.from) / (zone.to - zone.from))
+                .filter(|s| (NODE_MARGIN..=1.0 - NODE_MARGIN).contains(s));
+            let mut nodes: Vec<f64> = [0.0].into_iter().chain(within).chain([1.0]).collect();
+            nodes.dedup_by(|b, a| *b - *a < NODE_MARGIN);
+            nodes
+        };
+        Some(self.zones.iter().enumerate().map(nodes).collect())
     }
 }
