@@ -14,9 +14,14 @@ use super::path::{Carried, Effort, Path, Solved, Stuck};
 use super::{DRIVER, DriveProblem, INCLINATION, Instead};
 use std::f64::consts::FRAC_PI_2;
 
-/// Shares of the load (geometrically between slack and tight tension) from which it is approached,
-/// in this order.
+/// Smaller loads from which the load is approached: shares of the way from slack to tight tension,
+/// in logarithms.
 const SMALLER_LOADS: [f64; 5] = [0.75, 0.55, 0.35, 0.2, 0.08];
+/// Larger loads from which it is approached: multiples of the tight tension.
+const LARGER_LOADS: [f64; 3] = [1.5, 2.5, 5.0];
+/// Below this ratio of tight to slack tension the belt hardly slips, which makes a load harder to
+/// find than a larger one.
+const LOW_RATIO: f64 = 2.0;
 /// First step of the approach, in the logarithm of the tight tension.
 const LOAD_STEP: f64 = 0.1;
 /// First step in the logarithm of the contact length of the driver.
@@ -72,13 +77,27 @@ impl Path<'_> {
             Err(stuck) => stuck,
         };
         let slack = self.drive.load.slack.value() / self.scales.force;
-        for share in SMALLER_LOADS {
-            let smaller = slack * (target / slack).powf(share);
-            if let Ok(solved) = self.at_load(smaller) {
-                return match self.classify(solved)? {
-                    Found::State(solved) => self.climb(*solved, target),
-                    beyond @ Found::Beyond(_) => Ok(beyond),
-                };
+        let ratio = target / slack;
+        let smaller = SMALLER_LOADS.map(|share| slack * ratio.powf(share));
+        let larger = LARGER_LOADS.map(|factor| target * factor);
+        let others = if ratio < LOW_RATIO {
+            [larger.as_slice(), &smaller].concat()
+        } else {
+            [smaller.as_slice(), &larger].concat()
+        };
+        for load in others {
+            let Ok(solved) = self.at_load(load) else {
+                continue;
+            };
+            match self.classify(solved)? {
+                Found::State(solved) => {
+                    if let Ok(found) = self.approach(*solved, target) {
+                        return Ok(found);
+                    }
+                }
+                // The range ends between the two loads.
+                beyond if load <= target => return Ok(beyond),
+                Found::Beyond(_) => {}
             }
         }
         Err(direct)
@@ -101,21 +120,23 @@ impl Path<'_> {
         })))
     }
 
-    /// Raises the load of a state to `target`, around a limit point if there is one on the way.
-    fn climb(&mut self, start: Solved, target: f64) -> Result<Found, Stuck> {
+    /// Changes the load of a state to `target`, around a limit point if there is one on the way up.
+    fn approach(&mut self, start: Solved, target: f64) -> Result<Found, Stuck> {
         let range = [start.tight_tension().ln(), target.ln()];
         let member = |problem: &DriveProblem, t: f64| problem.clone().with_tight_tension(t.exp());
         match self.follow(start, range, LOAD_STEP, Effort::Careful, member) {
             Ok(solved) => {
-                let solved = self.again(solved, Effort::Final)?;
+                let solved = self.finish(solved)?;
                 self.classify(solved)
             }
             Err(Stuck {
                 last: Some(last), ..
-            }) if last.driven_speed() > 0.0 => self.lengthen(*last, target),
+            }) if last.driven_speed() > 0.0 && last.tight_tension() < target => {
+                self.lengthen(*last, target)
+            }
             Err(Stuck {
                 last: Some(last), ..
-            }) => self.classify(*last),
+            }) if last.driven_speed() <= 0.0 => self.classify(*last),
             Err(stuck) => Err(stuck),
         }
     }
@@ -142,14 +163,7 @@ impl Path<'_> {
                 return self.classify(next);
             }
             if next.tight_tension() >= target {
-                let problem = next.problem.clone().with_tight_tension(target);
-                let solved = self
-                    .attempt(problem, &Carried(&next), Effort::Final)
-                    .map_err(|cause| Stuck {
-                        last: Some(Box::new(next)),
-                        cause,
-                    })?;
-                return self.classify(solved);
+                return self.arrive(next, target);
             }
             if next.tight_tension() < here.tight_tension() {
                 let first = before.unwrap_or_else(|| here.clone());
@@ -158,8 +172,20 @@ impl Path<'_> {
             step *= 1.3;
             before = Some(std::mem::replace(&mut here, next));
         }
-        self.again(here, Effort::Final)
-            .map(|solved| Found::State(Box::new(solved)))
+        self.arrive(here, target)
+    }
+
+    /// The state at the load `target`, from a neighbour.
+    fn arrive(&mut self, from: Solved, target: f64) -> Result<Found, Stuck> {
+        let problem = from.problem.clone().with_tight_tension(target);
+        let solved = self
+            .attempt(problem, &Carried(&from), Effort::Careful)
+            .map_err(|cause| Stuck {
+                last: Some(Box::new(from)),
+                cause,
+            })?;
+        let solved = self.finish(solved)?;
+        self.classify(solved)
     }
 
     /// The state with another contact length of the driver, from a neighbour.

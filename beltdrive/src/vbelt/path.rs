@@ -144,12 +144,14 @@ impl<'a> Path<'a> {
         let (tolerance, stages, max_newton_steps) = match effort {
             Effort::Rough => (self.tolerance.max(1e-2), 4, 16),
             Effort::Careful => (self.tolerance.max(1e-4), 5, 16),
-            Effort::Full | Effort::Final => (self.tolerance, 5, 30),
+            Effort::Full | Effort::Final => (self.tolerance, 6, 30),
         };
         let options = Options {
             tolerance,
             scheme: Scheme::Gauss { stages },
-            initial_intervals: 16,
+            // Of a solve from the guess: a better first mesh saves Newton steps where one problem
+            // is all there is.
+            initial_intervals: if effort == Effort::Final { 40 } else { 16 },
             max_newton_steps,
             // A shorter step of the homotopy is a better answer to a failure than a finer mesh.
             retries: 0,
@@ -220,11 +222,19 @@ impl<'a> Path<'a> {
             |path: &Self, stiffness| path.problem(FrictionLaw::Bristle { stiffness }, 0.0, tight);
         let FrictionLaw::Bristle { stiffness } = self.drive.law else {
             let start = self.from_guess(bristles(self, soft), Effort::Rough)?;
-            let mut here = self.enter_coulomb(start, tight)?;
-            if let FrictionLaw::Epp { .. } = self.drive.law {
-                here = self.enter_epp(here, tight)?;
+            let coulomb = self.enter_coulomb(start, tight)?;
+            if let FrictionLaw::Coulomb = self.drive.law {
+                let sharp = self.lower_epsilon(coulomb, RESOLVED_EPSILON)?;
+                return self.finish(sharp);
             }
-            return self.sharpen(here);
+            return self
+                .enter_epp(coulomb.clone(), tight)
+                .and_then(|epp| self.lower_epsilon(epp, RESOLVED_EPSILON))
+                .or_else(|_| {
+                    let sharp = self.lower_epsilon(coulomb, RESOLVED_EPSILON)?;
+                    self.enter_epp(sharp, tight)
+                })
+                .and_then(|epp| self.finish(epp));
         };
         if let Ok(solved) = self.from_guess(bristles(self, stiffness), Effort::Final) {
             return Ok(solved);
@@ -233,7 +243,7 @@ impl<'a> Path<'a> {
         let range = [soft.ln(), stiffness.ln()];
         let member = |problem: &DriveProblem, t: f64| problem.clone().with_bristles(t.exp());
         let stiffer = self.follow(start, range, GREAT_STEP, Effort::Rough, member)?;
-        self.again(stiffer, Effort::Final)
+        self.finish(stiffer)
     }
 
     /// Solves a problem from the frictionless guess.
@@ -313,11 +323,13 @@ impl<'a> Path<'a> {
         Ok(here)
     }
 
-    /// Lowers ε until its effect is below the tolerance, and solves to the tolerance.
-    fn sharpen(&mut self, start: Solved) -> Result<Solved, Stuck> {
-        let rough = self.lower_epsilon(start, RESOLVED_EPSILON)?;
-        let mut here = self.again(rough, Effort::Full)?;
-        here = self.split_zones(here, Effort::Full)?;
+    /// Solves to the tolerance, and lowers ε until its effect is below that.
+    pub(super) fn finish(&mut self, rough: Solved) -> Result<Solved, Stuck> {
+        if let FrictionLaw::Bristle { .. } = self.drive.law {
+            return self.again(rough, Effort::Final);
+        }
+        let full = self.again(rough, Effort::Full)?;
+        let mut here = self.split_zones(full, Effort::Full)?;
         loop {
             let epsilon = here.problem.epsilon();
             let range = [epsilon.ln(), (0.1 * epsilon).ln()];
