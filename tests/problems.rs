@@ -22,6 +22,11 @@
 //!     let computed = [(1.0 - x).sinh() / 1f64.sinh(), -(1.0 - x).cosh() / 1f64.sinh()];
 //!     assert!(scaled_error(&computed, y) < 1e-15);
 //! }
+//!
+//! // A case is its own guess.
+//! let solution = bvp::solve(&*case.equations, &case, &bvp::Options::default())?;
+//! assert!((solution.start(0)[1] + 1f64.cosh() / 1f64.sinh()).abs() < 1e-6);
+//! # Ok::<(), bvp::Error>(())
 //! ```
 
 #[path = "problems/eigenvalues.rs"]
@@ -116,6 +121,28 @@ impl Case {
     fn with_intervals(mut self, intervals: usize) -> Self {
         self.initial_intervals = intervals;
         self
+    }
+}
+
+/// A case is the guess that it states, on equal intervals.
+impl bvp::Guess for Case {
+    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
+        (self.guess)(segment, s, y);
+    }
+
+    fn parameters(&self, p: &mut [f64]) {
+        p.copy_from_slice(&self.parameter_guess);
+    }
+
+    fn mesh(&self) -> Option<Vec<Vec<f64>>> {
+        let segments = self.equations.segments();
+        let count = self.initial_intervals.div_ceil(segments.len());
+        let nodes = |segment: &Segment| -> Vec<f64> {
+            let length = segment.to - segment.from;
+            let inner = (0..count).map(|i| segment.from + length * i as f64 / count as f64);
+            inner.chain([segment.to]).collect()
+        };
+        Some(segments.iter().map(nodes).collect())
     }
 }
 

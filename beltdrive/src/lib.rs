@@ -1,4 +1,39 @@
-//! Steady mechanics of belt drives.
+//! Steady mechanics of belt drives: from a drive to its slip, wrap angles, torque and limits.
+//!
+//! A two-pulley V-belt drive is a string with axial stretch that sinks into the groove of each
+//! pulley. [`solve`] finds its steady state — as a boundary value problem with unknown contact
+//! lengths, closed by the plane geometry of the drive — for Coulomb, elastic/perfectly-plastic and
+//! bristle friction, from nothing but the [`Drive`], and says how accurate it is; a load that no
+//! steady state carries is refused with the limit and its reason ([`SolveError`]).
+//!
+//! # Conventions
+//!
+//! SI units throughout, angles in radians; units exist only in drive files ([`input`]). The driven
+//! pulley has index 1 in formulas, the driver 2. The belt runs driven pulley, tight span, driver,
+//! slack span. On each pulley the arc length s and the angle φ start where the belt enters;
+//! tension is positive in traction, the inclination θ of the belt to the local circle is positive
+//! outward, the penetration x is positive inward. The tractive tension is F = T − G V with the
+//! belt tension T, the mass flow G and the belt speed V.
+//!
+//! # Assumptions
+//!
+//! Steady motion in one plane; a string without bending stiffness; a linear elastic belt, axially
+//! and radially; equal faces of a groove; no thermal effects. Beyond an inclination of 90° the belt
+//! overhangs itself: such states solve the equations and carry a [`Warning`].
+//!
+//! # Example
+//!
+//! ```
+//! use beltdrive::{SolveOptions, examples, input, solve};
+//!
+//! let example = examples::find("kim2009").expect("a shipped example");
+//! let load = ["load.tight_tractive_tension = 1200 N".to_owned()];
+//! let drive = input::parse(example.name, example.text, &load)?;
+//! let state = solve(&drive, &SolveOptions::default())?;
+//! assert!((state.driven.angular_speed - 100.426086).abs() < 1e-4);
+//! assert!(state.convergence.error_estimate < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod drive;
 pub mod examples;
@@ -12,4 +47,9 @@ pub use drive::{Belt, Drive, FrictionLaw, Load, SpanTension};
 pub use steady_state::{
     Check, Convergence, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind,
 };
-pub use vbelt::{LimitReason, SolveError, SolveOptions, solve};
+pub use vbelt::{LimitReason, SolveError, SolveOptions, solve, solve_from};
+
+/// The examples of the README are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;

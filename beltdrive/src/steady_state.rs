@@ -1,7 +1,9 @@
 //! The steady state of a drive: everything that reports, tables and figures show.
 
 use crate::Drive;
+use crate::vbelt::Solved;
 use serde::Serialize;
+use std::sync::Arc;
 
 /// The steady state of a two-pulley drive. SI units; the names of serialised keys carry theirs.
 #[derive(Clone, Debug)]
@@ -38,6 +40,8 @@ pub struct SteadyState {
     pub checks: Vec<Check>,
     /// How the numbers were reached and how accurate they are.
     pub convergence: Convergence,
+    /// The solution behind the numbers, from which a neighbouring drive is solved.
+    pub(crate) restart: Option<Arc<Solved>>,
 }
 
 /// The state of one pulley and of the belt on it.

@@ -88,16 +88,15 @@ impl Condensation {
             matrix_row[row] += 1.0;
         }
         lu_factor(lu, size, pivots)?;
-        for (row, (x, link)) in adjoint
-            .chunks_exact_mut(size)
-            .zip(link.chunks_exact_mut(columns))
-            .enumerate()
-        {
-            x.fill(0.0);
+        adjoint.fill(0.0);
+        for (row, x) in adjoint.chunks_exact_mut(size).enumerate() {
             for (b, x) in t.b.iter().zip(x[row..].iter_mut().step_by(n)) {
                 *x = h * b;
             }
-            lu_solve_transposed(lu, size, pivots, x);
+        }
+        lu_solve_transposed(lu, size, pivots, adjoint);
+        let rows = adjoint.chunks_exact(size);
+        for (row, (x, link)) in rows.zip(link.chunks_exact_mut(columns)).enumerate() {
             link.fill(0.0);
             link[row] = 1.0;
             for (x, jacobian) in x.iter().zip(jacobians.chunks_exact(columns)) {

@@ -4,40 +4,82 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SingularRow(pub(crate) usize);
 
-/// Replaces the n × n matrix `a` by its factors L and U with row pivoting, P A = L U.
+/// Columns eliminated together, and right-hand sides solved together: rows of a few dozen numbers
+/// are too short for the bookkeeping of one update each.
+const PANEL: usize = 4;
+
+/// Replaces the n × n matrix `a` by its factors L and U with row pivoting, P A = L U, in panels of
+/// [`PANEL`] columns (Golub & Van Loan, *Matrix Computations*, 4th ed., section 3.2.11).
 /// `pivots[i]` is the row that was exchanged with row i.
 pub(crate) fn lu_factor(a: &mut [f64], n: usize, pivots: &mut [usize]) -> Result<(), SingularRow> {
-    for column in 0..n {
-        let mut pivot = column;
-        let mut largest = a[column * n + column].abs();
-        for row in column + 1..n {
-            let candidate = a[row * n + column].abs();
-            if candidate > largest {
-                (pivot, largest) = (row, candidate);
+    for first in (0..n).step_by(PANEL) {
+        let last = (first + PANEL).min(n);
+        for column in first..last {
+            let mut pivot = column;
+            let mut largest = a[column * n + column].abs();
+            for row in column + 1..n {
+                let candidate = a[row * n + column].abs();
+                if candidate > largest {
+                    (pivot, largest) = (row, candidate);
+                }
             }
-        }
-        if !(largest > 0.0 && largest.is_finite()) {
-            return Err(SingularRow(column));
-        }
-        pivots[column] = pivot;
-        if pivot != column {
-            let (upper, lower) = a.split_at_mut(pivot * n);
-            upper[column * n..][..n].swap_with_slice(&mut lower[..n]);
-        }
-        let (upper, lower) = a.split_at_mut((column + 1) * n);
-        let pivot_row = &upper[column * n..];
-        let inverse = 1.0 / pivot_row[column];
-        for row in lower.chunks_exact_mut(n) {
-            if row[column] != 0.0 {
+            if !(largest > 0.0 && largest.is_finite()) {
+                return Err(SingularRow(column));
+            }
+            pivots[column] = pivot;
+            if pivot != column {
+                let (upper, lower) = a.split_at_mut(pivot * n);
+                upper[column * n..][..n].swap_with_slice(&mut lower[..n]);
+            }
+            let (upper, lower) = a.split_at_mut((column + 1) * n);
+            let pivot_row = &upper[column * n..][..last];
+            let inverse = 1.0 / pivot_row[column];
+            for row in lower.chunks_exact_mut(n) {
                 let factor = row[column] * inverse;
                 row[column] = factor;
-                for (x, u) in row[column + 1..].iter_mut().zip(&pivot_row[column + 1..]) {
-                    *x -= factor * u;
-                }
+                add_scaled(
+                    &mut row[column + 1..last],
+                    -factor,
+                    &pivot_row[column + 1..],
+                );
+            }
+        }
+        // The rows of U to the right of the panel.
+        for i in first + 1..last {
+            let (upper, lower) = a.split_at_mut(i * n);
+            let (factors, row) = lower[..n].split_at_mut(last);
+            for (pivot_row, factor) in upper[first * n..].chunks_exact(n).zip(&factors[first..]) {
+                add_scaled(row, -factor, &pivot_row[last..]);
+            }
+        }
+        // What remains, which is nothing after a last panel of less than full width.
+        let (upper, lower) = a.split_at_mut(last * n);
+        let mut pivot_rows = upper[first * n..].chunks_exact(n).map(|row| &row[last..]);
+        let panel = [(); PANEL].map(|()| pivot_rows.next().unwrap_or(&[]));
+        for row in lower.chunks_exact_mut(n) {
+            let (factors, row) = row.split_at_mut(last);
+            let factors = &factors[first..];
+            if factors.iter().any(|&factor| factor != 0.0) {
+                subtract_four(row, factors, panel);
             }
         }
     }
     Ok(())
+}
+
+/// x −= f₀ u₀ + f₁ u₁ + f₂ u₂ + f₃ u₃.
+#[inline]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "five slices in step: one index over slices of one length vectorises, nested zips do not"
+)]
+fn subtract_four(x: &mut [f64], f: &[f64], u: [&[f64]; PANEL]) {
+    let length = x.len();
+    let [u0, u1, u2, u3] = u.map(|u| &u[..length]);
+    let [f0, f1, f2, f3] = [f[0], f[1], f[2], f[3]];
+    for j in 0..length {
+        x[j] -= (f0 * u0[j] + f1 * u1[j]) + (f2 * u2[j] + f3 * u3[j]);
+    }
 }
 
 /// Solves A x = b in place with the factors of [`lu_factor`].
@@ -56,34 +98,78 @@ pub(crate) fn lu_solve(lu: &[f64], n: usize, pivots: &[usize], b: &mut [f64]) {
     }
 }
 
-/// Solves xᵀ A = bᵀ in place with the factors of [`lu_factor`].
-pub(crate) fn lu_solve_transposed(lu: &[f64], n: usize, pivots: &[usize], b: &mut [f64]) {
-    for k in 0..n {
-        let row = &lu[k * n..][..n];
-        let (head, tail) = b.split_at_mut(k + 1);
-        head[k] /= row[k];
-        let factor = head[k];
-        if factor != 0.0 {
-            for (x, u) in tail.iter_mut().zip(&row[k + 1..]) {
-                *x -= factor * u;
+/// Solves xᵀ A = bᵀ in place with the factors of [`lu_factor`], for each row b of `rows` (n numbers
+/// each).
+pub(crate) fn lu_solve_transposed(lu: &[f64], n: usize, pivots: &[usize], rows: &mut [f64]) {
+    for rows in rows.chunks_mut(PANEL * n) {
+        for k in 0..n {
+            let u = &lu[k * n..][..n];
+            subtract_multiples(rows, n, k, 1.0 / u[k], k + 1..n, &u[k + 1..]);
+        }
+        for k in (1..n).rev() {
+            subtract_multiples(rows, n, k, 1.0, 0..k, &lu[k * n..][..k]);
+        }
+        for row in rows.chunks_exact_mut(n) {
+            for i in (0..n).rev() {
+                row.swap(i, pivots[i]);
             }
         }
     }
-    for k in (1..n).rev() {
-        let factor = b[k];
-        for (x, l) in b[..k].iter_mut().zip(&lu[k * n..][..k]) {
-            *x -= factor * l;
-        }
+}
+
+/// In each of up to [`PANEL`] `rows` of n numbers: scales entry k by `scale`, then subtracts entry
+/// k times `u` from the entries `to`.
+#[expect(
+    clippy::needless_range_loop,
+    reason = "five slices in step: one index over slices of one length vectorises, nested zips do not"
+)]
+fn subtract_multiples(
+    rows: &mut [f64],
+    n: usize,
+    k: usize,
+    scale: f64,
+    to: std::ops::Range<usize>,
+    u: &[f64],
+) {
+    for row in rows.chunks_exact_mut(n) {
+        row[k] *= scale;
     }
-    for i in (0..n).rev() {
-        b.swap(i, pivots[i]);
+    if rows.len() == PANEL * n {
+        let (a, rest) = rows.split_at_mut(n);
+        let (b, rest) = rest.split_at_mut(n);
+        let (c, d) = rest.split_at_mut(n);
+        let [fa, fb, fc, fd] = [a[k], b[k], c[k], d[k]];
+        let length = u.len();
+        let (a, b) = (&mut a[to.clone()][..length], &mut b[to.clone()][..length]);
+        let (c, d) = (&mut c[to.clone()][..length], &mut d[to][..length]);
+        for j in 0..length {
+            a[j] -= fa * u[j];
+            b[j] -= fb * u[j];
+            c[j] -= fc * u[j];
+            d[j] -= fd * u[j];
+        }
+    } else {
+        for row in rows.chunks_exact_mut(n) {
+            let factor = row[k];
+            add_scaled(&mut row[to.clone()], -factor, u);
+        }
     }
 }
 
 /// The inner product of two vectors of the same length.
 #[inline]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+    // Four independent sums: one would wait for each addition in turn.
+    let (a_blocks, b_blocks) = (a.chunks_exact(4), b.chunks_exact(4));
+    let (a_rest, b_rest) = (a_blocks.remainder(), b_blocks.remainder());
+    let mut sums = [0.0; 4];
+    for (a, b) in a_blocks.zip(b_blocks) {
+        for (sum, (x, y)) in sums.iter_mut().zip(a.iter().zip(b)) {
+            *sum += x * y;
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(x, y)| x * y).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 /// y += factor x.
@@ -122,13 +208,19 @@ mod tests {
             prop_assume!((0..n).all(|i| lu[i * n + i].abs() > 1e-3));
             let mut b: Vec<f64> = (0..n).map(|i| dot(&a[i * n..][..n], x)).collect();
             lu_solve(&lu, n, &pivots, &mut b);
-            let mut bt: Vec<f64> = (0..n)
-                .map(|j| (0..n).map(|i| x[i] * a[i * n + j]).sum())
+            // Six rows: a full panel and a rest.
+            let mut bt: Vec<f64> = (0..6 * n)
+                .map(|j| {
+                    let factor = 1.0 + (j / n) as f64;
+                    (0..n).map(|i| factor * x[i] * a[i * n + j % n]).sum()
+                })
                 .collect();
             lu_solve_transposed(&lu, n, &pivots, &mut bt);
             for i in 0..n {
                 prop_assert!((b[i] - x[i]).abs() < 1e-9);
-                prop_assert!((bt[i] - x[i]).abs() < 1e-9);
+                for (row, solved) in bt.chunks_exact(n).enumerate() {
+                    prop_assert!((solved[i] / (1.0 + row as f64) - x[i]).abs() < 1e-9);
+                }
             }
         }
     }

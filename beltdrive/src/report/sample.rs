@@ -138,6 +138,7 @@ fn state([slack, tight]: [f64; 2], overhang: f64) -> SteadyState {
             slip_normalisation_effect: 2.0e-7,
             seconds: 0.0123,
         },
+        restart: None,
         drive,
     }
 }

@@ -10,7 +10,8 @@
 //! A maximum of the tension is a limit point, at which the tension cannot be prescribed; the
 //! contact length of the driver can, so near it that is prescribed and the tension is an unknown.
 
-use super::path::{Carried, Effort, Path, Solved, Stuck};
+use super::carried::Carried;
+use super::path::{Effort, Path, Solved, Stuck};
 use super::{DRIVER, DriveProblem, INCLINATION, Instead};
 use std::f64::consts::FRAC_PI_2;
 
@@ -28,6 +29,12 @@ const LOAD_STEP: f64 = 0.1;
 const LENGTH_STEP: f64 = 0.01;
 /// Steps in that length before the search is given up.
 const MAX_LENGTH_STEPS: usize = 200;
+/// Where the belt leaves the driver more steeply than this, or the driven pulley loses more than this
+/// share of its speed, a state may lie beyond a limit point.
+const STEEP: f64 = 1.3;
+const SLOW: f64 = 0.5;
+/// Step in the logarithm of the contact length that tells on which side.
+const SIDE_STEP: f64 = 1e-4;
 /// Relative accuracy of a limit.
 const LIMIT_ACCURACY: f64 = 1e-7;
 
@@ -73,8 +80,9 @@ impl Path<'_> {
     /// The steady state at the scaled tight tension `target`, or the limit that it exceeds.
     pub(super) fn find(&mut self, target: f64) -> Result<Found, Stuck> {
         let direct = match self.at_load(target) {
-            Ok(solved) => return self.classify(solved),
-            Err(stuck) => stuck,
+            Ok(solved) if self.is_before_limit(&solved) => return self.classify(solved),
+            Ok(_) => None,
+            Err(stuck) => Some(stuck),
         };
         let slack = self.drive.load.slack.value() / self.scales.force;
         let ratio = target / slack;
@@ -100,12 +108,33 @@ impl Path<'_> {
                 Found::Beyond(_) => {}
             }
         }
-        Err(direct)
+        match direct {
+            Some(stuck) => Err(stuck),
+            // Only the state beyond the limit point was found.
+            None => self
+                .at_load(target)
+                .and_then(|solved| self.classify(solved)),
+        }
+    }
+
+    /// Whether the tension rises with the contact length of the driver, as it does from no load to
+    /// the first limit point. Looked at only where a limit point can be near.
+    fn is_before_limit(&mut self, solved: &Solved) -> bool {
+        let exit = solved.problem.zones(DRIVER).end - 1;
+        let steep = solved.solution.end(exit)[INCLINATION] > STEEP;
+        if !steep && solved.driven_speed() > SLOW {
+            return true;
+        }
+        let length = solved.driver_length() * SIDE_STEP.exp();
+        match self.at_length(solved, length, Effort::Careful) {
+            Ok(longer) => longer.tight_tension() > solved.tight_tension(),
+            Err(_) => true,
+        }
     }
 
     /// A state, unless the driven pulley does not turn with the belt: then the load at which it
     /// stops.
-    fn classify(&mut self, solved: Solved) -> Result<Found, Stuck> {
+    pub(super) fn classify(&mut self, solved: Solved) -> Result<Found, Stuck> {
         if solved.driven_speed() > 0.0 {
             return Ok(Found::State(Box::new(solved)));
         }

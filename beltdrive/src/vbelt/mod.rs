@@ -10,6 +10,7 @@
 //! R. G. Parker, J. Mech. Des. 128 (2006); G. Gerbert and F. Sorge, J. Mech. Des. 124 (2002);
 //! P. R. Dahl, Aerospace Corp. TOR-0158 (1968) for the bristles.
 
+mod carried;
 mod closure;
 mod contact;
 mod drive_problem;
@@ -27,12 +28,13 @@ pub(crate) use contact::{Contact, limit_excess};
 pub(crate) use drive_problem::{DriveProblem, Instead};
 pub(crate) use groove::{Groove, Law, Regime};
 pub(crate) use guess::Guess;
+pub(crate) use path::Solved;
 pub(crate) use scaling::{Scales, Strand};
 
 use groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 
 pub use limit::LimitReason;
-pub use solve::{SolveError, SolveOptions, solve};
+pub use solve::{SolveError, SolveOptions, solve, solve_from};
 
 /// Index of the driven pulley, which comes first.
 pub(crate) const DRIVEN: usize = 0;

@@ -11,8 +11,9 @@
 //! guess. Every arrow is one Newton solve where that converges; where it does not, the parameter
 //! moves in steps that grow on success and shrink on failure. Solutions on the way are rough.
 
+use super::carried::Carried;
 use super::zones::Split;
-use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, Guess, MAX_STATES, Scales};
+use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, Guess, Scales};
 use crate::{Drive, FrictionLaw};
 use bvp::{Function, GlobalError, Options, Scheme, Solution, Stats};
 use std::f64::consts::LN_10;
@@ -55,7 +56,7 @@ pub(super) enum Effort {
 
 /// A problem and its solution.
 #[derive(Clone, Debug)]
-pub(super) struct Solved {
+pub(crate) struct Solved {
     pub(super) problem: DriveProblem,
     pub(super) solution: Solution,
 }
@@ -221,7 +222,7 @@ impl<'a> Path<'a> {
         let bristles =
             |path: &Self, stiffness| path.problem(FrictionLaw::Bristle { stiffness }, 0.0, tight);
         let FrictionLaw::Bristle { stiffness } = self.drive.law else {
-            let start = self.from_guess(bristles(self, soft), Effort::Rough)?;
+            let start = self.cold(bristles(self, soft), Effort::Rough)?;
             let coulomb = self.enter_coulomb(start, tight)?;
             if let FrictionLaw::Coulomb = self.drive.law {
                 let sharp = self.lower_epsilon(coulomb, RESOLVED_EPSILON)?;
@@ -236,18 +237,33 @@ impl<'a> Path<'a> {
                 })
                 .and_then(|epp| self.finish(epp));
         };
-        if let Ok(solved) = self.from_guess(bristles(self, stiffness), Effort::Final) {
+        if let Ok(solved) = self.cold(bristles(self, stiffness), Effort::Final) {
             return Ok(solved);
         }
-        let start = self.from_guess(bristles(self, soft), Effort::Rough)?;
+        let start = self.cold(bristles(self, soft), Effort::Rough)?;
         let range = [soft.ln(), stiffness.ln()];
         let member = |problem: &DriveProblem, t: f64| problem.clone().with_bristles(t.exp());
         let stiffer = self.follow(start, range, GREAT_STEP, Effort::Rough, member)?;
         self.finish(stiffer)
     }
 
+    /// The steady state of the drive from that of a neighbouring drive with a law of the same kind,
+    /// at the same ε and with the same zones.
+    pub(super) fn neighbour(&mut self, solved: &Solved) -> Result<Solved, bvp::Error> {
+        self.scales = Scales::with_force(self.drive, solved.problem.scales().force);
+        let zones = [DRIVEN, DRIVER].map(|pulley| {
+            let segments = solved.problem.zones(pulley);
+            segments
+                .map(|i| solved.problem.regime(i))
+                .collect::<Vec<_>>()
+        });
+        let problem = DriveProblem::new(self.drive, self.scales, solved.problem.epsilon())
+            .with_zones(&zones[DRIVEN], &zones[DRIVER]);
+        self.attempt(problem, &Carried(solved), Effort::Final)
+    }
+
     /// Solves a problem from the frictionless guess.
-    fn from_guess(&mut self, problem: DriveProblem, effort: Effort) -> Result<Solved, Stuck> {
+    fn cold(&mut self, problem: DriveProblem, effort: Effort) -> Result<Solved, Stuck> {
         let guess = Guess::new(&problem);
         let mut parameters = vec![0.0; bvp::Problem::parameters(&problem)];
         guess.parameters(&mut parameters);
@@ -364,34 +380,4 @@ impl<'a> Path<'a> {
 /// The same problem with the slip normalised by ε = eᵗ.
 fn with_epsilon(problem: &DriveProblem, t: f64) -> DriveProblem {
     problem.clone().with_epsilon(t.exp())
-}
-
-/// A solution as the guess of a neighbouring problem: of another law (states that the law does not
-/// have are left out, those that it adds begin at zero) or with the tight tension unknown.
-pub(super) struct Carried<'a>(pub(super) &'a Solved);
-
-impl bvp::Guess for Carried<'_> {
-    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
-        let solution = &self.0.solution;
-        let known = solution.segments()[segment].states;
-        let mut states = [0.0; MAX_STATES];
-        solution.state(segment, s, &mut states[..known]);
-        if y.len() != known {
-            states[super::LAW..].fill(0.0);
-        }
-        y.copy_from_slice(&states[..y.len()]);
-    }
-
-    fn parameters(&self, p: &mut [f64]) {
-        let known = self.0.solution.parameters();
-        let common = known.len().min(p.len());
-        p[..common].copy_from_slice(&known[..common]);
-        p[common..].fill(self.0.tight_tension());
-    }
-
-    fn mesh(&self) -> Option<Vec<Vec<f64>>> {
-        let solution = &self.0.solution;
-        let segments = 0..solution.segments().len();
-        Some(segments.map(|i| solution.mesh(i).to_vec()).collect())
-    }
 }

@@ -84,22 +84,68 @@ fn reached(tight: Option<f64>) -> String {
 /// invariant fails, [`SolveError::Tolerance`].
 pub fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
-    let tolerance = options.tolerance;
-    if !(1e-12..=1e-2).contains(&tolerance) {
-        return Err(SolveError::Tolerance { tolerance });
+    let mut path = Path::new(drive, checked(options)?);
+    let asked = drive.load.tight.value() / path.scales.force;
+    let found = path.find(asked);
+    conclude(path, found, start)
+}
+
+/// Finds the steady state of a drive that differs little from one that is solved, much faster than
+/// [`solve`]; where the difference turns out too great, or the friction law is another one, from
+/// nothing.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_from(
+    neighbour: &SteadyState,
+    drive: &Drive,
+    options: &SolveOptions,
+) -> Result<SteadyState, SolveError> {
+    let start = Instant::now();
+    let tolerance = checked(options)?;
+    let law = |drive: &Drive| drive.law.name();
+    let Some(solved) = neighbour.restart.as_deref() else {
+        return solve(drive, options);
+    };
+    if law(drive) != law(&neighbour.drive) || tolerance < neighbour.convergence.tolerance {
+        return solve(drive, options);
     }
     let mut path = Path::new(drive, tolerance);
-    let scales = path.scales;
-    let asked = drive.load.tight.value();
-    let found = path.find(asked / scales.force).map_err(|stuck| {
-        let Stuck { last, cause } = stuck;
-        SolveError::NotConverged {
-            tight: last.map(|last| last.tight_tension() * scales.force),
-            cause: Box::new(cause),
+    path.epsilon_effect = neighbour.convergence.slip_normalisation_effect;
+    match path.neighbour(solved) {
+        Ok(solved) => {
+            let found = path.classify(solved);
+            match conclude(path, found, start) {
+                Err(SolveError::Violated(_)) => solve(drive, options),
+                answer => answer,
+            }
         }
+        Err(_) => solve(drive, options),
+    }
+}
+
+fn checked(options: &SolveOptions) -> Result<f64, SolveError> {
+    let tolerance = options.tolerance;
+    if (1e-12..=1e-2).contains(&tolerance) {
+        Ok(tolerance)
+    } else {
+        Err(SolveError::Tolerance { tolerance })
+    }
+}
+
+/// The answer: a state that has passed its checks, or the reason why there is none.
+fn conclude(
+    path: Path<'_>,
+    found: Result<Found, Stuck>,
+    start: Instant,
+) -> Result<SteadyState, SolveError> {
+    let (drive, scales) = (path.drive, path.scales);
+    let found = found.map_err(|Stuck { last, cause }| SolveError::NotConverged {
+        tight: last.map(|last| last.tight_tension() * scales.force),
+        cause: Box::new(cause),
     })?;
     let solved = match found {
-        Found::State(solved) => solved,
+        Found::State(solved) => *solved,
         Found::Beyond(limit) => {
             let state = &limit.state;
             let exit = state.problem.zones(super::DRIVER).end - 1;
@@ -108,7 +154,7 @@ pub fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, Solve
                     SpanTension::Tractive(_) => "tight tractive tension",
                     SpanTension::Belt(_) => "tight tension",
                 },
-                asked,
+                asked: drive.load.tight.value(),
                 limit: state.tight_tension() * scales.force,
                 reason: limit.reason,
                 driven_speed: state.driven_speed() * scales.angular_speed(super::DRIVEN),
@@ -116,7 +162,7 @@ pub fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, Solve
             });
         }
     };
-    let state = steady_state(&path, &solved, start.elapsed().as_secs_f64());
+    let state = steady_state(&path, solved, start);
     let violated = |check: &&Check| check.deviation.is_nan() || check.deviation > check.limit;
     match state.checks.iter().find(violated) {
         Some(check) => Err(SolveError::Violated(check.clone())),

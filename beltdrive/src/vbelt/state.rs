@@ -6,6 +6,8 @@ use crate::steady_state::{
     Check, Convergence, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind,
 };
 use std::f64::consts::FRAC_PI_2;
+use std::sync::Arc;
+use std::time::Instant;
 
 /// Gauss rule with four points on \[0, 1\] for integrals over a mesh interval (abscissae ±x₁, ±x₂
 /// and weights of the rule on \[−1, 1\], Abramowitz & Stegun table 25.4).
@@ -30,7 +32,15 @@ struct Integrals {
 }
 
 /// The steady state of a solved drive.
-pub(super) fn steady_state(path: &Path<'_>, solved: &Solved, seconds: f64) -> SteadyState {
+pub(super) fn steady_state(path: &Path<'_>, solved: Solved, start: Instant) -> SteadyState {
+    let mut state = describe(path, &solved);
+    state.convergence.seconds = start.elapsed().as_secs_f64();
+    state.restart = Some(Arc::new(solved));
+    state
+}
+
+/// The numbers of a steady state.
+fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
     let problem = &solved.problem;
     let scales = problem.scales();
     let p = solved.solution.parameters();
@@ -79,7 +89,11 @@ pub(super) fn steady_state(path: &Path<'_>, solved: &Solved, seconds: f64) -> St
         tight_tension: force(strand.tension(tight, flow)),
         slack_tractive_tension: force(slack),
         tight_tractive_tension: force(tight),
-        efficiency: if given > 0.0 { taken / given } else { 0.0 },
+        efficiency: if given > 0.0 {
+            (taken / given).max(0.0)
+        } else {
+            0.0
+        },
         friction_loss: friction * scales.power(),
         driver,
         driven,
@@ -102,8 +116,9 @@ pub(super) fn steady_state(path: &Path<'_>, solved: &Solved, seconds: f64) -> St
                 Law::Coulomb | Law::Epp { .. } => problem.epsilon(),
             },
             slip_normalisation_effect: path.epsilon_effect,
-            seconds,
+            seconds: 0.0,
         },
+        restart: None,
     }
 }
 
@@ -356,6 +371,10 @@ fn friction_zones(solved: &Solved, pulley: usize) -> Vec<Zone> {
                 }
             }
         }
+    }
+    // The entry is where the angle begins; its solved value is rounding.
+    if let Some(first) = zones.first_mut() {
+        first.from = 0.0;
     }
     zones
 }
