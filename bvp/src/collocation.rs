@@ -193,22 +193,25 @@ impl<'a> Collocation<'a> {
 
     /// The Newton correction −J⁻¹ residual with the Jacobian of the last linearisation.
     pub(crate) fn correction(&mut self, residual: &Residual, correction: &mut Iterate) {
-        for ((stages, r), correction) in self
-            .stages
-            .iter()
-            .zip(&residual.equations)
-            .zip(&mut correction.segments)
-        {
+        self.node_correction(residual, correction);
+        self.stage_correction(residual, correction);
+    }
+
+    /// Its nodes and parameters, which are all that a norm looks at.
+    pub(crate) fn node_correction(&mut self, residual: &Residual, correction: &mut Iterate) {
+        let segments = residual.equations.iter().zip(&mut correction.segments);
+        for (stages, (r, correction)) in self.stages.iter().zip(segments) {
             stages.reduce(r, &mut correction.nodes);
         }
-        for (negative, r) in self
-            .negative_conditions
-            .iter_mut()
-            .zip(&residual.conditions)
-        {
+        let conditions = self.negative_conditions.iter_mut();
+        for (negative, r) in conditions.zip(&residual.conditions) {
             *negative = -r;
         }
         self.matrix.solve(correction, &self.negative_conditions);
+    }
+
+    /// Its stages, once nodes and parameters are known.
+    pub(crate) fn stage_correction(&self, residual: &Residual, correction: &mut Iterate) {
         let Iterate { segments, p } = correction;
         for ((stages, r), correction) in self.stages.iter().zip(&residual.equations).zip(segments) {
             stages.recover(r, correction, p);

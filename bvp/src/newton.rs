@@ -144,6 +144,7 @@ impl Newton {
                 && (shrunk.largest <= tolerance || shrunk.mean <= KEEP_JACOBIAN_BELOW * size.mean)
             {
                 std::mem::swap(&mut self.delta, &mut self.simplified);
+                collocation.stage_correction(&self.residual, &mut self.delta);
                 (size, fresh) = (shrunk, false);
                 continue;
             }
@@ -183,8 +184,8 @@ impl Newton {
         Ok(())
     }
 
-    /// Finds an acceptable damped step: leaves x + λ Δx in `trial`, its simplified correction in
-    /// `simplified`, λ in `damping`, and returns the size of that correction. With a Jacobian that
+    /// Finds an acceptable damped step: leaves x + λ Δx in `trial`, its simplified correction (its
+    /// nodes) in `simplified`, λ in `damping`, and returns the size of that correction. With a Jacobian that
     /// is not `fresh` only the full step is tried.
     fn step(
         &mut self,
@@ -203,7 +204,7 @@ impl Newton {
                 }
                 Err(_) => 0.25 * *damping,
                 Ok(()) => {
-                    collocation.correction(&self.residual, &mut self.simplified);
+                    collocation.node_correction(&self.residual, &mut self.simplified);
                     let shrunk = norm(x, &[(1.0, &self.simplified)]);
                     if shrunk.mean <= (1.0 - 0.25 * *damping) * size.mean {
                         return Ok(shrunk);

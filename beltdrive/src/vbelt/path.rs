@@ -344,8 +344,8 @@ impl<'a> Path<'a> {
         if let FrictionLaw::Bristle { .. } = self.drive.law {
             return self.again(rough, Effort::Final);
         }
-        let full = self.again(rough, Effort::Full)?;
-        let mut here = self.split_zones(full, Effort::Full)?;
+        let mut here = self.again(rough, Effort::Final)?;
+        here = self.split_zones(here, Effort::Final)?;
         loop {
             let epsilon = here.problem.epsilon();
             let range = [epsilon.ln(), (0.1 * epsilon).ln()];
@@ -356,13 +356,24 @@ impl<'a> Path<'a> {
                 .fold(0.0, f64::max);
             // The effect vanishes at least as fast as ε: ten ninths of the change were that of
             // the larger ε, one ninth is that of the smaller.
-            for (solved, effect) in [(here, change / 0.9), (finer.clone(), change / 9.0)] {
-                if effect <= EPSILON_SHARE * self.tolerance || epsilon <= SMALLEST_EPSILON {
-                    self.epsilon_effect = effect;
-                    return self.again(solved, Effort::Final);
-                }
+            self.epsilon_effect = change / 0.9;
+            if self.epsilon_effect <= EPSILON_SHARE * self.tolerance {
+                return self.with_estimate(here);
+            }
+            self.epsilon_effect = change / 9.0;
+            if self.epsilon_effect <= EPSILON_SHARE * self.tolerance || epsilon <= SMALLEST_EPSILON
+            {
+                return self.with_estimate(finer);
             }
             here = finer;
+        }
+    }
+
+    /// A solution with an estimate of its global error.
+    fn with_estimate(&mut self, solved: Solved) -> Result<Solved, Stuck> {
+        match solved.solution.error_estimate() {
+            Some(_) => Ok(solved),
+            None => self.again(solved, Effort::Final),
         }
     }
 
