@@ -67,12 +67,9 @@ pub(crate) fn lu_factor(a: &mut [f64], n: usize, pivots: &mut [usize]) -> Result
     Ok(())
 }
 
-/// x −= f₀ u₀ + f₁ u₁ + f₂ u₂ + f₃ u₃.
+/// x −= f₀ u₀ + f₁ u₁ + f₂ u₂ + f₃ u₃. One index over slices of one length vectorises where nested
+/// zips do not.
 #[inline]
-#[expect(
-    clippy::needless_range_loop,
-    reason = "five slices in step: one index over slices of one length vectorises, nested zips do not"
-)]
 fn subtract_four(x: &mut [f64], f: &[f64], u: [&[f64]; PANEL]) {
     let length = x.len();
     let [u0, u1, u2, u3] = u.map(|u| &u[..length]);
@@ -119,10 +116,6 @@ pub(crate) fn lu_solve_transposed(lu: &[f64], n: usize, pivots: &[usize], rows: 
 
 /// In each of up to [`PANEL`] `rows` of n numbers: scales entry k by `scale`, then subtracts entry
 /// k times `u` from the entries `to`.
-#[expect(
-    clippy::needless_range_loop,
-    reason = "five slices in step: one index over slices of one length vectorises, nested zips do not"
-)]
 fn subtract_multiples(
     rows: &mut [f64],
     n: usize,

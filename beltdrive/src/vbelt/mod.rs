@@ -16,6 +16,7 @@ mod contact;
 mod drive_problem;
 mod groove;
 mod guess;
+mod laws;
 mod limit;
 mod path;
 mod scaling;

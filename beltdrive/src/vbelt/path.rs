@@ -1,45 +1,15 @@
-//! The way from a drive to its steady state: a start that always converges, then the friction law
-//! that was asked for.
-//!
-//! ```text
-//! frictionless guess ──▶ soft bristles ──▶ Coulomb, ε falling
-//!                              │              └──▶ EPP blended in, zones, ε falling
-//!                              └─────────▶ the bristles of the drive, κ rising
-//! ```
-//!
-//! Bristle friction has no 0/0 and no kink, and Newton's method finds its solution from the
-//! guess. Every arrow is one Newton solve where that converges; where it does not, the parameter
-//! moves in steps that grow on success and shrink on failure. Solutions on the way are rough.
+//! Steps on the way to a steady state: solving one problem from a guess, and following a family of
+//! problems from a solved member to the one that is wanted. What the families are is in `laws`.
 
 use super::carried::Carried;
-use super::zones::Split;
 use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, Guess, Scales};
 use crate::{Drive, FrictionLaw};
 use bvp::{Function, GlobalError, Options, Scheme, Solution, Stats};
-use std::f64::consts::LN_10;
 
-/// Bristle stiffness of the start, κ R/μ: friction is fully developed after a thousandth of a
-/// radius of sliding, so that its layers are no finer than those of seating.
-const START_STIFFNESS: f64 = 1000.0;
-/// Normalisations ε of the slip direction with which Coulomb friction is entered, the first that
-/// works: of the order of the largest slip.
-const FIRST_EPSILONS: [f64; 3] = [1e-3, 1e-2, 1e-1];
-/// ε at which the profile is first resolved to the tolerance.
-const RESOLVED_EPSILON: f64 = 1e-7;
-/// ε below which slip velocities drown in the rounding of the speeds they are differences of.
-const SMALLEST_EPSILON: f64 = 1e-12;
-/// The effect of ε may be this share of the tolerance.
-const EPSILON_SHARE: f64 = 0.3;
-/// First steps of a homotopy in ln ε or ln κ: a factor of 10, or of 3 where that failed.
-const GREAT_STEP: f64 = LN_10;
-const SMALL_STEP: f64 = 1.1;
 /// A solve with at most so many Newton steps lets the next step of a homotopy be twice as long.
 const EASY: usize = 8;
 /// A homotopy ends when its steps have shrunk to this fraction of the first.
 const SHORTEST_STEP: f64 = 0.02;
-
-/// Zones are found anew at most so often; if they still change, the check of the state says so.
-const MAX_SPLITS: usize = 8;
 
 /// How accurately a problem is solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,7 +50,7 @@ impl Solved {
 
     /// The constants of the drive that an engineer reads: speed of the driven pulley, mass flow
     /// and both wraps. Pure numbers of order one.
-    fn constants(&self) -> [f64; 4] {
+    pub(super) fn constants(&self) -> [f64; 4] {
         let p = self.solution.parameters();
         let wrap = |pulley| self.solution.end(self.problem.zones(pulley).end - 1)[ANGLE];
         [
@@ -127,7 +97,7 @@ impl<'a> Path<'a> {
     }
 
     /// The drive with another friction law, at the scaled tight tension `tight`.
-    fn problem(&self, law: FrictionLaw, epsilon: f64, tight: f64) -> DriveProblem {
+    pub(super) fn problem(&self, law: FrictionLaw, epsilon: f64, tight: f64) -> DriveProblem {
         let drive = Drive {
             law,
             ..self.drive.clone()
@@ -214,56 +184,8 @@ impl<'a> Path<'a> {
         Ok(here)
     }
 
-    /// The steady state with the law of the drive at the scaled tight tension `tight`, from
-    /// nothing.
-    pub(super) fn at_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
-        let radius = self.drive.driver_radius.min(self.drive.driven_radius);
-        let soft = START_STIFFNESS * self.drive.friction_coefficient / radius;
-        let bristles =
-            |path: &Self, stiffness| path.problem(FrictionLaw::Bristle { stiffness }, 0.0, tight);
-        let FrictionLaw::Bristle { stiffness } = self.drive.law else {
-            let start = self.cold(bristles(self, soft), Effort::Rough)?;
-            let coulomb = self.enter_coulomb(start, tight)?;
-            if let FrictionLaw::Coulomb = self.drive.law {
-                let sharp = self.lower_epsilon(coulomb, RESOLVED_EPSILON)?;
-                return self.finish(sharp);
-            }
-            return self
-                .enter_epp(coulomb.clone(), tight)
-                .and_then(|epp| self.lower_epsilon(epp, RESOLVED_EPSILON))
-                .or_else(|_| {
-                    let sharp = self.lower_epsilon(coulomb, RESOLVED_EPSILON)?;
-                    self.enter_epp(sharp, tight)
-                })
-                .and_then(|epp| self.finish(epp));
-        };
-        if let Ok(solved) = self.cold(bristles(self, stiffness), Effort::Final) {
-            return Ok(solved);
-        }
-        let start = self.cold(bristles(self, soft), Effort::Rough)?;
-        let range = [soft.ln(), stiffness.ln()];
-        let member = |problem: &DriveProblem, t: f64| problem.clone().with_bristles(t.exp());
-        let stiffer = self.follow(start, range, GREAT_STEP, Effort::Rough, member)?;
-        self.finish(stiffer)
-    }
-
-    /// The steady state of the drive from that of a neighbouring drive with a law of the same kind,
-    /// at the same ε and with the same zones.
-    pub(super) fn neighbour(&mut self, solved: &Solved) -> Result<Solved, bvp::Error> {
-        self.scales = Scales::with_force(self.drive, solved.problem.scales().force);
-        let zones = [DRIVEN, DRIVER].map(|pulley| {
-            let segments = solved.problem.zones(pulley);
-            segments
-                .map(|i| solved.problem.regime(i))
-                .collect::<Vec<_>>()
-        });
-        let problem = DriveProblem::new(self.drive, self.scales, solved.problem.epsilon())
-            .with_zones(&zones[DRIVEN], &zones[DRIVER]);
-        self.attempt(problem, &Carried(solved), Effort::Final)
-    }
-
     /// Solves a problem from the frictionless guess.
-    fn cold(&mut self, problem: DriveProblem, effort: Effort) -> Result<Solved, Stuck> {
+    pub(super) fn cold(&mut self, problem: DriveProblem, effort: Effort) -> Result<Solved, Stuck> {
         let guess = Guess::new(&problem);
         let mut parameters = vec![0.0; bvp::Problem::parameters(&problem)];
         guess.parameters(&mut parameters);
@@ -283,112 +205,4 @@ impl<'a> Path<'a> {
                 cause,
             })
     }
-
-    /// From bristles to Coulomb friction with a large ε.
-    fn enter_coulomb(&mut self, start: Solved, tight: f64) -> Result<Solved, Stuck> {
-        let [first, others @ ..] = FIRST_EPSILONS;
-        let coulomb = |path: &Self, epsilon| path.problem(FrictionLaw::Coulomb, epsilon, tight);
-        let mut outcome = self.attempt(coulomb(self, first), &Carried(&start), Effort::Rough);
-        for epsilon in others {
-            if outcome.is_err() {
-                outcome = self.attempt(coulomb(self, epsilon), &Carried(&start), Effort::Rough);
-            }
-        }
-        outcome.map_err(|cause| Stuck {
-            last: Some(Box::new(start)),
-            cause,
-        })
-    }
-
-    /// From Coulomb to EPP friction at the same ε: its share grows, then its zones become segments.
-    fn enter_epp(&mut self, start: Solved, tight: f64) -> Result<Solved, Stuck> {
-        let epp = self.problem(self.drive.law, start.problem.epsilon(), tight);
-        // With no share of it the law only adds the displacement.
-        let unblended = self
-            .attempt(
-                epp.clone().with_epp_weight(0.0),
-                &Carried(&start),
-                Effort::Rough,
-            )
-            .map_err(|cause| Stuck {
-                last: Some(Box::new(start)),
-                cause,
-            })?;
-        let member = |_: &DriveProblem, share| epp.clone().with_epp_weight(share);
-        let blended = self.follow(unblended, [0.0, 1.0], 1.0, Effort::Rough, member)?;
-        self.split_zones(blended, Effort::Rough)
-    }
-
-    /// Solves EPP friction with its zones as segments, until every zone is of the kind it was
-    /// taken for.
-    fn split_zones(&mut self, solved: Solved, effort: Effort) -> Result<Solved, Stuck> {
-        let mut here = solved;
-        for _ in 0..MAX_SPLITS {
-            let Some(split) = Split::of(&here) else {
-                break;
-            };
-            let outcome = self.attempt(split.problem(&here), &split.guess(&here), effort);
-            here = match outcome {
-                Ok(solved) => solved,
-                Err(cause) => {
-                    let last = Some(Box::new(here));
-                    return Err(Stuck { last, cause });
-                }
-            };
-        }
-        Ok(here)
-    }
-
-    /// Solves to the tolerance, and lowers ε until its effect is below that.
-    pub(super) fn finish(&mut self, rough: Solved) -> Result<Solved, Stuck> {
-        if let FrictionLaw::Bristle { .. } = self.drive.law {
-            return self.again(rough, Effort::Final);
-        }
-        let mut here = self.again(rough, Effort::Final)?;
-        here = self.split_zones(here, Effort::Final)?;
-        loop {
-            let epsilon = here.problem.epsilon();
-            let range = [epsilon.ln(), (0.1 * epsilon).ln()];
-            let finer = self.follow(here.clone(), range, GREAT_STEP, Effort::Full, with_epsilon)?;
-            let constants = here.constants().into_iter().zip(finer.constants());
-            let change = constants
-                .map(|(a, b)| (a - b).abs() / (1.0 + b.abs()))
-                .fold(0.0, f64::max);
-            // The effect vanishes at least as fast as ε: ten ninths of the change were that of
-            // the larger ε, one ninth is that of the smaller.
-            self.epsilon_effect = change / 0.9;
-            if self.epsilon_effect <= EPSILON_SHARE * self.tolerance {
-                return self.with_estimate(here);
-            }
-            self.epsilon_effect = change / 9.0;
-            if self.epsilon_effect <= EPSILON_SHARE * self.tolerance || epsilon <= SMALLEST_EPSILON
-            {
-                return self.with_estimate(finer);
-            }
-            here = finer;
-        }
-    }
-
-    /// A solution with an estimate of its global error.
-    fn with_estimate(&mut self, solved: Solved) -> Result<Solved, Stuck> {
-        match solved.solution.error_estimate() {
-            Some(_) => Ok(solved),
-            None => self.again(solved, Effort::Final),
-        }
-    }
-
-    /// Lowers ε roughly in great steps, or carefully in small ones where the slip is too small for
-    /// that.
-    fn lower_epsilon(&mut self, start: Solved, epsilon: f64) -> Result<Solved, Stuck> {
-        let from = start.problem.epsilon().ln();
-        let fallback = start.clone();
-        let range = [from, epsilon.ln()];
-        self.follow(start, range, GREAT_STEP, Effort::Rough, with_epsilon)
-            .or_else(|_| self.follow(fallback, range, SMALL_STEP, Effort::Careful, with_epsilon))
-    }
-}
-
-/// The same problem with the slip normalised by ε = eᵗ.
-fn with_epsilon(problem: &DriveProblem, t: f64) -> DriveProblem {
-    problem.clone().with_epsilon(t.exp())
 }

@@ -224,6 +224,11 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
         limit,
     };
     let mut checks = vec![
+        check(
+            "effect of the slip normalisation",
+            path.epsilon_effect,
+            path.tolerance,
+        ),
         check("moment balance on the driven pulley", moment(DRIVEN), limit),
         check("moment balance on the driver", moment(DRIVER), limit),
         check(
@@ -242,7 +247,11 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
                 .max(distance / centre_distance),
             limit,
         ),
-        check("normal pressure not negative", -lowest / highest, limit),
+        check(
+            "normal pressure not negative",
+            (-lowest).max(0.0) / highest,
+            limit,
+        ),
     ];
     if problem.has_zones() {
         checks.push(check("friction within its limit", wrong / highest, limit));
@@ -344,6 +353,16 @@ fn friction_zones(solved: &Solved, pulley: usize) -> Vec<Zone> {
         Some(zone) if zone.kind == kind => zone.to = to,
         _ => zones.push(Zone { kind, from, to }),
     };
+    if problem.has_zones() && !problem.is_split() {
+        for (regime, [from, to]) in super::zones::angles(solved, pulley) {
+            let kind = match regime {
+                Regime::Elastic => ZoneKind::Elastic,
+                Regime::Slip | Regime::Either => ZoneKind::Slip,
+            };
+            extend(kind, from, to);
+        }
+        return zones;
+    }
     for segment in problem.zones(pulley) {
         let angle = |y: &[f64]| y[super::ANGLE];
         let ends = [solved.solution.start(segment), solved.solution.end(segment)].map(angle);

@@ -5,7 +5,7 @@
 //! smooth.
 
 use super::path::Solved;
-use super::{DRIVEN, DRIVER, DriveProblem, MAX_STATES, Regime, limit_excess};
+use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, MAX_STATES, Regime, limit_excess};
 
 /// Samples per mesh interval in search of crossings.
 const SAMPLES: usize = 8;
@@ -163,33 +163,42 @@ impl Cut<'_> {
     fn pulley(&self, zone: usize) -> usize {
         if zone < self.driven { DRIVEN } else { DRIVER }
     }
+}
 
-    /// The segment of the solution with a place on a pulley, and s there.
-    fn locate(&self, pulley: usize, place: f64) -> (usize, f64) {
-        let p = self.solved.solution.parameters();
-        let mut segments = self.solved.problem.zones(pulley);
-        let last = segments.end - 1;
-        let mut before = 0.0;
-        let within = segments.find(|&segment| {
-            let length = p[DriveProblem::length_index(segment)];
-            let found = segment == last || place <= before + length;
-            if !found {
-                before += length;
-            }
-            found
-        });
-        let segment = within.unwrap_or(last);
-        (
-            segment,
-            (place - before) / p[DriveProblem::length_index(segment)],
-        )
+/// The segment of a solution with a place on a pulley (scaled arc length from the entry), and s
+/// there.
+fn locate(solved: &Solved, pulley: usize, place: f64) -> (usize, f64) {
+    let p = solved.solution.parameters();
+    let length = |segment| p[DriveProblem::length_index(segment)];
+    let segments = solved.problem.zones(pulley);
+    let (mut segment, mut before) = (segments.start, 0.0);
+    while segment + 1 < segments.end && place > before + length(segment) {
+        before += length(segment);
+        segment += 1;
     }
+    (segment, (place - before) / length(segment))
+}
+
+/// The kinds of friction along one pulley with the swept angles where they begin and end.
+pub(super) fn angles(solved: &Solved, pulley: usize) -> Vec<(Regime, [f64; 2])> {
+    let angle = |place: f64| {
+        let (segment, s) = locate(solved, pulley, place);
+        let mut y = [0.0; MAX_STATES];
+        let n = solved.solution.segments()[segment].states;
+        solved.solution.state(segment, s, &mut y[..n]);
+        y[ANGLE]
+    };
+    zones(solved, pulley)
+        .into_iter()
+        .map(|zone| (zone.regime, [zone.from, zone.to].map(angle)))
+        .collect()
 }
 
 impl bvp::Guess for Cut<'_> {
     fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
         let Zone { from, to, .. } = self.zones[segment];
-        let (known, s) = self.locate(self.pulley(segment), from + s * (to - from));
+        let place = from + s * (to - from);
+        let (known, s) = locate(self.solved, self.pulley(segment), place);
         self.solved.solution.state(known, s, y);
     }
 
