@@ -98,6 +98,10 @@ pub(crate) struct Tableau {
     pub(crate) defect_value: Vec<f64>,
     /// βₗ' at the defect points, (m + 1) × m.
     pub(crate) defect_slope: Vec<f64>,
+    /// βₗ' at the collocation points of the left and of the right half of an interval, 2m × m.
+    pub(crate) half_slopes: Vec<f64>,
+    /// βₗ(½).
+    pub(crate) half_value: Vec<f64>,
     /// The polynomials behind the continuous solution.
     basis: Basis,
     /// m + 1 distinct points, the first 0, at which a guess is interpolated.
@@ -117,6 +121,8 @@ impl Tableau {
         let basis = Basis::new(c.clone());
         let defect_rule = gauss(stages + 1);
         let values = |points: &[f64]| basis.table(points, Basis::values);
+        let halves = [0.0, 0.5].map(|left| c.iter().map(move |c| left + 0.5 * c));
+        let halves: Vec<f64> = halves.into_iter().flatten().collect();
         let mut guess_points = c.clone();
         if c[0] > 0.0 {
             guess_points.insert(0, 0.0);
@@ -130,6 +136,8 @@ impl Tableau {
             a: values(&c),
             defect_value: values(&defect_rule.points),
             defect_slope: basis.table(&defect_rule.points, Basis::slopes),
+            half_slopes: basis.table(&halves, Basis::slopes),
+            half_value: values(&[0.5]),
             guess_slope: c
                 .iter()
                 .flat_map(|&x| lagrange_slopes(&guess_points, x))
