@@ -14,7 +14,7 @@
 
 use crate::almost_block_diagonal::{AlmostBlockDiagonal, Singular};
 use crate::condensation::Condensation;
-use crate::dense::SingularRow;
+use crate::dense::{SingularRow, all_finite};
 use crate::iterate::{Interval, Iterate, NonFinite, Residual};
 use crate::mesh::Mesh;
 use crate::scheme::Tableau;
@@ -247,6 +247,9 @@ impl<'a> Collocation<'a> {
 
 /// The first row of a row-major matrix with an entry that is not finite.
 fn non_finite_row(matrix: &[f64], columns: usize) -> Option<usize> {
+    if all_finite(matrix) {
+        return None;
+    }
     matrix
         .iter()
         .position(|x| !x.is_finite())

@@ -79,19 +79,39 @@ fn subtract_four(x: &mut [f64], f: &[f64], u: [&[f64]; PANEL]) {
     }
 }
 
-/// Solves A x = b in place with the factors of [`lu_factor`].
+/// Solves A x = b in place with the factors of [`lu_factor`]. Rows go in panels, whose products with
+/// what is already known do not wait for each other.
 pub(crate) fn lu_solve(lu: &[f64], n: usize, pivots: &[usize], b: &mut [f64]) {
     for (i, &pivot) in pivots.iter().enumerate().take(n) {
         b.swap(i, pivot);
     }
-    for i in 1..n {
-        let (known, rest) = b.split_at_mut(i);
-        rest[0] -= dot(&lu[i * n..][..i], known);
+    let b = &mut b[..n];
+    for first in (0..n).step_by(PANEL) {
+        let last = (first + PANEL).min(n);
+        let (known, panel) = b.split_at_mut(first);
+        for (x, row) in panel
+            .iter_mut()
+            .zip(lu[first * n..last * n].chunks_exact(n))
+        {
+            *x -= dot(&row[..first], known);
+        }
+        for i in first + 1..last {
+            let (known, x) = b[first..].split_at_mut(i - first);
+            x[0] -= dot(&lu[i * n + first..][..known.len()], known);
+        }
     }
-    for i in (0..n).rev() {
-        let row = &lu[i * n..][..n];
-        let sum = dot(&row[i + 1..], &b[i + 1..n]);
-        b[i] = (b[i] - sum) / row[i];
+    for first in (0..n).step_by(PANEL).rev() {
+        let last = (first + PANEL).min(n);
+        let (panel, known) = b.split_at_mut(last);
+        let rows = lu[first * n..last * n].chunks_exact(n);
+        for (x, row) in panel[first..].iter_mut().zip(rows) {
+            *x -= dot(&row[last..], known);
+        }
+        for i in (first..last).rev() {
+            let (x, known) = panel[i..].split_at_mut(1);
+            let row = &lu[i * n..][i..last];
+            x[0] = (x[0] - dot(&row[1..], known)) / row[0];
+        }
     }
 }
 
@@ -165,6 +185,19 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
+/// Whether all numbers are finite: zero times anything else is NaN, and a sum keeps it.
+pub(crate) fn all_finite(x: &[f64]) -> bool {
+    let blocks = x.chunks_exact(4);
+    let rest: f64 = blocks.remainder().iter().map(|x| 0.0 * x).sum();
+    let mut sums = [rest; 4];
+    for block in blocks {
+        for (sum, x) in sums.iter_mut().zip(block) {
+            *sum += 0.0 * x;
+        }
+    }
+    sums.iter().all(|sum| *sum == 0.0)
+}
+
 /// y += factor x.
 #[inline]
 pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
@@ -213,6 +246,21 @@ mod tests {
                 prop_assert!((b[i] - x[i]).abs() < 1e-9);
                 for (row, solved) in bt.chunks_exact(n).enumerate() {
                     prop_assert!((solved[i] / (1.0 + row as f64) - x[i]).abs() < 1e-9);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn one_number_that_is_not_finite_is_found() {
+        for length in [1, 3, 4, 11] {
+            let mut x = vec![1e300; length];
+            assert!(all_finite(&x));
+            for place in 0..length {
+                for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                    let kept = std::mem::replace(&mut x[place], value);
+                    assert!(!all_finite(&x));
+                    x[place] = kept;
                 }
             }
         }
