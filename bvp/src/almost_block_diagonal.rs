@@ -29,7 +29,8 @@
 //! Comput. 14 (1993) 231-238; the method is that of S. J. Wright, "Stable parallel algorithms for
 //! two-point boundary value problems", SIAM J. Sci. Stat. Comput. 13 (1992) 742-764.
 
-use crate::dense::{SingularRow, add_scaled, dot, lu_factor, lu_solve};
+use crate::dense::{add_scaled, dot};
+use crate::end_system::EndSystem;
 use crate::iterate::Iterate;
 
 /// Where the Newton matrix is singular to working precision.
@@ -244,14 +245,8 @@ pub(crate) struct AlmostBlockDiagonal {
     chains: Vec<Chain>,
     /// Parameters k.
     k: usize,
-    /// Unknowns of the end system, Σ 2n + k; as many equations.
-    size: usize,
-    /// The end system: reduced links first, then the conditions; factored in place.
-    ends: Vec<f64>,
-    pivots: Vec<usize>,
-    /// Equilibration of its rows and columns.
-    row_scale: Vec<f64>,
-    column_scale: Vec<f64>,
+    /// The end system, Σ 2n + k equations: reduced links first, then the conditions.
+    ends: EndSystem,
     /// Right-hand side and solution of the end system.
     unknowns: Vec<f64>,
 }
@@ -266,11 +261,7 @@ impl AlmostBlockDiagonal {
         Self {
             chains,
             k,
-            size,
-            ends: vec![0.0; size * size],
-            pivots: vec![0; size],
-            row_scale: vec![0.0; size],
-            column_scale: vec![0.0; size],
+            ends: EndSystem::new(size),
             unknowns: vec![0.0; size],
         }
     }
@@ -283,8 +274,9 @@ impl AlmostBlockDiagonal {
     /// Factors the matrix from the filled links and the Jacobian of the conditions, (Σ n + k) rows
     /// of Σ 2n + k columns: start and end of each segment in turn, then the parameters.
     pub(crate) fn factor(&mut self, conditions: &[f64]) -> Result<(), Singular> {
-        let size = self.size;
-        self.ends.fill(0.0);
+        let size = self.unknowns.len();
+        let ends = self.ends.matrix_mut();
+        ends.fill(0.0);
         let (mut row, mut column) = (0, 0);
         for (segment, chain) in self.chains.iter_mut().enumerate() {
             chain
@@ -292,48 +284,15 @@ impl AlmostBlockDiagonal {
                 .map_err(|node| Singular::Node { segment, node })?;
             let (n, k) = (chain.n, chain.k);
             for reduced in chain.reduced.chunks_exact(2 * n + k) {
-                let end_row = &mut self.ends[row * size..][..size];
+                let end_row = &mut ends[row * size..][..size];
                 end_row[column..column + 2 * n].copy_from_slice(&reduced[..2 * n]);
                 end_row[size - k..].copy_from_slice(&reduced[2 * n..]);
                 row += 1;
             }
             column += 2 * n;
         }
-        self.ends[row * size..].copy_from_slice(conditions);
-        self.equilibrate()?;
-        lu_factor(&mut self.ends, size, &mut self.pivots)
-            .map_err(|SingularRow(_)| Singular::Ends)?;
-        // In an equilibrated matrix a pivot at rounding level is a zero.
-        let negligible = size as f64 * f64::EPSILON;
-        if (0..size).any(|i| self.ends[i * size + i].abs() <= negligible) {
-            return Err(Singular::Ends);
-        }
-        Ok(())
-    }
-
-    /// Scales rows, then columns, of the end system to largest entries of one.
-    fn equilibrate(&mut self) -> Result<(), Singular> {
-        self.column_scale.fill(0.0);
-        for (row, scale) in self
-            .ends
-            .chunks_exact_mut(self.size)
-            .zip(&mut self.row_scale)
-        {
-            *scale = inverse_of_largest(row).ok_or(Singular::Ends)?;
-            for (x, largest) in row.iter_mut().zip(&mut self.column_scale) {
-                *x *= *scale;
-                *largest = largest.max(x.abs());
-            }
-        }
-        for scale in &mut self.column_scale {
-            *scale = inverse_of_largest(&[*scale]).ok_or(Singular::Ends)?;
-        }
-        for row in self.ends.chunks_exact_mut(self.size) {
-            for (x, scale) in row.iter_mut().zip(&self.column_scale) {
-                *x *= scale;
-            }
-        }
-        Ok(())
+        ends[row * size..].copy_from_slice(conditions);
+        self.ends.factor()
     }
 
     /// Solves with the factored matrix. On entry the slot of node i + 1 of `x` holds gᵢ and
@@ -345,14 +304,8 @@ impl AlmostBlockDiagonal {
             row += chain.n;
         }
         self.unknowns[row..].copy_from_slice(conditions);
-        for (x, scale) in self.unknowns.iter_mut().zip(&self.row_scale) {
-            *x *= scale;
-        }
-        lu_solve(&self.ends, self.size, &self.pivots, &mut self.unknowns);
-        for (x, scale) in self.unknowns.iter_mut().zip(&self.column_scale) {
-            *x *= scale;
-        }
-        x.p.copy_from_slice(&self.unknowns[self.size - self.k..]);
+        self.ends.solve(&mut self.unknowns);
+        x.p.copy_from_slice(&self.unknowns[self.unknowns.len() - self.k..]);
         let mut first = 0;
         for (chain, segment) in self.chains.iter().zip(&mut x.segments) {
             let (n, nodes) = (chain.n, &mut segment.nodes);
@@ -363,13 +316,6 @@ impl AlmostBlockDiagonal {
             first += 2 * n;
         }
     }
-}
-
-/// 1 / max |x|, or `None` where that is not a positive finite number.
-fn inverse_of_largest(x: &[f64]) -> Option<f64> {
-    let largest = x.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
-    let finite = x.iter().all(|x| x.is_finite());
-    (finite && largest > 0.0).then(|| 1.0 / largest)
 }
 
 #[cfg(test)]

@@ -150,6 +150,7 @@ mod defect;
 mod dense;
 mod difference;
 mod dual;
+mod end_system;
 mod equations;
 mod error;
 mod error_control;

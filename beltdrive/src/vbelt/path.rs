@@ -11,6 +11,9 @@ const EASY: usize = 8;
 /// A homotopy ends when its steps have shrunk to this fraction of the first.
 const SHORTEST_STEP: f64 = 0.02;
 
+/// Mesh intervals that a rough solution may have.
+const ROUGH_INTERVALS: usize = 500;
+
 /// How accurately a problem is solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Effort {
@@ -124,6 +127,11 @@ impl<'a> Path<'a> {
             // is all there is.
             initial_intervals: if effort == Effort::Final { 40 } else { 16 },
             max_newton_steps,
+            // A rough solution that needs more is none: the step to it was too long.
+            max_intervals: match effort {
+                Effort::Rough | Effort::Careful => ROUGH_INTERVALS,
+                Effort::Full | Effort::Final => Options::default().max_intervals,
+            },
             // A shorter step of the homotopy is a better answer to a failure than a finer mesh.
             retries: 0,
             global_error: match effort {

@@ -1,0 +1,158 @@
+//! The dense system of all ends and parameters that remains when the segments are eliminated.
+
+use crate::almost_block_diagonal::Singular;
+use crate::dense::{SingularRow, lu_factor, lu_solve};
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::{MatMut, MatRef};
+
+/// Systems of at least so many equations are factored by faer, whose blocked kernels are faster
+/// from about there on; below, its bookkeeping costs more than the arithmetic.
+const LARGE: usize = 64;
+
+/// A square system, equilibrated and factored with row pivoting.
+#[derive(Clone, Debug)]
+pub(crate) struct EndSystem {
+    size: usize,
+    /// The matrix, row-major; its factors once it is factored, if it is small.
+    matrix: Vec<f64>,
+    pivots: Vec<usize>,
+    /// The factors of a large matrix.
+    large: Option<PartialPivLu<f64>>,
+    /// Equilibration of rows and columns.
+    row_scale: Vec<f64>,
+    column_scale: Vec<f64>,
+}
+
+impl EndSystem {
+    pub(crate) fn new(size: usize) -> Self {
+        Self {
+            size,
+            matrix: vec![0.0; size * size],
+            pivots: vec![0; size],
+            large: None,
+            row_scale: vec![0.0; size],
+            column_scale: vec![0.0; size],
+        }
+    }
+
+    /// The matrix, row-major, to be filled before [`factor`](Self::factor).
+    pub(crate) fn matrix_mut(&mut self) -> &mut [f64] {
+        &mut self.matrix
+    }
+
+    /// Factors the filled matrix.
+    pub(crate) fn factor(&mut self) -> Result<(), Singular> {
+        let size = self.size;
+        self.equilibrate()?;
+        // In an equilibrated matrix a pivot at rounding level is a zero.
+        let negligible = size as f64 * f64::EPSILON;
+        let regular = if size < LARGE {
+            lu_factor(&mut self.matrix, size, &mut self.pivots)
+                .map_err(|SingularRow(_)| Singular::Ends)?;
+            (0..size).all(|i| self.matrix[i * size + i].abs() > negligible)
+        } else {
+            let matrix = MatRef::from_row_major_slice(&self.matrix, size, size);
+            let factors = self.large.insert(PartialPivLu::new(matrix));
+            (0..size).all(|i| factors.U()[(i, i)].abs() > negligible)
+        };
+        if regular { Ok(()) } else { Err(Singular::Ends) }
+    }
+
+    /// Scales rows, then columns, to largest entries of one.
+    fn equilibrate(&mut self) -> Result<(), Singular> {
+        self.column_scale.fill(0.0);
+        let rows = self.matrix.chunks_exact_mut(self.size);
+        for (row, scale) in rows.zip(&mut self.row_scale) {
+            *scale = inverse_of_largest(row).ok_or(Singular::Ends)?;
+            for (x, largest) in row.iter_mut().zip(&mut self.column_scale) {
+                *x *= *scale;
+                *largest = largest.max(x.abs());
+            }
+        }
+        for scale in &mut self.column_scale {
+            *scale = inverse_of_largest(&[*scale]).ok_or(Singular::Ends)?;
+        }
+        for row in self.matrix.chunks_exact_mut(self.size) {
+            for (x, scale) in row.iter_mut().zip(&self.column_scale) {
+                *x *= scale;
+            }
+        }
+        Ok(())
+    }
+
+    /// Replaces right-hand sides by the solution of the factored system.
+    pub(crate) fn solve(&self, x: &mut [f64]) {
+        for (x, scale) in x.iter_mut().zip(&self.row_scale) {
+            *x *= scale;
+        }
+        match &self.large {
+            Some(factors) => {
+                factors.solve_in_place(MatMut::from_column_major_slice_mut(x, self.size, 1));
+            }
+            None => lu_solve(&self.matrix, self.size, &self.pivots, x),
+        }
+        for (x, scale) in x.iter_mut().zip(&self.column_scale) {
+            *x *= scale;
+        }
+    }
+}
+
+/// 1 / max |x|, or `None` where that is not a positive finite number.
+fn inverse_of_largest(x: &[f64]) -> Option<f64> {
+    let largest = x.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let finite = x.iter().all(|x| x.is_finite());
+    (finite && largest > 0.0).then(|| 1.0 / largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dense::dot;
+
+    /// A well-conditioned matrix with rows of very different size.
+    fn system(size: usize) -> EndSystem {
+        let mut system = EndSystem::new(size);
+        for (i, row) in system.matrix_mut().chunks_exact_mut(size).enumerate() {
+            for (j, x) in row.iter_mut().enumerate() {
+                let number = ((i * 7919 + j * 104_729) % 1000) as f64 / 1000.0 - 0.5;
+                let diagonal = if (i * 5 + 3) % size == j {
+                    size as f64
+                } else {
+                    0.0
+                };
+                *x = (number + diagonal) * 10f64.powi(i32::try_from(i % 7).unwrap() - 3);
+            }
+        }
+        system
+    }
+
+    #[test]
+    fn small_and_large_systems_are_solved() {
+        // 5 and the sizes have no common factor, so the large entries form a permutation.
+        for size in [3, 33, LARGE - 1, LARGE, 101] {
+            let mut system = system(size);
+            let solution: Vec<f64> = (0..size).map(|i| 1.0 + i as f64).collect();
+            let rows = system.matrix_mut().chunks_exact(size);
+            let mut x: Vec<f64> = rows.map(|row| dot(row, &solution)).collect();
+            system.factor().unwrap();
+            assert_eq!(system.large.is_some(), size >= LARGE);
+            system.solve(&mut x);
+            for (found, exact) in x.iter().zip(&solution) {
+                assert!(
+                    (found / exact - 1.0).abs() < 1e-11,
+                    "{size}: {found} for {exact}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_repeated_row_is_singular_at_every_size() {
+        for size in [3, 33, LARGE, 101] {
+            let mut system = system(size);
+            let row = system.matrix_mut()[..size].to_vec();
+            system.matrix_mut()[size..2 * size].copy_from_slice(&row);
+            assert_eq!(system.factor(), Err(Singular::Ends), "{size}");
+        }
+    }
+}
