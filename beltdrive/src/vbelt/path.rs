@@ -138,7 +138,6 @@ impl<'a> Path<'a> {
                 Effort::Final => GlobalError::HalvedMesh,
                 _ => GlobalError::Skip,
             },
-            ..Options::default()
         };
         self.problems += 1;
         let outcome = bvp::solve(&problem, guess, &options);
