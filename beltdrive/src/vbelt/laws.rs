@@ -45,7 +45,7 @@ impl Path<'_> {
         let bristles =
             |path: &Self, stiffness| path.problem(FrictionLaw::Bristle { stiffness }, 0.0, tight);
         let FrictionLaw::Bristle { stiffness } = self.drive.law else {
-            let start = self.cold(bristles(self, soft), Effort::Rough)?;
+            let start = self.cold(bristles(self, soft), Effort::Start)?;
             let coulomb = self.enter_coulomb(start, tight)?;
             if let FrictionLaw::Coulomb = self.drive.law {
                 let sharp = self.lower_epsilon(coulomb, RESOLVED_EPSILON)?;
@@ -59,7 +59,7 @@ impl Path<'_> {
         if let Ok(solved) = self.cold(bristles(self, stiffness), Effort::Final) {
             return Ok(solved);
         }
-        let start = self.cold(bristles(self, soft), Effort::Rough)?;
+        let start = self.cold(bristles(self, soft), Effort::Start)?;
         let range = [soft.ln(), stiffness.ln()];
         let member = |problem: &DriveProblem, t: f64| problem.clone().with_bristles(t.exp());
         let stiffer = self.follow(start, range, GREAT_STEP, Effort::Rough, member)?;

@@ -17,6 +17,8 @@ const ROUGH_INTERVALS: usize = 500;
 /// How accurately a problem is solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Effort {
+    /// As `Rough`, from a guess that is no neighbour: with patience.
+    Start,
     /// Good enough to be the guess of a neighbour.
     Rough,
     /// As `Rough`, where the slip is too small to be seen by that.
@@ -116,6 +118,7 @@ impl<'a> Path<'a> {
         effort: Effort,
     ) -> Result<Solved, bvp::Error> {
         let (tolerance, stages, max_newton_steps) = match effort {
+            Effort::Start => (self.tolerance.max(1e-2), 4, 40),
             Effort::Rough => (self.tolerance.max(1e-2), 4, 16),
             Effort::Careful => (self.tolerance.max(1e-4), 5, 16),
             Effort::Full | Effort::Final => (self.tolerance, 6, 30),
@@ -130,10 +133,10 @@ impl<'a> Path<'a> {
             // A rough solution that needs more is none: the step to it was too long.
             max_intervals: match effort {
                 Effort::Rough | Effort::Careful => ROUGH_INTERVALS,
-                Effort::Full | Effort::Final => Options::default().max_intervals,
+                Effort::Start | Effort::Full | Effort::Final => Options::default().max_intervals,
             },
             // A shorter step of the homotopy is a better answer to a failure than a finer mesh.
-            retries: 0,
+            retries: if effort == Effort::Start { 2 } else { 0 },
             global_error: match effort {
                 Effort::Final => GlobalError::HalvedMesh,
                 _ => GlobalError::Skip,
