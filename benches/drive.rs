@@ -1,12 +1,13 @@
-//! How long does the steady state of a drive take, from nothing but the drive file?
+//! How long does the steady state of a drive take, cold from nothing but the drive file, and warm
+//! from that of a neighbouring load?
 
-use beltdrive::{Drive, SolveOptions, examples, input, solve};
+use beltdrive::{Drive, SolveOptions, examples, input, solve, solve_from};
 use criterion::{BenchmarkId, Criterion};
 use std::hint::black_box;
 
 /// Friction law and tight tractive tension in N. The thesis carries 700 N; 105 N is just above the
 /// slack tension, 7781.2 N close to the limit of the Coulomb drive.
-const LOADS: [(&str, f64); 6] = [
+const COLD: [(&str, f64); 6] = [
     ("coulomb", 105.0),
     ("coulomb", 700.0),
     ("coulomb", 3000.0),
@@ -14,6 +15,16 @@ const LOADS: [(&str, f64); 6] = [
     ("epp", 700.0),
     ("bristle", 700.0),
 ];
+
+/// The same for warm starts; the neighbour carries 2 % less.
+const WARM: [(&str, f64); 5] = [
+    ("coulomb", 700.0),
+    ("coulomb", 3000.0),
+    ("coulomb", 7700.0),
+    ("epp", 700.0),
+    ("bristle", 700.0),
+];
+const OPTIONS: SolveOptions = SolveOptions { tolerance: 1e-6 };
 
 /// The drive of the thesis with a friction law and a load.
 fn drive(law: &str, tight: f64) -> Drive {
@@ -25,15 +36,36 @@ fn drive(law: &str, tight: f64) -> Drive {
     input::parse("kim2009.toml", text, &overrides).expect("a valid drive file")
 }
 
-fn main() {
-    let mut criterion = Criterion::default().configure_from_args();
+fn cold(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("drive, cold");
-    for (law, tight) in LOADS {
-        let (drive, options) = (drive(law, tight), SolveOptions { tolerance: 1e-6 });
+    for (law, tight) in COLD {
+        let drive = drive(law, tight);
         group.bench_function(BenchmarkId::new(law, format!("{tight} N")), |b| {
-            b.iter(|| solve(black_box(&drive), &options).expect("a load that the drive carries"));
+            b.iter(|| solve(black_box(&drive), &OPTIONS).expect("a load that the drive carries"));
         });
     }
     group.finish();
+}
+
+fn warm(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("drive, warm");
+    for (law, tight) in WARM {
+        let neighbour = solve(&drive(law, 0.98 * tight), &OPTIONS);
+        let neighbour = neighbour.expect("a load that the drive carries");
+        let drive = drive(law, tight);
+        group.bench_function(BenchmarkId::new(law, format!("{tight} N")), |b| {
+            b.iter(|| {
+                let state = solve_from(&neighbour, black_box(&drive), &OPTIONS);
+                state.expect("a load that the drive carries")
+            });
+        });
+    }
+    group.finish();
+}
+
+fn main() {
+    let mut criterion = Criterion::default().configure_from_args();
+    cold(&mut criterion);
+    warm(&mut criterion);
     criterion.final_summary();
 }
