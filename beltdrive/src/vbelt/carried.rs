@@ -3,8 +3,8 @@
 use super::path::Solved;
 use super::{LAW, MAX_STATES};
 
-/// A solution as the guess of a problem with another parameter, of another law (states that the law does not
-/// have are left out, those that it adds begin at zero) or with the tight tension unknown.
+/// A solution as the guess of a problem with another parameter, of another law (states that the law
+/// does not have are left out, those that it adds begin at zero) or with the tight tension unknown.
 pub(super) struct Carried<'a>(pub(super) &'a Solved);
 
 impl bvp::Guess for Carried<'_> {

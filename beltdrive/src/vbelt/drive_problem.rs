@@ -198,6 +198,11 @@ impl DriveProblem {
         self.regimes[segment]
     }
 
+    /// The friction regimes along a pulley.
+    pub(crate) fn regimes(&self, pulley: usize) -> &[Regime] {
+        &self.regimes[self.zones(pulley)]
+    }
+
     /// The pulley of a segment.
     pub(crate) fn pulley(&self, segment: usize) -> usize {
         if segment < self.driven_zones {

@@ -70,14 +70,9 @@ impl Path<'_> {
     /// at the same ε and with the same zones.
     pub(super) fn neighbour(&mut self, solved: &Solved) -> Result<Solved, bvp::Error> {
         self.scales = Scales::with_force(self.drive, solved.problem.scales().force);
-        let zones = [DRIVEN, DRIVER].map(|pulley| {
-            let segments = solved.problem.zones(pulley);
-            segments
-                .map(|i| solved.problem.regime(i))
-                .collect::<Vec<_>>()
-        });
+        let [driven, driver] = [DRIVEN, DRIVER].map(|pulley| solved.problem.regimes(pulley));
         let problem = DriveProblem::new(self.drive, self.scales, solved.problem.epsilon())
-            .with_zones(&zones[DRIVEN], &zones[DRIVER]);
+            .with_zones(driven, driver);
         self.attempt(problem, &Carried(solved), Effort::Final)
     }
 
@@ -91,10 +86,7 @@ impl Path<'_> {
                 outcome = self.attempt(coulomb(self, epsilon), &Carried(&start), Effort::Rough);
             }
         }
-        outcome.map_err(|cause| Stuck {
-            last: Some(Box::new(start)),
-            cause,
-        })
+        outcome.map_err(|cause| Stuck::after(start, cause))
     }
 
     /// EPP friction entered at a large ε, its zones made segments there.
@@ -130,17 +122,14 @@ impl Path<'_> {
                 &Carried(&start),
                 Effort::Rough,
             )
-            .map_err(|cause| Stuck {
-                last: Some(Box::new(start)),
-                cause,
-            })?;
+            .map_err(|cause| Stuck::after(start, cause))?;
         let member = |_: &DriveProblem, share| epp.clone().with_epp_weight(share);
         self.follow(unblended, [0.0, 1.0], 1.0, Effort::Rough, member)
     }
 
     /// Solves EPP friction with its zones as segments, until every zone is of the kind it was
     /// taken for.
-    pub(super) fn split_zones(&mut self, solved: Solved, effort: Effort) -> Result<Solved, Stuck> {
+    fn split_zones(&mut self, solved: Solved, effort: Effort) -> Result<Solved, Stuck> {
         let mut here = solved;
         for _ in 0..MAX_SPLITS {
             let Some(split) = Split::of(&here) else {
@@ -149,13 +138,19 @@ impl Path<'_> {
             let outcome = self.attempt(split.problem(&here), &split.guess(&here), effort);
             here = match outcome {
                 Ok(solved) => solved,
-                Err(cause) => {
-                    let last = Some(Box::new(here));
-                    return Err(Stuck { last, cause });
-                }
+                Err(cause) => return Err(Stuck::after(here, cause)),
             };
         }
         Ok(here)
+    }
+
+    /// A solution with its zones found anew where they are segments.
+    pub(super) fn keep_zones(&mut self, solved: Solved, effort: Effort) -> Result<Solved, Stuck> {
+        if solved.problem.is_split() {
+            self.split_zones(solved, effort)
+        } else {
+            Ok(solved)
+        }
     }
 
     /// Solves to the tolerance, and lowers ε until its effect is below that.
@@ -163,10 +158,8 @@ impl Path<'_> {
         if let FrictionLaw::Bristle { .. } = self.drive.law {
             return self.again(rough, Effort::Final);
         }
-        let mut here = self.again(rough, Effort::Final)?;
-        if here.problem.is_split() {
-            here = self.split_zones(here, Effort::Final)?;
-        }
+        let solved = self.again(rough, Effort::Final)?;
+        let mut here = self.keep_zones(solved, Effort::Final)?;
         loop {
             let epsilon = here.problem.epsilon();
             let range = [epsilon.ln(), (0.1 * epsilon).ln()];

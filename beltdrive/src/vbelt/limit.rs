@@ -81,8 +81,8 @@ impl Path<'_> {
     pub(super) fn find(&mut self, target: f64) -> Result<Found, Stuck> {
         let direct = match self.at_load(target) {
             Ok(solved) if self.is_before_limit(&solved) => return self.classify(solved),
-            Ok(_) => None,
-            Err(stuck) => Some(stuck),
+            // The effect of ε belongs to the state.
+            beyond_or_stuck => beyond_or_stuck.map(|solved| (solved, self.epsilon_effect)),
         };
         let slack = self.drive.load.slack.value() / self.scales.force;
         let ratio = target / slack;
@@ -108,20 +108,16 @@ impl Path<'_> {
                 Found::Beyond(_) => {}
             }
         }
-        match direct {
-            Some(stuck) => Err(stuck),
-            // Only the state beyond the limit point was found.
-            None => self
-                .at_load(target)
-                .and_then(|solved| self.classify(solved)),
-        }
+        // Nothing, or only a state beyond the limit point.
+        let (solved, effect) = direct?;
+        self.epsilon_effect = effect;
+        self.classify(solved)
     }
 
     /// Whether the tension rises with the contact length of the driver, as it does from no load to
     /// the first limit point. Looked at only where a limit point can be near.
     fn is_before_limit(&mut self, solved: &Solved) -> bool {
-        let exit = solved.problem.zones(DRIVER).end - 1;
-        let steep = solved.solution.end(exit)[INCLINATION] > STEEP;
+        let steep = solved.exit(DRIVER)[INCLINATION] > STEEP;
         if !steep && solved.driven_speed() > SLOW {
             return true;
         }
@@ -183,10 +179,7 @@ impl Path<'_> {
                     step *= 0.4;
                     continue;
                 }
-                Err(cause) => {
-                    let last = Some(Box::new(here));
-                    return Err(Stuck { last, cause });
-                }
+                Err(cause) => return Err(Stuck::after(here, cause)),
             };
             if next.driven_speed() <= 0.0 {
                 return self.classify(next);
@@ -209,10 +202,7 @@ impl Path<'_> {
         let problem = from.problem.clone().with_tight_tension(target);
         let solved = self
             .attempt(problem, &Carried(&from), Effort::Careful)
-            .map_err(|cause| Stuck {
-                last: Some(Box::new(from)),
-                cause,
-            })?;
+            .map_err(|cause| Stuck::after(from, cause))?;
         let solved = self.finish(solved)?;
         self.classify(solved)
     }
@@ -250,10 +240,7 @@ impl Path<'_> {
             };
             let next = self
                 .at_length(&top, inside, Effort::Full)
-                .map_err(|cause| Stuck {
-                    last: Some(Box::new(top.clone())),
-                    cause,
-                })?;
+                .map_err(|cause| Stuck::after(top.clone(), cause))?;
             let better = next.tight_tension() >= top.tight_tension();
             match (better, inside < b) {
                 (true, true) => high = std::mem::replace(&mut top, next),
@@ -265,8 +252,7 @@ impl Path<'_> {
                 break;
             }
         }
-        let exit = top.problem.zones(DRIVER).end - 1;
-        let reason = if top.solution.end(exit)[INCLINATION] > FRAC_PI_2 {
+        let reason = if top.exit(DRIVER)[INCLINATION] > FRAC_PI_2 {
             LimitReason::Overhang
         } else {
             LimitReason::DriverSlips

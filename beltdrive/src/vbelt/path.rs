@@ -53,16 +53,25 @@ impl Solved {
             .contact_length(DRIVER, self.solution.parameters())
     }
 
+    /// States where the belt enters a pulley.
+    pub(super) fn entry(&self, pulley: usize) -> &[f64] {
+        self.solution.start(self.problem.zones(pulley).start)
+    }
+
+    /// States where the belt leaves a pulley.
+    pub(super) fn exit(&self, pulley: usize) -> &[f64] {
+        self.solution.end(self.problem.zones(pulley).end - 1)
+    }
+
     /// The constants of the drive that an engineer reads: speed of the driven pulley, mass flow
     /// and both wraps. Pure numbers of order one.
     pub(super) fn constants(&self) -> [f64; 4] {
         let p = self.solution.parameters();
-        let wrap = |pulley| self.solution.end(self.problem.zones(pulley).end - 1)[ANGLE];
         [
             p[DriveProblem::DRIVEN_SPEED],
             p[DriveProblem::MASS_FLOW],
-            wrap(DRIVEN),
-            wrap(DRIVER),
+            self.exit(DRIVEN)[ANGLE],
+            self.exit(DRIVER)[ANGLE],
         ]
     }
 }
@@ -74,6 +83,16 @@ pub(super) struct Stuck {
     pub(super) last: Option<Box<Solved>>,
     /// Why the next one was not.
     pub(super) cause: bvp::Error,
+}
+
+impl Stuck {
+    /// Stuck on the way on from a solved problem.
+    pub(super) fn after(last: Solved, cause: bvp::Error) -> Self {
+        Self {
+            last: Some(Box::new(last)),
+            cause,
+        }
+    }
 }
 
 /// The search for one steady state and what it has cost so far.
@@ -174,19 +193,12 @@ impl<'a> Path<'a> {
                     if solved.solution.stats().newton_steps <= EASY {
                         step *= 2.0;
                     }
-                    let zoned = solved.problem.is_split();
-                    here = if zoned {
-                        self.split_zones(solved, effort)?
-                    } else {
-                        solved
-                    };
-                    t = next;
+                    (here, t) = (self.keep_zones(solved, effort)?, next);
                 }
                 Err(cause) => {
                     step = 0.4 * (next - t).abs();
                     if step < SHORTEST_STEP * first_step {
-                        let last = Some(Box::new(here));
-                        return Err(Stuck { last, cause });
+                        return Err(Stuck::after(here, cause));
                     }
                 }
             }
@@ -210,9 +222,6 @@ impl<'a> Path<'a> {
     /// Solves the same problem again, with more effort.
     pub(super) fn again(&mut self, solved: Solved, effort: Effort) -> Result<Solved, Stuck> {
         self.attempt(solved.problem.clone(), &Carried(&solved), effort)
-            .map_err(|cause| Stuck {
-                last: Some(Box::new(solved)),
-                cause,
-            })
+            .map_err(|cause| Stuck::after(solved, cause))
     }
 }

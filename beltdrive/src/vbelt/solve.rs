@@ -148,7 +148,6 @@ fn conclude(
         Found::State(solved) => *solved,
         Found::Beyond(limit) => {
             let state = &limit.state;
-            let exit = state.problem.zones(super::DRIVER).end - 1;
             return Err(SolveError::NoSteadyState {
                 quantity: match drive.load.tight {
                     SpanTension::Tractive(_) => "tight tractive tension",
@@ -158,7 +157,7 @@ fn conclude(
                 limit: state.tight_tension() * scales.force,
                 reason: limit.reason,
                 driven_speed: state.driven_speed() * scales.angular_speed(super::DRIVEN),
-                exit_inclination: state.solution.end(exit)[super::INCLINATION],
+                exit_inclination: state.exit(super::DRIVER)[super::INCLINATION],
             });
         }
     };

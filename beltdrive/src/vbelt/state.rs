@@ -50,9 +50,7 @@ fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
     let ends = [DRIVEN, DRIVER].map(|pulley| end_angles(solved, pulley));
     let spans = [DRIVEN, DRIVER].map(|from| problem.layout().span(from, ends));
 
-    let driver_entry = solved.solution.start(problem.zones(DRIVER).start);
-    let driver_exit = solved.solution.end(problem.zones(DRIVER).end - 1);
-    let [tight, slack] = [driver_entry[super::TENSION], driver_exit[super::TENSION]];
+    let [tight, slack] = [solved.entry(DRIVER), solved.exit(DRIVER)].map(|y| y[super::TENSION]);
     let unstretched_span =
         |length: f64, tractive: f64| length / (1.0 + strand.strain(strand.tension(tractive, flow)));
     let contact_length = |pulley: usize| integrals[pulley].unstretched * scales.radius[pulley];
@@ -124,10 +122,9 @@ fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
 
 /// The inclination at entry and exit of a pulley.
 fn end_angles(solved: &Solved, pulley: usize) -> EndAngles<f64> {
-    let segments = solved.problem.zones(pulley);
     EndAngles {
-        entry: solved.solution.start(segments.start)[INCLINATION],
-        exit: solved.solution.end(segments.end - 1)[INCLINATION],
+        entry: solved.entry(pulley)[INCLINATION],
+        exit: solved.exit(pulley)[INCLINATION],
     }
 }
 
@@ -180,12 +177,10 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
     let limit = 10.0 * path.tolerance;
     let tight = solved.tight_tension().abs();
     let moment = |pulley: usize| {
-        let segments = problem.zones(pulley);
         let arm =
             |y: &[f64]| y[super::TENSION] * (1.0 - y[super::PENETRATION]) * y[INCLINATION].cos();
-        let entry = arm(solved.solution.start(segments.start));
-        let exit = arm(solved.solution.end(segments.end - 1));
-        (integrals[pulley].torque - (exit - entry)).abs() / tight
+        let change = arm(solved.exit(pulley)) - arm(solved.entry(pulley));
+        (integrals[pulley].torque - change).abs() / tight
     };
     let friction = integrals[DRIVEN].friction + integrals[DRIVER].friction;
     let given = -integrals[DRIVER].torque;
@@ -193,8 +188,7 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
     let stored = integrals[DRIVEN].stored + integrals[DRIVER].stored;
 
     let ends = [DRIVEN, DRIVER].map(|pulley| end_angles(solved, pulley));
-    let swept = [DRIVEN, DRIVER]
-        .map(|pulley| solved.solution.end(problem.zones(pulley).end - 1)[super::ANGLE]);
+    let swept = [DRIVEN, DRIVER].map(|pulley| solved.exit(pulley)[super::ANGLE]);
     let misfit = problem.layout().plan(ends, swept).misfit(problem.layout());
     let [gap, kink, distance] = misfit.map(f64::abs);
     let centre_distance = problem.layout().centre_distance;
@@ -270,7 +264,7 @@ fn pulley_state(solved: &Solved, pulley: usize, integrals: Integrals) -> PulleyS
     PulleyState {
         angular_speed: DriveProblem::speed(pulley, p) * scales.angular_speed(pulley),
         torque: sense * integrals.torque * scales.torque(pulley),
-        wrap_angle: solved.solution.end(problem.zones(pulley).end - 1)[super::ANGLE],
+        wrap_angle: solved.exit(pulley)[super::ANGLE],
         max_penetration: deepest,
         inclination: [entry, exit],
         zones: friction_zones(solved, pulley),

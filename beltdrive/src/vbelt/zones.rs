@@ -11,7 +11,6 @@ use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, MAX_STATES, Regime, limit_exces
 const SAMPLES: usize = 8;
 /// A zone shorter than this share of the contact is not told from its neighbours.
 const SHORTEST_ZONE: f64 = 1e-4;
-
 /// Nodes nearer than this to each other or to the ends of a zone, in its length, are left out.
 const NODE_MARGIN: f64 = 1e-4;
 
@@ -34,29 +33,22 @@ impl Split {
     /// every segment is of one kind and known to be.
     pub(super) fn of(solved: &Solved) -> Option<Self> {
         let pulleys = [DRIVEN, DRIVER].map(|pulley| zones(solved, pulley));
-        let kinds = |zones: &[Zone]| zones.iter().map(|zone| zone.regime).collect::<Vec<_>>();
-        let known = [DRIVEN, DRIVER].map(|pulley| {
-            let segments = solved.problem.zones(pulley);
-            segments
-                .map(|i| solved.problem.regime(i))
-                .collect::<Vec<_>>()
-        });
-        let same = (0..2).all(|pulley| kinds(&pulleys[pulley]) == known[pulley]);
-        (!same && solved.problem.has_zones()).then_some(Self { pulleys })
+        let split = Self { pulleys };
+        let same = [DRIVEN, DRIVER]
+            .into_iter()
+            .all(|pulley| split.regimes(pulley) == solved.problem.regimes(pulley));
+        (!same && solved.problem.has_zones()).then_some(split)
+    }
+
+    fn regimes(&self, pulley: usize) -> Vec<Regime> {
+        let zones = self.pulleys[pulley].iter();
+        zones.map(|zone| zone.regime).collect()
     }
 
     /// The problem with these zones as segments.
     pub(super) fn problem(&self, solved: &Solved) -> DriveProblem {
-        let kinds = |pulley: usize| -> Vec<Regime> {
-            self.pulleys[pulley]
-                .iter()
-                .map(|zone| zone.regime)
-                .collect()
-        };
-        solved
-            .problem
-            .clone()
-            .with_zones(&kinds(DRIVEN), &kinds(DRIVER))
+        let problem = solved.problem.clone();
+        problem.with_zones(&self.regimes(DRIVEN), &self.regimes(DRIVER))
     }
 
     /// The solution cut at the zones, as the guess of that problem.
