@@ -1,0 +1,357 @@
+//! A branch as an iterator over its points.
+
+use crate::corrector::{Accuracy, Condition, Corrector};
+use crate::metric::Metric;
+use crate::null_space::NullSpace;
+use crate::predictor::History;
+use crate::span::Node;
+use crate::{Difficulty, Error, Kind, Options, Point, Stop, System, branch_point};
+use std::collections::VecDeque;
+
+/// A start whose Jacobian comes this close to a second null vector, relative to its size, is
+/// refused.
+const SINGULAR: f64 = 1e-11;
+/// λ turns where its rate along the unit tangent, with its range as unit, is below this.
+const TURNING: f64 = 1e-12;
+/// The first step onto another branch is shortened at most to this.
+const SHORTEST_SWITCH: f64 = 1e-6;
+/// The most corrections of a first point.
+const CORRECTIONS: usize = 50;
+
+/// An event function of the system and a point.
+pub(crate) type EventFunction<'a, S> = Box<dyn FnMut(&S, &[f64]) -> f64 + 'a>;
+
+/// Where a trace sets out from the first point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// λ increases.
+    Increasing,
+    /// λ decreases.
+    Decreasing,
+}
+
+/// The two halves of the other branch at a branch point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Leg {
+    /// Along [`Point::other`].
+    Forward,
+    /// Against it.
+    Backward,
+}
+
+/// A curve of solutions of a [`System`], point by point.
+///
+/// The iterator yields the start, every accepted step and every special point in between, in order,
+/// and ends with a reason ([`stop`](Self::stop)). It keeps the last few points only. While points
+/// are drawn by `while let Some(point) = branch.next()`, [`system`](Self::system) is the system in
+/// the discretisation of the last point yielded.
+pub struct Branch<'a, S: System> {
+    pub(crate) system: &'a mut S,
+    pub(crate) options: Options,
+    pub(crate) metric: Metric,
+    pub(crate) corrector: Corrector,
+    pub(crate) events: Vec<EventFunction<'a, S>>,
+    /// The last accepted point and those before.
+    pub(crate) node: Node,
+    pub(crate) history: History,
+    /// The first point and its tangent.
+    pub(crate) home: Node,
+    /// Whether orientation and rates at the last node mean nothing: it is a branch point.
+    pub(crate) unoriented: bool,
+    pub(crate) step: f64,
+    pub(crate) steps: usize,
+    pub(crate) queue: VecDeque<Point>,
+    pub(crate) stop: Option<Stop>,
+}
+
+impl<'a, S: System> Branch<'a, S> {
+    /// A branch from an approximate point `start` = (x, λ), which is corrected at its λ — or across
+    /// the curve, if it is a limit point.
+    ///
+    /// # Errors
+    /// Settings out of range, a start outside the bounds or of the wrong length, no solution near
+    /// it, or a start at which more than one branch leads on.
+    pub fn new(
+        system: &'a mut S,
+        start: &[f64],
+        direction: Direction,
+        options: &Options,
+    ) -> Result<Self, Error> {
+        let mut branch = Self::at(system, start, options)?;
+        branch.correct_start()?;
+        let n = start.len() - 1;
+        let rate = branch.node.tangent[n] / branch.metric.range();
+        let forward = match direction {
+            Direction::Increasing => rate >= 0.0 || rate.abs() < TURNING,
+            Direction::Decreasing => rate < 0.0 && rate.abs() >= TURNING,
+        };
+        branch.set_out(forward);
+        Ok(branch)
+    }
+
+    /// The branch onward from one of its points, in the direction of the point's tangent.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); branch points are no obstacle.
+    pub fn resume(system: &'a mut S, point: &Point, options: &Options) -> Result<Self, Error> {
+        let mut branch = Self::at(system, &point.z, options)?;
+        branch.node.tangent.clone_from(&point.tangent);
+        branch.metric.reach(&point.tangent);
+        if point.kind == Kind::BranchPoint {
+            branch.unoriented = true;
+            branch.metric.normalise(&mut branch.node.tangent);
+            branch.set_out(true);
+        } else {
+            branch.correct_across(point.tangent.clone()).map_err(Error::Start)?;
+            let ahead = branch.metric.dot(&branch.node.tangent, &point.tangent) >= 0.0;
+            branch.set_out(ahead);
+        }
+        Ok(branch)
+    }
+
+    /// The other branch from a branch point. Its first point off the branch point is found before
+    /// the branch is returned, and verified to lie in the direction of the other branch.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); [`Error::NoSecondBranch`] and [`Error::Switch`].
+    pub fn switch(
+        system: &'a mut S,
+        point: &Point,
+        leg: Leg,
+        options: &Options,
+    ) -> Result<Self, Error> {
+        let Some(other) = &point.other else {
+            return Err(Error::NoSecondBranch);
+        };
+        let mut onward = point.clone();
+        onward.tangent.clone_from(other);
+        if leg == Leg::Backward {
+            onward.tangent.iter_mut().for_each(|t| *t = -*t);
+        }
+        onward.kind = Kind::BranchPoint;
+        let mut branch = Self::resume(system, &onward, options)?;
+        let direction = branch.node.tangent.clone();
+        let mut old = point.tangent.clone();
+        branch.metric.normalise(&mut old);
+        let between = branch.metric.dot(&old, &direction).abs().min(1.0).acos();
+        while branch.step >= SHORTEST_SWITCH {
+            let predicted: Vec<f64> = point
+                .z
+                .iter()
+                .zip(&direction)
+                .map(|(z, t)| z + branch.step * t)
+                .collect();
+            if let Some(angle) = branch.first_angle(&predicted, &direction)
+                && angle < 0.5 * between
+            {
+                return Ok(branch);
+            }
+            branch.step *= 0.5;
+        }
+        Err(Error::Switch { step: branch.step })
+    }
+
+    /// The angle between the direction and the way to the point of the curve near `predicted`.
+    fn first_angle(&mut self, predicted: &[f64], direction: &[f64]) -> Option<f64> {
+        let mut z = predicted.to_vec();
+        let plane = Condition::plane(&self.metric, direction, predicted);
+        let (accuracy, walls) = (Accuracy::Length(self.options.accuracy), self.options.bounds);
+        self.corrector
+            .correct(self.system, &self.metric, &mut z, &plane, walls, accuracy, CORRECTIONS)
+            .ok()?;
+        let way: Vec<f64> = z.iter().zip(&self.node.z).map(|(z, a)| z - a).collect();
+        let cosine = self.metric.dot(&way, direction) / self.metric.norm(&way);
+        Some(cosine.min(1.0).acos())
+    }
+
+    /// A branch that stands at `z`, not yet corrected.
+    fn at(system: &'a mut S, z: &[f64], options: &Options) -> Result<Self, Error> {
+        let unknowns = system.unknowns();
+        options.validate(unknowns)?;
+        if z.len() != unknowns {
+            let given = z.len();
+            return Err(Error::StartCount { given, unknowns });
+        }
+        let (lambda, [low, high]) = (z[unknowns - 1], options.bounds);
+        if !(low..=high).contains(&lambda) {
+            return Err(Error::StartOutside { lambda, low, high });
+        }
+        let node = Node {
+            z: z.to_vec(),
+            tangent: vec![0.0; unknowns],
+            along: true,
+            arclength: 0.0,
+            events: Vec::new(),
+            cusp: None,
+        };
+        Ok(Self {
+            metric: Metric::new(system, options, z),
+            system,
+            options: options.clone(),
+            corrector: Corrector::default(),
+            events: Vec::new(),
+            home: node.clone(),
+            node,
+            history: History::default(),
+            unoriented: false,
+            step: options.first_step.min(options.largest_step),
+            steps: 0,
+            queue: VecDeque::new(),
+            stop: None,
+        })
+    }
+
+    /// Corrects the start at its λ, else across the curve, and finds its tangent.
+    fn correct_start(&mut self) -> Result<(), Error> {
+        let unknowns = self.node.z.len();
+        let condition = Condition::lambda(unknowns, self.node.z[unknowns - 1]);
+        let mut z = self.node.z.clone();
+        match self.correct_to(&mut z, &condition) {
+            Ok(()) => {
+                z[unknowns - 1] = self.node.z[unknowns - 1];
+                self.node.z = z;
+            }
+            Err(difficulty) => {
+                let tangent = self.corrector.tangent(self.system, &self.metric, &self.node.z);
+                let across = tangent.map(|tangent| self.correct_across(tangent));
+                if !matches!(across, Ok(Ok(()))) {
+                    return Err(Error::Start(difficulty));
+                }
+            }
+        }
+        let failed = Error::Start;
+        self.metric.observe(&self.node.z);
+        let system = &mut *self.system;
+        let tangent = self
+            .corrector
+            .tangent(system, &self.metric, &self.node.z)
+            .map_err(failed)?;
+        self.metric.reach(&tangent);
+        let column = branch_point::column(system, &self.metric, &self.node.z).map_err(failed)?;
+        let (corrector, metric) = (&mut self.corrector, &self.metric);
+        let space =
+            NullSpace::at(system, corrector, metric, &self.node.z, &column).map_err(failed)?;
+        if space.last(1).abs() < SINGULAR {
+            return Err(Error::SingularStart);
+        }
+        self.node.tangent = tangent;
+        self.metric.normalise(&mut self.node.tangent);
+        Ok(())
+    }
+
+    /// Corrects the node across `tangent` and finds its own tangent.
+    fn correct_across(&mut self, tangent: Vec<f64>) -> Result<(), Difficulty> {
+        let mut z = self.node.z.clone();
+        let plane = Condition::plane(&self.metric, &tangent, &z);
+        self.correct_to(&mut z, &plane)?;
+        self.node.tangent = self.corrector.tangent(self.system, &self.metric, &z)?;
+        self.node.z = z;
+        Ok(())
+    }
+
+    fn correct_to(&mut self, z: &mut [f64], condition: &Condition) -> Result<(), Difficulty> {
+        let (accuracy, walls) = (Accuracy::Rounding, self.options.bounds);
+        self.corrector
+            .correct(self.system, &self.metric, z, condition, walls, accuracy, CORRECTIONS)
+            .map(|_| ())
+    }
+
+    /// Makes the node the first point, to be left along its tangent or against it.
+    fn set_out(&mut self, along: bool) {
+        if !along {
+            self.node.tangent.iter_mut().for_each(|t| *t = -*t);
+        }
+        self.node.along = along;
+        self.node.cusp = self.system.cusp_function();
+        self.home = self.node.clone();
+        let start = self.point(&self.node, Kind::Start);
+        let n = self.node.z.len() - 1;
+        let turning = (self.node.tangent[n] / self.metric.range()).abs() < TURNING;
+        if turning && !self.unoriented {
+            self.queue.push_back(Point { kind: Kind::LimitPoint, ..start.clone() });
+        }
+        self.queue.push_front(start);
+    }
+
+    pub(crate) fn point(&self, node: &Node, kind: Kind) -> Point {
+        Point {
+            z: node.z.clone(),
+            tangent: node.tangent.clone(),
+            arclength: node.arclength,
+            kind,
+            other: None,
+            error: None,
+        }
+    }
+
+    /// Adds a function whose zeros along the branch are located and yielded as
+    /// [`Kind::Event`] with the number of the function: 0 for the first one added.
+    #[must_use]
+    pub fn event(mut self, mut function: impl FnMut(&S, &[f64]) -> f64 + 'a) -> Self {
+        let value = function(self.system, &self.node.z);
+        self.node.events.push(value);
+        self.events.push(Box::new(function));
+        self
+    }
+
+    /// The system, in the discretisation of the last point yielded.
+    pub fn system(&self) -> &S {
+        self.system
+    }
+
+    /// Why the branch has ended; `None` while it goes on.
+    pub fn stop(&self) -> Option<&Stop> {
+        self.stop.as_ref().filter(|_| self.queue.is_empty())
+    }
+
+    /// Gives up the branch for the reason why it has ended.
+    pub fn into_stop(self) -> Option<Stop> {
+        self.stop
+    }
+}
+
+impl<S: System> Iterator for Branch<'_, S> {
+    type Item = Point;
+
+    fn next(&mut self) -> Option<Point> {
+        if self.queue.is_empty() && self.stop.is_none() {
+            self.advance();
+        }
+        let point = self.queue.pop_front()?;
+        Some(self.assessed(point))
+    }
+}
+
+/// Solves G(x, λ) = 0 at λ = `goal` by following the branch from `start` at another λ: a homotopy.
+///
+/// # Errors
+/// Those of [`Branch::new`]; [`Error::Homotopy`] with the last point if the branch ends elsewhere.
+pub fn homotopy<S: System>(
+    system: &mut S,
+    start: &[f64],
+    goal: f64,
+    options: &Options,
+) -> Result<Point, Error> {
+    let from = start.last().copied().unwrap_or(goal);
+    let direction = if goal >= from { Direction::Increasing } else { Direction::Decreasing };
+    let options = Options { targets: vec![goal], ..options.clone() };
+    let mut branch = Branch::new(system, start, direction, &options)?;
+    let mut last = None;
+    while let Some(point) = branch.next() {
+        let arrived = point.lambda() == goal;
+        last = Some(point);
+        if arrived {
+            break;
+        }
+    }
+    match (last, branch.into_stop()) {
+        (Some(point), _) if point.lambda() == goal => Ok(point),
+        (Some(point), Some(stop)) => Err(Error::Homotopy {
+            lambda: point.lambda(),
+            goal,
+            stop,
+            last: Box::new(point),
+        }),
+        _ => Err(Error::SingularStart),
+    }
+}

@@ -1,0 +1,146 @@
+//! What can be wrong, and why a step failed.
+
+use crate::{Cause, Stop};
+
+/// Why there is no branch.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The bounds of λ are no interval.
+    #[error("bounds of lambda: {low} to {high} is no interval")]
+    Bounds {
+        /// Lower bound.
+        low: f64,
+        /// Upper bound.
+        high: f64,
+    },
+    /// A setting is out of range.
+    #[error("option {name}: {value} is out of range")]
+    Setting {
+        /// The setting.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The weights do not fit the system.
+    #[error("weights: {given} given for {unknowns} unknowns")]
+    WeightCount {
+        /// Number of weights.
+        given: usize,
+        /// Number of unknowns.
+        unknowns: usize,
+    },
+    /// The start has the wrong number of values.
+    #[error("start: {given} values given for {unknowns} unknowns")]
+    StartCount {
+        /// Number of values.
+        given: usize,
+        /// Number of unknowns.
+        unknowns: usize,
+    },
+    /// λ at the start is not within the bounds.
+    #[error("start: lambda = {lambda} is outside the bounds {low} to {high}")]
+    StartOutside {
+        /// λ at the start.
+        lambda: f64,
+        /// Lower bound.
+        low: f64,
+        /// Upper bound.
+        high: f64,
+    },
+    /// No point of the branch was found at the start.
+    #[error("start: no point of the branch found near it: {0}")]
+    Start(#[source] Difficulty),
+    /// More than one direction leads on from the start: it is a branch point, or the equations are
+    /// degenerate there.
+    #[error("start: the jacobian has more than one null vector there")]
+    SingularStart,
+    /// The point has no second branch to switch to.
+    #[error("the point is no branch point with a second branch")]
+    NoSecondBranch,
+    /// No point was found on the second branch.
+    #[error("no point found on the second branch down to a step of {step:.1e}")]
+    Switch {
+        /// Length of the shortest step tried.
+        step: f64,
+    },
+    /// The point is none of a limit point or branch point curve.
+    #[error("no {kind} near the given point: {difficulty}")]
+    NotSpecial {
+        /// What was expected.
+        kind: &'static str,
+        /// What happened instead.
+        #[source]
+        difficulty: Difficulty,
+    },
+    /// A homotopy ended before its goal.
+    #[error("homotopy: reached lambda = {lambda}, goal {goal}; {stop}")]
+    Homotopy {
+        /// λ of the last point.
+        lambda: f64,
+        /// λ wanted.
+        goal: f64,
+        /// Why it ended there.
+        stop: Stop,
+        /// The last point.
+        last: Box<crate::Point>,
+    },
+    /// Deflated Newton iteration found no further solution.
+    #[error("deflation: no further solution found: correction {correction:.1e} after {steps} steps")]
+    Deflation {
+        /// Length of the last correction.
+        correction: f64,
+        /// Number of steps.
+        steps: usize,
+    },
+}
+
+/// Why a step from one point of a branch to the next was not possible.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Difficulty {
+    /// The residual is not finite.
+    #[error("the residual is not finite: equation {equation} at lambda = {lambda}")]
+    NotFinite {
+        /// Index of the equation.
+        equation: usize,
+        /// λ there.
+        lambda: f64,
+    },
+    /// The system could not be linearised.
+    #[error("the system cannot be linearised: {0}")]
+    Linearisation(#[source] Cause),
+    /// The null vector or the particular solution is not finite.
+    #[error("the linearised system is singular")]
+    Singular,
+    /// Newton's method did not converge.
+    #[error("newton: correction {correction:.1e} after {steps} steps, limit {limit:.1e}")]
+    NoConvergence {
+        /// Length of the last correction.
+        correction: f64,
+        /// Number of corrections.
+        steps: usize,
+        /// Length wanted.
+        limit: f64,
+    },
+    /// Newton's method left the bounds of λ.
+    #[error("newton: lambda = {lambda} is outside the bounds")]
+    OutOfBounds {
+        /// λ there.
+        lambda: f64,
+    },
+    /// The tangent turns too much: another branch, or a corner.
+    #[error("the tangent turns by {angle:.2} rad in one step, limit {limit:.2}")]
+    Turn {
+        /// Angle between the tangents, rad.
+        angle: f64,
+        /// Largest angle accepted, rad.
+        limit: f64,
+    },
+    /// A special point persists neither exactly nor nearby: the bifurcation is imperfect.
+    #[error("the branches miss each other by {gap:.1e}")]
+    Imperfect {
+        /// Distance of the branches in the arclength norm.
+        gap: f64,
+    },
+}

@@ -1,0 +1,68 @@
+//! A point of a branch.
+
+/// A point of a branch.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Point {
+    /// All unknowns (x, λ), n + 1 numbers.
+    pub z: Vec<f64>,
+    /// Unit tangent in the direction of travel, in the norm of the arclength, n + 1 numbers. At
+    /// labelled points exact, else from the last linearisation near the point.
+    pub tangent: Vec<f64>,
+    /// Arclength from the start of the trace, along the cubic through both points and tangents of
+    /// every step.
+    pub arclength: f64,
+    /// What kind of point it is.
+    pub kind: Kind,
+    /// Unit tangent of the other branch, at branch points that have one.
+    pub other: Option<Vec<f64>>,
+    /// Discretisation error of a labelled point, where the system can be refined.
+    pub error: Option<DiscretisationError>,
+}
+
+impl Point {
+    /// The parameter λ.
+    pub fn lambda(&self) -> f64 {
+        self.z[self.z.len() - 1]
+    }
+
+    /// The unknowns x without the parameter.
+    pub fn x(&self) -> &[f64] {
+        &self.z[..self.z.len() - 1]
+    }
+}
+
+/// What kind of point of a branch it is. All but `Regular` are labelled points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum Kind {
+    /// The first point.
+    Start,
+    /// A step.
+    Regular,
+    /// Limit point (fold): λ turns back.
+    LimitPoint,
+    /// Branch point: another branch crosses.
+    BranchPoint,
+    /// Cusp of a curve of limit points.
+    Cusp,
+    /// Zero of an event function, by its index.
+    Event(usize),
+    /// A target value of λ.
+    Target,
+    /// A bound of λ: the last point.
+    Bound,
+    /// The first point again: the last one of a closed curve.
+    Closed,
+}
+
+/// How much a labelled point moves when the system is discretised finer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct DiscretisationError {
+    /// |change of λ|, in units of λ.
+    pub lambda: f64,
+    /// Largest |change| of the unknowns x, relative to the size of their groups.
+    pub states: f64,
+}

@@ -1,0 +1,306 @@
+//! From one point of a branch to the next.
+
+use crate::corrector::{Accuracy, Condition, Correction};
+use crate::labels::Found;
+use crate::span::{Node, Span};
+use crate::{Branch, Difficulty, Kind, Parameterisation, Predictor, Stop, System};
+
+/// Contraction of Newton's method at which the step length stays as it is.
+const CONTRACTION: f64 = 0.1;
+/// Error of the prediction, as a share of the step, at which the step length stays as it is.
+const PREDICTION: f64 = 0.1;
+/// Predictions that miss by more than this share of the step are not trusted.
+const MISSED: f64 = 0.7;
+/// A step changes by at most these factors.
+const CHANGE: [f64; 2] = [0.3, 2.0];
+/// A tangent must turn by less than this many times the wanted angle.
+const SHARPEST: f64 = 3.0;
+/// An imperfect crossing shortens steps down to this share of the largest, then it is passed.
+const CROSSING: f64 = 1e-3;
+
+/// A step that has succeeded.
+struct Taken {
+    node: Node,
+    found: Vec<Found>,
+    landed: bool,
+    /// The factor by which the next step may be longer.
+    growth: f64,
+}
+
+impl<S: System> Branch<'_, S> {
+    /// Takes one step and queues its points, or finds the reason to stop.
+    pub(crate) fn advance(&mut self) {
+        if self.steps >= self.options.steps {
+            self.stop = Some(Stop::Steps { steps: self.steps });
+            return;
+        }
+        if self.steps > 0 && let Err(stop) = self.adapt() {
+            self.stop = Some(stop);
+            return;
+        }
+        let n = self.node.z.len() - 1;
+        let (rate, lambda) = (self.node.tangent[n], self.node.z[n]);
+        let [low, high] = self.options.bounds;
+        if lambda == high && rate > 0.0 || lambda == low && rate < 0.0 {
+            self.stop = Some(Stop::Bound { lambda });
+            return;
+        }
+        loop {
+            let difficulty = match self.attempt(self.step) {
+                Ok(taken) => return self.accept(taken),
+                Err(difficulty) => difficulty,
+            };
+            self.step *= match difficulty {
+                Difficulty::NotFinite { .. } | Difficulty::Linearisation(_) => 0.25,
+                _ => 0.5,
+            };
+            if self.step < self.options.smallest_step {
+                let step = self.step;
+                self.stop = Some(Stop::StepTooSmall { step, difficulty });
+                return;
+            }
+        }
+    }
+
+    /// Lets the system adapt its discretisation, and the branch with it.
+    fn adapt(&mut self) -> Result<(), Stop> {
+        let z = self.node.z.clone();
+        let mut vectors = self.take_vectors();
+        let outcome = self.system.adapt(&z, &mut vectors);
+        self.put_vectors(vectors);
+        if !outcome.map_err(Stop::Adaptation)? {
+            return Ok(());
+        }
+        self.settle().map_err(|difficulty| Stop::StepTooSmall {
+            step: self.step,
+            difficulty,
+        })
+    }
+
+    /// All vectors that depend on the discretisation.
+    pub(crate) fn take_vectors(&mut self) -> Vec<Vec<f64>> {
+        let own = [&mut self.node.z, &mut self.node.tangent];
+        let home = [&mut self.home.z, &mut self.home.tangent];
+        let mut vectors: Vec<_> = own.into_iter().chain(home).map(std::mem::take).collect();
+        vectors.append(&mut self.history.points);
+        for point in &mut self.queue {
+            vectors.push(std::mem::take(&mut point.z));
+            vectors.push(std::mem::take(&mut point.tangent));
+            vectors.extend(point.other.as_mut().map(std::mem::take));
+        }
+        vectors
+    }
+
+    /// Puts them back.
+    pub(crate) fn put_vectors(&mut self, vectors: Vec<Vec<f64>>) {
+        let mut vectors = vectors.into_iter();
+        let mut next = || vectors.next().unwrap_or_default();
+        self.node.z = next();
+        self.node.tangent = next();
+        self.home.z = next();
+        self.home.tangent = next();
+        self.history.points = self.history.arclengths.iter().map(|_| next()).collect();
+        for point in &mut self.queue {
+            point.z = next();
+            point.tangent = next();
+            if let Some(other) = &mut point.other {
+                *other = next();
+            }
+        }
+    }
+
+    /// A step of length h, with everything that lies on it.
+    fn attempt(&mut self, h: f64) -> Result<Taken, Difficulty> {
+        let (z, landed, report) = self.land_or_correct(h)?;
+        let mut node = Node {
+            tangent: self.corrector.null().to_vec(),
+            events: Vec::new(),
+            along: true,
+            arclength: 0.0,
+            cusp: None,
+            z,
+        };
+        self.orient(&mut node)?;
+        let angle = self.angle(&node);
+        let limit = SHARPEST * self.options.angle;
+        if !(angle <= limit) {
+            return Err(Difficulty::Turn { angle, limit });
+        }
+        // The tangent of the last linearisation, on the way to the point, will do unless something
+        // may have changed its sign since.
+        let n = node.z.len() - 1;
+        let share = report.drift / h;
+        let rate = (node.tangent[n] / self.metric.range()).abs();
+        let turned = node.tangent[n] * self.node.tangent[n] <= 0.0 || node.along != self.node.along;
+        if turned || self.unoriented || rate <= 3.0 * share * angle || share > 0.05 {
+            node.tangent = self.corrector.tangent(self.system, &self.metric, &node.z)?;
+            self.orient(&mut node)?;
+            node.cusp = self.system.cusp_function();
+        } else if self.node.cusp.is_some() {
+            self.corrector.tangent(self.system, &self.metric, &node.z)?;
+            node.cusp = self.system.cusp_function();
+        }
+        node.events = self.events.iter_mut().map(|event| event(self.system, &node.z)).collect();
+        let span = self.span(&node);
+        node.arclength = span.from.arclength + span.length();
+        let found = match self.specials(&node) {
+            Err(difficulty) if h > CROSSING * self.options.largest_step => return Err(difficulty),
+            found => found.unwrap_or_default(),
+        };
+        Ok(Taken {
+            node,
+            found,
+            landed,
+            growth: growth(&report, h, angle / self.options.angle),
+        })
+    }
+
+    /// The corrected point a step h ahead, or on the bound of λ that it would cross.
+    fn land_or_correct(&mut self, h: f64) -> Result<(Vec<f64>, bool, Correction), Difficulty> {
+        let n = self.node.z.len() - 1;
+        let mut predicted = Vec::with_capacity(n + 1);
+        self.predict(h, &mut predicted);
+        let from = self.node.z[n];
+        let [low, high] = self.options.bounds;
+        let wall = |lambda: f64| lambda.clamp(low, high);
+        let mut bound = wall(predicted[n]);
+        let mut outside = bound != predicted[n];
+        if !outside {
+            let condition = match self.options.parameterisation {
+                Parameterisation::Natural => Condition::lambda(n + 1, predicted[n]),
+                Parameterisation::Pseudoarclength => {
+                    Condition::plane(&self.metric, &self.node.tangent, &predicted)
+                }
+            };
+            let mut z = predicted.clone();
+            match self.correct(&mut z, &condition, Accuracy::Length(self.options.accuracy)) {
+                Ok(report) if report.first <= MISSED * h => return Ok((z, false, report)),
+                Ok(report) => {
+                    return Err(Difficulty::NoConvergence {
+                        correction: report.first,
+                        steps: 1,
+                        limit: MISSED * h,
+                    });
+                }
+                Err(Difficulty::OutOfBounds { lambda }) => {
+                    (bound, outside) = (wall(lambda), true);
+                }
+                Err(difficulty) => return Err(difficulty),
+            }
+        }
+        // The step is cut so that the prediction lies on the bound.
+        let mut cut = h;
+        for _ in 0..8 {
+            let way = predicted[n] - from;
+            if outside && way * (bound - from) > 0.0 {
+                cut = (cut * (bound - from) / way).min(h);
+                self.predict(cut, &mut predicted);
+            }
+        }
+        predicted[n] = bound;
+        let condition = Condition::lambda(n + 1, bound);
+        let report = self.correct(&mut predicted, &condition, Accuracy::Rounding)?;
+        let moved = self.metric.distance(&predicted, &self.node.z);
+        if moved > 2.0 * h {
+            let lambda = bound;
+            return Err(Difficulty::OutOfBounds { lambda });
+        }
+        predicted[n] = bound;
+        Ok((predicted, true, report))
+    }
+
+    fn predict(&self, h: f64, to: &mut Vec<f64>) {
+        let (z, t, s) = (&self.node.z, &self.node.tangent, self.node.arclength);
+        match self.options.predictor {
+            Predictor::Polynomial => self.history.predict(z, t, s, h, to),
+            Predictor::Tangent => crate::predictor::History::default().predict(z, t, s, h, to),
+        }
+    }
+
+    fn correct(
+        &mut self,
+        z: &mut [f64],
+        to: &Condition,
+        accuracy: Accuracy,
+    ) -> Result<Correction, Difficulty> {
+        let (walls, limit) = (self.options.bounds, self.options.corrections);
+        self.corrector
+            .correct(self.system, &self.metric, z, to, walls, accuracy, limit)
+    }
+
+    /// Turns the unit null vector of a node into the direction of travel.
+    fn orient(&self, node: &mut Node) -> Result<(), Difficulty> {
+        if !self.metric.normalise(&mut node.tangent) {
+            return Err(Difficulty::Singular);
+        }
+        let ends = node.z.iter().zip(&self.node.z);
+        let secant: Vec<f64> = ends.map(|(b, a)| b - a).collect();
+        node.along = self.metric.dot(&node.tangent, &secant) > 0.0;
+        node.tangent = oriented(std::mem::take(&mut node.tangent), node.along);
+        Ok(())
+    }
+
+    fn angle(&self, node: &Node) -> f64 {
+        // Accurate at small angles, where the arc cosine is not.
+        let half = 0.5 * self.metric.distance(&node.tangent, &self.node.tangent);
+        2.0 * half.min(1.0).asin()
+    }
+
+    pub(crate) fn span<'b>(&'b mut self, to: &'b Node) -> Span<'b, S> {
+        Span {
+            system: self.system,
+            corrector: &mut self.corrector,
+            metric: &self.metric,
+            walls: self.options.bounds,
+            from: &self.node,
+            to,
+        }
+    }
+
+    /// Moves on to the end of a step and queues its points.
+    fn accept(&mut self, taken: Taken) {
+        let Taken { mut node, found, landed, growth } = taken;
+        self.steps += 1;
+        let closed = found.iter().any(|found| found.kind == Kind::Closed);
+        let length = node.arclength - self.node.arclength;
+        for found in found {
+            let point = self.labelled(found, length);
+            self.queue.push_back(point);
+        }
+        if closed {
+            self.stop = Some(Stop::Closed);
+            return;
+        }
+        let lambda = node.z[node.z.len() - 1];
+        let kind = if landed { Kind::Bound } else { Kind::Regular };
+        self.queue.push_back(self.point(&node, kind));
+        if landed {
+            self.stop = Some(Stop::Bound { lambda });
+            return;
+        }
+        self.metric.observe(&node.z);
+        self.metric.normalise(&mut node.tangent);
+        let left = std::mem::replace(&mut self.node, node);
+        if self.unoriented {
+            // Rates along a branch begin to mean something with the first step off a branch point.
+            self.unoriented = false;
+        }
+        self.history.push(left.z, left.arclength);
+        self.step = (self.step * growth).min(self.options.largest_step);
+    }
+}
+
+/// The factor for the next step, from how a step went and its angle over the one wanted.
+fn growth(report: &Correction, h: f64, turn: f64) -> f64 {
+    let contraction = (CONTRACTION / report.contraction.max(1e-9)).sqrt();
+    let prediction = (PREDICTION * h / report.first.max(1e-300)).sqrt();
+    let [least, most] = CHANGE;
+    contraction.min(prediction).min(1.0 / turn.max(1e-9)).clamp(least, most)
+}
+
+fn oriented(mut tangent: Vec<f64>, along: bool) -> Vec<f64> {
+    if !along {
+        tangent.iter_mut().for_each(|t| *t = -*t);
+    }
+    tangent
+}

@@ -1,0 +1,45 @@
+//! Why a branch ends.
+
+use crate::{Cause, Difficulty};
+
+/// Why a branch ends. None of these is a fault of the caller; the last point yielded is good.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Stop {
+    /// λ has reached a bound; the last point lies on it.
+    #[error("lambda has reached its bound {lambda}")]
+    Bound {
+        /// The bound.
+        lambda: f64,
+    },
+    /// The branch is a closed curve; the last point is the first one.
+    #[error("the branch is closed")]
+    Closed,
+    /// As many steps were taken as asked for.
+    #[error("{steps} steps taken")]
+    Steps {
+        /// Number of steps.
+        steps: usize,
+    },
+    /// The step has become too short.
+    #[error("step {step:.1e} below the smallest: {difficulty}")]
+    StepTooSmall {
+        /// The step, in the arclength norm.
+        step: f64,
+        /// Why no longer step was possible.
+        #[source]
+        difficulty: Difficulty,
+    },
+    /// The system could not adapt its discretisation.
+    #[error("the discretisation cannot be adapted: {0}")]
+    Adaptation(#[source] Cause),
+    /// The discretisation error of a labelled point stays above the tolerance of the system. The
+    /// point was yielded with its error.
+    #[error("discretisation error {error:.1e} of a labelled point, tolerance {tolerance:.1e}")]
+    Inaccurate {
+        /// Estimated relative error.
+        error: f64,
+        /// Tolerance of the system.
+        tolerance: f64,
+    },
+}

@@ -1,0 +1,87 @@
+//! What the tracer needs to know of a system.
+
+/// Why a system could not be linearised or adapted, in its own words.
+pub type Cause = Box<dyn std::error::Error + Send + Sync>;
+
+/// A nonlinear system G(z) = 0 of n equations in n + 1 unknowns z = (x, λ), the parameter λ last.
+///
+/// With the Jacobian J = \[Gₓ `G_λ`\] (n rows, n + 1 columns) of full rank, all solutions of J z = r
+/// are v + α t with one particular solution v and the null vector t. These two are all that the
+/// tracer asks for, so that a system solves its equations in its own way: dense, banded, almost
+/// block diagonal. Gₓ alone need not be regular.
+pub trait System {
+    /// Number of unknowns, n + 1.
+    fn unknowns(&self) -> usize;
+
+    /// `g` = G(z), n numbers. Where G is not defined, write NaN: the tracer then takes a shorter step.
+    fn residual(&mut self, z: &[f64], g: &mut [f64]);
+
+    /// Prepares [`particular`](Self::particular) and [`null_vector`](Self::null_vector) at `z`.
+    ///
+    /// A matrix that is singular to rounding is to be solved as it is, with the smallest pivots
+    /// that rounding allows: it occurs at branch points.
+    ///
+    /// # Errors
+    /// Where the Jacobian is not finite or cannot be factored at all.
+    fn linearise(&mut self, z: &[f64]) -> Result<(), Cause>;
+
+    /// Some `v` (n + 1 numbers) with J v = `r` (n numbers), J from the last linearisation.
+    fn particular(&mut self, r: &[f64], v: &mut [f64]);
+
+    /// The null vector: J `t` = 0, J from the last linearisation, of any length but with the
+    /// orientation det \[J; tᵀ\] > 0 — or always < 0, as long as only
+    /// [`adapt`](Self::adapt) changes that. Branch points are recognised by it.
+    fn null_vector(&mut self, t: &mut [f64]);
+
+    /// Which unknowns of x (n numbers each) measure the same quantity, and with what share: the
+    /// shares of a group sum to one. Samples of one function form a group, with quadrature weights
+    /// as shares, so that the arclength does not depend on their number; an unknown with share
+    /// zero does not count. Groups are numbered from 0. By default each unknown is a group.
+    fn groups(&self, group: &mut [usize], share: &mut [f64]) {
+        for (i, group) in group.iter_mut().enumerate() {
+            *group = i;
+        }
+        share.fill(1.0);
+    }
+
+    /// Called with every accepted point: the system may change its discretisation, whereupon it
+    /// re-expresses every one of `vectors` (points and tangents) and returns true. By default it
+    /// does nothing.
+    ///
+    /// # Errors
+    /// Where the discretisation needed is out of reach; the branch ends there.
+    fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Cause> {
+        let _ = (z, vectors);
+        Ok(false)
+    }
+
+    /// The same system discretised so much finer that the difference between both is the
+    /// discretisation error; `vectors` are re-expressed on it. `None` (the default) where there is
+    /// no such error or no such system.
+    fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self>
+    where
+        Self: Sized,
+    {
+        let _ = vectors;
+        None
+    }
+
+    /// The largest relative discretisation error that a labelled point may have.
+    fn tolerance(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    /// A function of the last linearisation that is zero at a cusp: for curves of limit points.
+    fn cusp_function(&self) -> Option<f64> {
+        None
+    }
+}
+
+/// A system with a second parameter μ, for curves of limit points and of branch points.
+pub trait TwoParameter: System {
+    /// The second parameter μ.
+    fn second(&self) -> f64;
+
+    /// Changes the second parameter; what was linearised is no longer valid.
+    fn set_second(&mut self, value: f64);
+}
