@@ -54,7 +54,10 @@ mod systems;
 #[path = "problems/turning_points.rs"]
 mod turning_points;
 
+mod curve;
+
 use bvp::{Ends, Equations, Real, Segment};
+pub use curve::Curve;
 pub use exact::{ExactProblem, exact_problems};
 pub use reference::Reference;
 

@@ -31,6 +31,7 @@
 
 use crate::dense::{add_scaled, dot};
 use crate::end_system::EndSystem;
+use crate::householder::Reflection;
 use crate::iterate::Iterate;
 
 /// Where the Newton matrix is singular to working precision.
@@ -181,6 +182,14 @@ impl Chain {
         }
     }
 
+    /// The number of negative entries on the diagonals of all R.
+    fn negative(&self) -> usize {
+        let n = self.n;
+        let diagonals = self.panels.chunks_exact(2 * n * n);
+        let diagonals = diagonals.flat_map(|panel| panel[..n * n].iter().step_by(n + 1));
+        diagonals.filter(|entry| **entry < 0.0).count()
+    }
+
     /// Finds the interior nodes from both ends (already in their slots) and the parameters.
     fn backward(&self, nodes: &mut [f64], p: &[f64]) {
         let (n, k) = (self.n, self.k);
@@ -216,13 +225,7 @@ fn reflect(work: &mut [f64], width: usize, j: usize, row: &mut [f64]) -> Option<
     for r in below.chunks_exact(width) {
         square += r[j] * r[j];
     }
-    let norm = square.sqrt();
-    if !(norm > 0.0 && norm.is_finite()) {
-        return None;
-    }
-    let beta = -norm.copysign(head);
-    let tau = (beta - head) / beta;
-    let scale = 1.0 / (head - beta);
+    let Reflection { beta, tau, scale } = Reflection::new(head, square)?;
     pivot_row[j] = beta;
     let row = &mut row[j + 1..width];
     row.copy_from_slice(&pivot_row[j + 1..]);
@@ -245,24 +248,30 @@ pub(crate) struct AlmostBlockDiagonal {
     chains: Vec<Chain>,
     /// Parameters k.
     k: usize,
-    /// The end system, Σ 2n + k equations: reduced links first, then the conditions.
+    /// The end system of Σ 2n + k unknowns: reduced links first, then the conditions.
     ends: EndSystem,
     /// Right-hand side and solution of the end system.
     unknowns: Vec<f64>,
 }
 
 impl AlmostBlockDiagonal {
-    /// Buffers for segments with the given (states, intervals) and k parameters.
-    pub(crate) fn new(segments: impl Iterator<Item = (usize, usize)>, k: usize) -> Self {
+    /// Buffers for segments with the given (states, intervals), k parameters and so many
+    /// conditions: Σ n + k, or one fewer for a matrix with a null vector.
+    pub(crate) fn new(
+        segments: impl Iterator<Item = (usize, usize)>,
+        k: usize,
+        conditions: usize,
+    ) -> Self {
         let chains: Vec<_> = segments
             .map(|(states, intervals)| Chain::new(states, k, intervals))
             .collect();
-        let size = chains.iter().map(|chain| 2 * chain.n).sum::<usize>() + k;
+        let states: usize = chains.iter().map(|chain| chain.n).sum();
+        let unknowns = 2 * states + k;
         Self {
             chains,
             k,
-            ends: EndSystem::new(size),
-            unknowns: vec![0.0; size],
+            ends: EndSystem::new(states + conditions, unknowns),
+            unknowns: vec![0.0; unknowns],
         }
     }
 
@@ -271,8 +280,8 @@ impl AlmostBlockDiagonal {
         &mut self.chains[segment]
     }
 
-    /// Factors the matrix from the filled links and the Jacobian of the conditions, (Σ n + k) rows
-    /// of Σ 2n + k columns: start and end of each segment in turn, then the parameters.
+    /// Factors the matrix from the filled links and the Jacobian of the conditions, a row each with
+    /// Σ 2n + k columns: start and end of each segment in turn, then the parameters.
     pub(crate) fn factor(&mut self, conditions: &[f64]) -> Result<(), Singular> {
         let size = self.unknowns.len();
         let ends = self.ends.matrix_mut();
@@ -303,8 +312,31 @@ impl AlmostBlockDiagonal {
             chain.forward(&mut segment.nodes, &mut self.unknowns[row..row + chain.n]);
             row += chain.n;
         }
-        self.unknowns[row..].copy_from_slice(conditions);
+        self.unknowns[row..row + conditions.len()].copy_from_slice(conditions);
         self.ends.solve(&mut self.unknowns);
+        self.backward(x);
+    }
+
+    /// The null vector t of a matrix J with one condition fewer, in the nodes and the parameters of
+    /// `x`. Its direction is such that det \[J; tᵀ\] has one sign for all matrices of a size.
+    ///
+    /// With the interior nodes eliminated by Q and tₑ the part of t at the ends, det \[J; tᵀ\] has
+    /// the sign of det Q Π det R det \[E; tₑᵀ\], E being the matrix of the end system: what the
+    /// elimination makes of the row tᵀ has the product t · t > 0 with tₑ, as tₑᵀ itself has.
+    pub(crate) fn null_vector(&mut self, x: &mut Iterate) {
+        let negative = self.ends.null_vector(&mut self.unknowns)
+            + self.chains.iter().map(Chain::negative).sum::<usize>();
+        if negative % 2 == 1 {
+            self.unknowns.iter_mut().for_each(|t| *t = -*t);
+        }
+        for segment in &mut x.segments {
+            segment.nodes.fill(0.0);
+        }
+        self.backward(x);
+    }
+
+    /// Distributes the solution of the end system and finds the interior nodes from it.
+    fn backward(&self, x: &mut Iterate) {
         x.p.copy_from_slice(&self.unknowns[self.unknowns.len() - self.k..]);
         let mut first = 0;
         for (chain, segment) in self.chains.iter().zip(&mut x.segments) {

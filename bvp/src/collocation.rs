@@ -15,10 +15,12 @@
 use crate::almost_block_diagonal::{AlmostBlockDiagonal, Singular};
 use crate::condensation::Condensation;
 use crate::dense::{SingularRow, all_finite};
+use crate::held::Held;
 use crate::iterate::{Interval, Iterate, NonFinite, Residual};
 use crate::mesh::Mesh;
 use crate::scheme::Tableau;
-use crate::{Ends, Equations, Guess, Stats};
+use crate::{Ends, Equations, Guess, Segment, Stats};
+use std::sync::Arc;
 
 /// Why a linearisation failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,13 +36,14 @@ impl From<NonFinite> for LinearisationError {
 }
 
 /// A problem discretised on a mesh, with the buffers of its Newton iteration.
+#[derive(Clone)]
 pub(crate) struct Collocation<'a> {
-    equations: &'a dyn Equations,
-    tableau: &'a Tableau,
+    pub(crate) equations: Held<'a>,
+    pub(crate) tableau: Arc<Tableau>,
     pub(crate) mesh: Mesh,
     matrix: AlmostBlockDiagonal,
     stages: Vec<Condensation>,
-    /// Jacobian of the conditions, (Σ n + k) × (Σ 2n + k).
+    /// Jacobian of the conditions, a row each with Σ 2n + k columns.
     conditions_jacobian: Vec<f64>,
     /// States at all ends, in the order of [`Ends`].
     ends: Vec<f64>,
@@ -51,8 +54,11 @@ pub(crate) struct Collocation<'a> {
 }
 
 impl<'a> Collocation<'a> {
-    pub(crate) fn new(equations: &'a dyn Equations, tableau: &'a Tableau, mesh: Mesh) -> Self {
+    /// Equations with as many conditions as unknown constants, or one fewer, which leaves the
+    /// Newton matrix with a null vector.
+    pub(crate) fn new(equations: Held<'a>, tableau: Arc<Tableau>, mesh: Mesh) -> Self {
         let (segments, k) = (equations.segments(), equations.parameters());
+        let conditions = equations.condition_count();
         let sizes = || {
             let pairs = segments.iter().zip(&mesh);
             pairs.map(|(segment, nodes)| (segment.states, nodes.len() - 1))
@@ -60,18 +66,18 @@ impl<'a> Collocation<'a> {
         let states: usize = segments.iter().map(|s| s.states).sum();
         let widest = segments.iter().map(|s| s.states).max().unwrap_or(0);
         Self {
-            equations,
-            tableau,
-            matrix: AlmostBlockDiagonal::new(sizes(), k),
+            matrix: AlmostBlockDiagonal::new(sizes(), k, conditions),
             stages: sizes()
                 .map(|(n, intervals)| Condensation::new(n, k, tableau.stages, intervals))
                 .collect(),
             mesh,
-            conditions_jacobian: vec![0.0; (states + k) * (2 * states + k)],
+            conditions_jacobian: vec![0.0; conditions * (2 * states + k)],
             ends: vec![0.0; 2 * states],
             y: vec![0.0; widest],
             f: vec![0.0; widest],
-            negative_conditions: vec![0.0; states + k],
+            negative_conditions: vec![0.0; conditions],
+            equations,
+            tableau,
         }
     }
 
@@ -94,7 +100,7 @@ impl<'a> Collocation<'a> {
     pub(crate) fn interpolate(&self, guess: &dyn Guess) -> Iterate {
         let k = self.equations.parameters();
         let segments = self.equations.segments();
-        Iterate::interpolate(segments, &self.mesh, self.tableau, k, guess)
+        Iterate::interpolate(segments, &self.mesh, &self.tableau, k, guess)
     }
 
     /// Evaluates the residual of `x`.
@@ -104,7 +110,7 @@ impl<'a> Collocation<'a> {
         residual: &mut Residual,
         stats: &mut Stats,
     ) -> Result<(), NonFinite> {
-        let t = self.tableau;
+        let t = &*self.tableau;
         for (index, segment) in self.equations.segments().iter().enumerate() {
             let n = segment.states;
             let (y, f) = (&mut self.y[..n], &mut self.f[..n]);
@@ -121,7 +127,7 @@ impl<'a> Collocation<'a> {
                 interval.continuity(t, &mut residual.equations[index]);
             }
         }
-        self.gather_ends(x);
+        gather_ends(self.equations.segments(), x, &mut self.ends);
         residual.conditions.fill(f64::NAN);
         let at = Ends::new(self.equations.segments(), &self.ends);
         self.equations
@@ -136,7 +142,7 @@ impl<'a> Collocation<'a> {
         residual: &mut Residual,
         stats: &mut Stats,
     ) -> Result<(), LinearisationError> {
-        let t = self.tableau;
+        let t = &*self.tableau;
         for (index, segment) in self.equations.segments().iter().enumerate() {
             let n = segment.states;
             let columns = n + x.p.len();
@@ -174,7 +180,7 @@ impl<'a> Collocation<'a> {
                     })?;
             }
         }
-        self.gather_ends(x);
+        gather_ends(self.equations.segments(), x, &mut self.ends);
         residual.conditions.fill(f64::NAN);
         self.conditions_jacobian.fill(f64::NAN);
         self.equations.conditions_jacobian(
@@ -218,10 +224,18 @@ impl<'a> Collocation<'a> {
         }
     }
 
+    /// The null vector of the Newton matrix J, oriented so that det \[J; tᵀ\] has one sign for all
+    /// linearisations on a mesh, provided that the intervals are short enough for their stages:
+    /// det M > 0 ([`Condensation`]). `zeros` is a residual that vanishes.
+    pub(crate) fn null_vector(&mut self, zeros: &Residual, t: &mut Iterate) {
+        self.matrix.null_vector(t);
+        self.stage_correction(zeros, t);
+    }
+
     /// The size of every condition's terms, Σ |∂g/∂z| |z|, from the last linearisation: the scale
     /// below which its residual is rounding.
     pub(crate) fn condition_scales(&mut self, x: &Iterate) -> Vec<f64> {
-        self.gather_ends(x);
+        gather_ends(self.equations.segments(), x, &mut self.ends);
         let columns = self.ends.len() + x.p.len();
         let row_scale = |row: &[f64]| {
             let unknowns = self.ends.iter().chain(&x.p);
@@ -232,16 +246,16 @@ impl<'a> Collocation<'a> {
             .map(row_scale)
             .collect()
     }
+}
 
-    fn gather_ends(&mut self, x: &Iterate) {
-        let mut ends = self.ends.as_mut_slice();
-        for (segment, unknowns) in self.equations.segments().iter().zip(&x.segments) {
-            let n = segment.states;
-            let (own, rest) = ends.split_at_mut(2 * n);
-            own[..n].copy_from_slice(&unknowns.nodes[..n]);
-            own[n..].copy_from_slice(&unknowns.nodes[unknowns.nodes.len() - n..]);
-            ends = rest;
-        }
+/// Copies the states at all ends into `ends`, in the order of [`Ends`].
+pub(crate) fn gather_ends(segments: &[Segment], x: &Iterate, mut ends: &mut [f64]) {
+    for (segment, unknowns) in segments.iter().zip(&x.segments) {
+        let n = segment.states;
+        let (own, rest) = ends.split_at_mut(2 * n);
+        own[..n].copy_from_slice(&unknowns.nodes[..n]);
+        own[n..].copy_from_slice(&unknowns.nodes[unknowns.nodes.len() - n..]);
+        ends = rest;
     }
 }
 

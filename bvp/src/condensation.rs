@@ -20,8 +20,9 @@
 //! so only n systems with Mᵀ are solved per interval, whatever the number of parameters. Ascher,
 //! Mattheij & Russell (1995), section 5.6.
 
-use crate::dense::{SingularRow, add_scaled, dot, lu_factor, lu_solve, lu_solve_transposed};
+use crate::dense::{self, SingularRow, dot};
 use crate::iterate::SegmentIterate;
+use crate::large::{self, LARGE};
 use crate::scheme::Tableau;
 
 /// What is kept of the stages of one segment to condense residuals and to recover corrections.
@@ -38,6 +39,8 @@ pub(crate) struct Condensation {
     adjoint: Vec<f64>,
     /// J and `F_p` side by side at the stages, m × n × (n + k) per interval.
     jacobians: Vec<f64>,
+    /// For the factorisation of M where it is large.
+    workspace: Option<large::Workspace>,
 }
 
 impl Condensation {
@@ -52,6 +55,7 @@ impl Condensation {
             pivots: vec![0; intervals * size],
             adjoint: vec![0.0; intervals * n * size],
             jacobians: vec![0.0; intervals * size * (n + k)],
+            workspace: (size >= LARGE).then(|| large::Workspace::new(size)),
         }
     }
 
@@ -87,21 +91,26 @@ impl Condensation {
             }
             matrix_row[row] += 1.0;
         }
-        lu_factor(lu, size, pivots)?;
+        match &mut self.workspace {
+            Some(workspace) => large::lu_factor(lu, size, pivots, workspace)?,
+            None => dense::lu_factor(lu, size, pivots)?,
+        }
         adjoint.fill(0.0);
         for (row, x) in adjoint.chunks_exact_mut(size).enumerate() {
             for (b, x) in t.b.iter().zip(x[row..].iter_mut().step_by(n)) {
                 *x = h * b;
             }
         }
-        lu_solve_transposed(lu, size, pivots, adjoint);
-        let rows = adjoint.chunks_exact(size);
-        for (row, (x, link)) in rows.zip(link.chunks_exact_mut(columns)).enumerate() {
-            link.fill(0.0);
-            link[row] = 1.0;
-            for (x, jacobian) in x.iter().zip(jacobians.chunks_exact(columns)) {
-                add_scaled(link, *x, jacobian);
-            }
+        link.fill(0.0);
+        for row in 0..n {
+            link[row * columns + row] = 1.0;
+        }
+        if self.workspace.is_some() {
+            large::lu_solve_transposed(lu, size, pivots, adjoint);
+            large::add_product(link, adjoint, jacobians, size, columns);
+        } else {
+            dense::lu_solve_transposed(lu, size, pivots, adjoint);
+            dense::add_product(link, adjoint, jacobians, size, columns);
         }
         Ok(())
     }
@@ -143,7 +152,12 @@ impl Condensation {
                 *slope = dot(&row[..n], dy) + dot(&row[n..], dp) - r;
             }
             let lu = &self.lu[i * size * size..][..size * size];
-            lu_solve(lu, size, &self.pivots[i * size..][..size], stages);
+            let pivots = &self.pivots[i * size..][..size];
+            if self.workspace.is_some() {
+                large::lu_solve(lu, size, pivots, stages);
+            } else {
+                dense::lu_solve(lu, size, pivots, stages);
+            }
         }
     }
 }

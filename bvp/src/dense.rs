@@ -169,6 +169,15 @@ fn subtract_multiples(
     }
 }
 
+/// C += A B, where A has `inner` columns and B has `columns`.
+pub(crate) fn add_product(c: &mut [f64], a: &[f64], b: &[f64], inner: usize, columns: usize) {
+    for (a, c) in a.chunks_exact(inner).zip(c.chunks_exact_mut(columns)) {
+        for (factor, b) in a.iter().zip(b.chunks_exact(columns)) {
+            add_scaled(c, *factor, b);
+        }
+    }
+}
+
 /// The inner product of two vectors of the same length.
 #[inline]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {

@@ -39,7 +39,7 @@ pub struct FiniteDifferences<F, G> {
     pub segments: Vec<Segment>,
     /// Number k of unknown parameters.
     pub parameters: usize,
-    /// Number of conditions; must be Σ nᵢ + k.
+    /// Number of conditions; must be Σ nᵢ + k, or less for a [`Family`](crate::Family).
     pub condition_count: usize,
     /// Right-hand side: (segment, s, y, p, dy) writes dy.
     pub rhs: F,

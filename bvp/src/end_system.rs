@@ -2,6 +2,7 @@
 
 use crate::almost_block_diagonal::Singular;
 use crate::dense::{SingularRow, lu_factor, lu_solve};
+use crate::lq::{lq_factor, lq_negative, lq_null_vector, lq_solve};
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{MatMut, MatRef};
 
@@ -9,14 +10,20 @@ use faer::{MatMut, MatRef};
 /// from about there on; below, its bookkeeping costs more than the arithmetic.
 const LARGE: usize = 64;
 
-/// A square system, equilibrated and factored with row pivoting.
+/// An equilibrated system, factored: a square one with row pivoting, one with an equation fewer
+/// than unknowns by orthogonal transformations.
 #[derive(Clone, Debug)]
 pub(crate) struct EndSystem {
+    /// Unknowns.
     size: usize,
-    /// The matrix, row-major; its factors once it is factored, if it is small.
+    /// The matrix, row-major; its factors once it is factored, unless it is square and
+    /// large.
     matrix: Vec<f64>,
+    /// Row exchanges of a square matrix.
     pivots: Vec<usize>,
-    /// The factors of a large matrix.
+    /// Factors of the reflections of a matrix with fewer rows.
+    tau: Vec<f64>,
+    /// The factors of a large square matrix.
     large: Option<PartialPivLu<f64>>,
     /// Equilibration of rows and columns.
     row_scale: Vec<f64>,
@@ -24,13 +31,16 @@ pub(crate) struct EndSystem {
 }
 
 impl EndSystem {
-    pub(crate) fn new(size: usize) -> Self {
+    /// A system of as many `equations` as unknowns, or one fewer.
+    pub(crate) fn new(equations: usize, size: usize) -> Self {
+        let square = equations == size;
         Self {
             size,
-            matrix: vec![0.0; size * size],
-            pivots: vec![0; size],
+            matrix: vec![0.0; equations * size],
+            pivots: vec![0; if square { size } else { 0 }],
+            tau: vec![0.0; if square { 0 } else { equations }],
             large: None,
-            row_scale: vec![0.0; size],
+            row_scale: vec![0.0; equations],
             column_scale: vec![0.0; size],
         }
     }
@@ -40,10 +50,15 @@ impl EndSystem {
         &mut self.matrix
     }
 
-    /// Factors the filled matrix.
+    /// Factors the filled matrix. A square one must be regular; one with fewer rows must be finite
+    /// and may have any rank.
     pub(crate) fn factor(&mut self) -> Result<(), Singular> {
         let size = self.size;
         self.equilibrate()?;
+        if self.pivots.is_empty() {
+            lq_factor(&mut self.matrix, size, &mut self.tau);
+            return Ok(());
+        }
         // In an equilibrated matrix a pivot at rounding level is a zero.
         let negligible = size as f64 * f64::EPSILON;
         let regular = if size < LARGE {
@@ -58,7 +73,7 @@ impl EndSystem {
         if regular { Ok(()) } else { Err(Singular::Ends) }
     }
 
-    /// Scales rows, then columns, to largest entries of one.
+    /// Scales rows, then columns, to largest entries of one; what is zero stays so.
     fn equilibrate(&mut self) -> Result<(), Singular> {
         self.column_scale.fill(0.0);
         let rows = self.matrix.chunks_exact_mut(self.size);
@@ -80,7 +95,8 @@ impl EndSystem {
         Ok(())
     }
 
-    /// Replaces right-hand sides by the solution of the factored system.
+    /// Replaces right-hand sides, the first entries of `x`, by the solution of the factored system;
+    /// by any one if there is an equation fewer.
     pub(crate) fn solve(&self, x: &mut [f64]) {
         for (x, scale) in x.iter_mut().zip(&self.row_scale) {
             *x *= scale;
@@ -89,19 +105,33 @@ impl EndSystem {
             Some(factors) => {
                 factors.solve_in_place(MatMut::from_column_major_slice_mut(x, self.size, 1));
             }
+            None if self.pivots.is_empty() => lq_solve(&self.matrix, self.size, &self.tau, x),
             None => lu_solve(&self.matrix, self.size, &self.pivots, x),
         }
+        self.unscale(x);
+    }
+
+    /// A null vector of a system with an equation fewer than unknowns. Its direction is known up to
+    /// one sign for all systems of a size: det \[E; xᵀ\] is positive if the number returned is even.
+    pub(crate) fn null_vector(&self, x: &mut [f64]) -> usize {
+        lq_null_vector(&self.matrix, self.size, &self.tau, x);
+        self.unscale(x);
+        lq_negative(&self.matrix, self.size)
+    }
+
+    /// Undoes the scaling of the columns.
+    fn unscale(&self, x: &mut [f64]) {
         for (x, scale) in x.iter_mut().zip(&self.column_scale) {
             *x *= scale;
         }
     }
 }
 
-/// 1 / max |x|, or `None` where that is not a positive finite number.
+/// 1 / max |x|, 1 where all are zero, `None` where one is not finite.
 fn inverse_of_largest(x: &[f64]) -> Option<f64> {
     let largest = x.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
     let finite = x.iter().all(|x| x.is_finite());
-    (finite && largest > 0.0).then(|| 1.0 / largest)
+    finite.then(|| if largest > 0.0 { 1.0 / largest } else { 1.0 })
 }
 
 #[cfg(test)]
@@ -111,7 +141,7 @@ mod tests {
 
     /// A well-conditioned matrix with rows of very different size.
     fn system(size: usize) -> EndSystem {
-        let mut system = EndSystem::new(size);
+        let mut system = EndSystem::new(size, size);
         for (i, row) in system.matrix_mut().chunks_exact_mut(size).enumerate() {
             for (j, x) in row.iter_mut().enumerate() {
                 let number = ((i * 7919 + j * 104_729) % 1000) as f64 / 1000.0 - 0.5;

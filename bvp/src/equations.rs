@@ -17,7 +17,7 @@ pub trait Equations {
     /// Number k of unknown scalar parameters.
     fn parameters(&self) -> usize;
 
-    /// Number of conditions; must equal Σ nᵢ + k.
+    /// Number of conditions; must equal Σ nᵢ + k, or less for a [`Family`](crate::Family).
     fn condition_count(&self) -> usize;
 
     /// `dy` = f(s, y, p) on `segment`; `y`, `dy` hold n numbers, `p` holds k.

@@ -11,7 +11,8 @@ use crate::{Scheme, Solution};
 pub enum Error {
     /// The number of conditions is not the number of unknown constants.
     #[error(
-        "{conditions} conditions given, {unknowns} needed: {states} for the states and {parameters} for the parameters"
+        "{conditions} conditions given, {unknowns} needed: {states} for the states and {parameters} for the parameters{}",
+        hint(*.conditions, *.unknowns)
     )]
     ConditionCount {
         /// Conditions stated.
@@ -20,7 +21,16 @@ pub enum Error {
         unknowns: usize,
         /// States of all segments.
         states: usize,
-        /// Unknown parameters.
+        /// Parameters that the conditions must determine.
+        parameters: usize,
+    },
+    /// The parameter of a [`Family`](crate::Family), or one that it holds, is not there or is named
+    /// twice.
+    #[error("parameter {parameter} of a family is not one of {parameters} or is named twice")]
+    FamilyParameter {
+        /// The index given.
+        parameter: usize,
+        /// Parameters of the problem.
         parameters: usize,
     },
     /// There are no segments.
@@ -215,6 +225,15 @@ pub enum Error {
         /// The solution.
         best: Box<Solution>,
     },
+}
+
+/// What too few conditions may mean.
+fn hint(conditions: usize, unknowns: usize) -> &'static str {
+    if conditions < unknowns {
+        "; with fewer, the solutions form a Family"
+    } else {
+        ""
+    }
 }
 
 impl Error {

@@ -19,11 +19,7 @@ const FEW: f64 = 0.12;
 /// equidistribute the density ν/h, per segment.
 pub(crate) fn next_mesh(mesh: &Mesh, defects: &[Vec<f64>], tolerance: f64, m: usize) -> Mesh {
     let next = |(nodes, defects): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
-        let wanted = |r: &f64| -> f64 {
-            let cut = (r / (AIM * tolerance)).powf(1.0 / m as f64);
-            cut.clamp(SMALLEST_CUT, LARGEST_CUT)
-        };
-        let cuts: Vec<f64> = defects.iter().map(wanted).collect();
+        let cuts: Vec<f64> = defects.iter().map(|&r| wanted(r, tolerance, m)).collect();
         let too_long = defects.iter().filter(|&&r| r > tolerance).count();
         let total: f64 = cuts.iter().sum();
         let count = cuts.len() as f64;
@@ -49,6 +45,22 @@ pub(crate) fn next_mesh(mesh: &Mesh, defects: &[Vec<f64>], tolerance: f64, m: us
         equidistribute(nodes, &density, ceil(total).max(2))
     };
     mesh.iter().zip(defects).map(next).collect()
+}
+
+/// Whether these defects, all within the tolerance, want fewer than half of the intervals.
+pub(crate) fn is_wasteful(defects: &[Vec<f64>], tolerance: f64, m: usize) -> bool {
+    let (mut total, mut count) = (0.0, 0.0);
+    for &r in defects.iter().flatten() {
+        total += wanted(r, tolerance, m);
+        count += 1.0;
+    }
+    total < 0.5 * count
+}
+
+/// How many parts an interval with the relative defect r wants to be cut into.
+fn wanted(r: f64, tolerance: f64, m: usize) -> f64 {
+    let cut = (r / (AIM * tolerance)).powf(1.0 / m as f64);
+    cut.clamp(SMALLEST_CUT, LARGEST_CUT)
 }
 
 /// The mesh with all intervals shortened so that an error ∝ h^order falls from `error` well below
@@ -148,6 +160,14 @@ mod tests {
         let defects = vec![vec![1e-14; 40], vec![1e-3; 10]];
         let next = next_mesh(&mesh, &defects, 1e-6, 4);
         assert!(next[0].len() < 20 && next[1].len() > 20);
+    }
+
+    #[test]
+    fn a_mesh_twice_too_fine_is_wasteful() {
+        let tolerance = 1e-6;
+        let defects = |parts: f64| vec![vec![AIM * tolerance * parts.powi(4); 10]; 2];
+        assert!(is_wasteful(&defects(0.49), tolerance, 4));
+        assert!(!is_wasteful(&defects(0.51), tolerance, 4));
     }
 
     #[test]

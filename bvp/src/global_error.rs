@@ -2,10 +2,12 @@
 
 use crate::collocation::Collocation;
 use crate::dense::max_or_nan;
-use crate::iterate::{Interval, SegmentIterate};
+use crate::held::Held;
+use crate::iterate::Interval;
 use crate::mesh::halved;
-use crate::scheme::Tableau;
+use crate::restriction::restrict;
 use crate::{Equations, Solution, Stats};
+use std::sync::Arc;
 
 /// Estimated global errors, relative to 1 + |value|.
 #[derive(Clone, Debug, Default)]
@@ -23,27 +25,6 @@ impl GlobalErrors {
     }
 }
 
-/// The same polynomials on the halved mesh: exactly, but for rounding.
-fn restrict(t: &Tableau, n: usize, mesh: &[f64], from: &SegmentIterate, to: &mut SegmentIterate) {
-    let size = t.stages * n;
-    let halves = to
-        .stages
-        .chunks_exact_mut(2 * size)
-        .zip(to.nodes.chunks_exact_mut(2 * n));
-    for (i, ((stages, nodes), ends)) in halves.zip(mesh.windows(2)).enumerate() {
-        let interval = Interval::new(from, n, t, i, ends);
-        let (left, middle) = nodes.split_at_mut(n);
-        left.copy_from_slice(interval.y);
-        interval.state(&t.half_value, middle);
-        let weights = t.half_slopes.chunks_exact(t.stages);
-        for (stage, weights) in stages.chunks_exact_mut(n).zip(weights) {
-            interval.slope(weights, stage);
-        }
-    }
-    let last = to.nodes.len() - n;
-    to.nodes[last..].copy_from_slice(&from.nodes[from.nodes.len() - n..]);
-}
-
 /// The global error of a solution, by one Newton correction on the halved mesh started at the
 /// solution itself. An error ∝ h^q shrinks to 2^−q of it there, so the correction is (1 − 2^−q) of
 /// the error; q is the order between the nodes, which is right there and cautious at the nodes.
@@ -57,13 +38,10 @@ pub(crate) fn global_errors(
     stats: &mut Stats,
 ) -> Option<GlobalErrors> {
     let t = &*solution.tableau;
-    let mut collocation = Collocation::new(equations, t, halved(&solution.mesh));
-    let mut x = collocation.zeros();
-    x.p.copy_from_slice(&solution.x.p);
-    for (index, segment) in equations.segments().iter().enumerate() {
-        let (from, to) = (&solution.x.segments[index], &mut x.segments[index]);
-        restrict(t, segment.states, &solution.mesh[index], from, to);
-    }
+    let tableau = Arc::clone(&solution.tableau);
+    let mesh = halved(&solution.mesh);
+    let mut collocation = Collocation::new(Held::none(equations), tableau, mesh);
+    let x = restrict(t, equations.segments(), &solution.mesh, &solution.x);
     let mut residual = collocation.residual_buffer();
     let mut correction = collocation.zeros();
     collocation.linearise(&x, &mut residual, stats).ok()?;

@@ -16,7 +16,8 @@
 //! unknown constants  Σ nᵢ + k  =  number of conditions g
 //! ```
 //!
-//! and [`solve`] refuses any other count. Conditions may be nonlinear and may couple everything
+//! and [`solve`] refuses any other count; with fewer conditions the solutions form a [`Family`].
+//! Conditions may be nonlinear and may couple everything
 //! with everything. This one form holds
 //!
 //! * two-point problems: one segment;
@@ -76,6 +77,62 @@
 //!
 //! The right-hand side is generic in its scalar [`Real`], so the solver has exact Jacobians
 //! without being given any.
+//!
+//! # Families of solutions
+//!
+//! Where a parameter is left free, the solutions form a curve. [`Family`] is the discretised problem
+//! as the curve sees it, n equations for n + 1 unknowns, on a mesh that follows the solution: what a
+//! continuation method needs. Bratu's problem u'' + λ eᵘ = 0, u(0) = u(1) = 0, which has two
+//! solutions up to λ = 3.5138… and none beyond:
+//!
+//! ```
+//! use bvp::{Constant, Ends, Family, Options, Problem, Real, Segment};
+//!
+//! struct Bratu;
+//!
+//! impl Problem for Bratu {
+//!     fn segments(&self) -> &[Segment] {
+//!         const { &[Segment::new(2)] }
+//!     }
+//!
+//!     fn parameters(&self) -> usize {
+//!         1
+//!     }
+//!
+//!     fn condition_count(&self) -> usize {
+//!         2
+//!     }
+//!
+//!     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
+//!         dy[0] = y[1];
+//!         dy[1] = -p[0] * y[0].exp();
+//!     }
+//!
+//!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+//!         r[0] = at.start(0)[0];
+//!         r[1] = at.end(0)[0];
+//!     }
+//! }
+//!
+//! let guess = Constant { states: vec![vec![0.0; 2]], parameters: vec![1.0] };
+//! let (mut family, mut z) = Family::new(&Bratu, 0, &[], &guess, &Options::default())?;
+//! let n = family.unknowns() - 1;
+//! let (mut g, mut v, mut t) = (vec![0.0; n], vec![0.0; n + 1], vec![0.0; n + 1]);
+//!
+//! // Along the tangent to the solution with λ = 1.2, then corrections by Newton's method.
+//! family.linearise(&z)?;
+//! family.null_vector(&mut t);
+//! let step = 0.2 / t[n];
+//! z.iter_mut().zip(&t).for_each(|(z, t)| *z += step * t);
+//! for _ in 0..3 {
+//!     family.residual(&z, &mut g);
+//!     family.linearise(&z)?;
+//!     family.particular(&g, &mut v);
+//!     z.iter_mut().zip(&v).for_each(|(z, v)| *z -= v);
+//! }
+//! assert!(family.solution(&z).defect() < 1e-6 && (z[n] - 1.2).abs() < 0.1);
+//! # Ok::<(), bvp::Error>(())
+//! ```
 //!
 //! # The method
 //!
@@ -154,14 +211,20 @@ mod end_system;
 mod equations;
 mod error;
 mod error_control;
+mod family;
 mod global_error;
 mod guess;
+mod held;
+mod householder;
 mod iterate;
+mod large;
+mod lq;
 mod mesh;
 mod newton;
 mod options;
 mod problem;
 mod real;
+mod restriction;
 mod scheme;
 mod solution;
 mod solver;
@@ -173,6 +236,7 @@ pub use difference::FiniteDifferences;
 pub use dual::Dual;
 pub use equations::Equations;
 pub use error::Error;
+pub use family::Family;
 pub use guess::{Constant, Function, Guess, Table};
 pub use options::{GlobalError, Options};
 pub use problem::{Ends, Problem, Segment};

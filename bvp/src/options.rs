@@ -2,7 +2,7 @@
 
 use crate::{Error, Scheme};
 
-/// The settings of [`solve`](crate::solve). Update the defaults with struct syntax:
+/// The settings of [`solve`](crate::solve) and [`Family`](crate::Family). Update the defaults with struct syntax:
 ///
 /// ```
 /// let options = bvp::Options { tolerance: 1e-9, ..bvp::Options::default() };

@@ -92,7 +92,9 @@ pub trait Problem {
     }
 
     /// Number of conditions that [`conditions`](Self::conditions) writes. The default is the
-    /// number that a well-posed problem needs, Σ nᵢ + k; state your own count to have it checked.
+    /// number that a well-posed problem needs, Σ nᵢ + k; state your own count to have it checked. A
+    /// problem with fewer conditions is a [`Family`](crate::Family), and [`solve`](crate::solve)
+    /// refuses it.
     fn condition_count(&self) -> usize {
         self.segments().iter().map(|s| s.states).sum::<usize>() + self.parameters()
     }

@@ -5,6 +5,7 @@ use crate::collocation::Collocation;
 use crate::defect::defects;
 use crate::error_control::{denser, next_mesh};
 use crate::global_error::global_errors;
+use crate::held::Held;
 use crate::iterate::{Iterate, NonFinite};
 use crate::mesh::{Mesh, halved, intervals, is_representable};
 use crate::newton::{Failure, Newton};
@@ -36,7 +37,7 @@ pub fn solve(
 ) -> Result<Solution, Error> {
     let start = Instant::now();
     options.validate()?;
-    check_statement(equations)?;
+    check_statement(equations, 0)?;
     let mesh = first_mesh(equations, guess, options)?;
     let run = Run {
         equations,
@@ -64,7 +65,7 @@ impl Run<'_> {
         let mut retries = 0;
         loop {
             let tableau = Arc::clone(&self.tableau);
-            let mut collocation = Collocation::new(self.equations, &tableau, mesh);
+            let mut collocation = Collocation::new(Held::none(self.equations), tableau, mesh);
             let from = previous
                 .as_ref()
                 .map_or(guess, |solution| solution as &dyn Guess);
@@ -97,7 +98,7 @@ impl Run<'_> {
             let resolved = solution.defect() <= tolerance;
             let finer = if !resolved {
                 let defects = &solution.quality.defects;
-                next_mesh(&solution.mesh, defects, tolerance, tableau.stages)
+                next_mesh(&solution.mesh, defects, tolerance, self.tableau.stages)
             } else if self.options.global_error == GlobalError::Skip {
                 return Ok(self.finish(solution));
             } else {
@@ -110,43 +111,14 @@ impl Run<'_> {
                 let order = self.options.scheme.dense_order();
                 denser(&solution.mesh, error, tolerance, order)
             };
-            self.check_mesh(&finer, &solution)?;
+            let solution = self.finish(solution);
+            check_mesh(&finer, self.options, &solution)?;
+            if solution.stats.meshes >= MAX_MESHES {
+                return Err(unresolved(self.options, &solution));
+            }
             previous = Some(solution);
             mesh = finer;
         }
-    }
-
-    /// Refuses a next mesh that is too large, cannot be represented, or is one of too many.
-    fn check_mesh(&self, finer: &Mesh, solution: &Solution) -> Result<(), Error> {
-        let (needed, limit) = (intervals(finer), self.options.max_intervals);
-        let (meshes, tolerance) = (self.stats.meshes, self.options.tolerance);
-        let defect = solution.defect();
-        let error = solution.error_estimate().unwrap_or(f64::INFINITY);
-        let best = || Box::new(self.finish(solution.clone()));
-        if needed > limit {
-            return Err(Error::MeshLimit {
-                needed,
-                limit,
-                defect,
-                error,
-                tolerance,
-                best: best(),
-            });
-        }
-        if meshes >= MAX_MESHES || !is_representable(finer) {
-            let (segment, s, length) = solution.worst_interval();
-            return Err(Error::Unresolved {
-                segment,
-                s,
-                length,
-                meshes,
-                defect,
-                error,
-                tolerance,
-                best: best(),
-            });
-        }
-        Ok(())
     }
 
     /// The solution with its defects and conditions, from a converged iterate; an error where a
@@ -213,8 +185,43 @@ impl Run<'_> {
     }
 }
 
+/// Refuses a next mesh that is too large or cannot be represented.
+pub(crate) fn check_mesh(finer: &Mesh, options: &Options, best: &Solution) -> Result<(), Error> {
+    let (needed, limit) = (intervals(finer), options.max_intervals);
+    if needed > limit {
+        return Err(Error::MeshLimit {
+            needed,
+            limit,
+            defect: best.defect(),
+            error: best.error_estimate().unwrap_or(f64::INFINITY),
+            tolerance: options.tolerance,
+            best: Box::new(best.clone()),
+        });
+    }
+    if is_representable(finer) {
+        Ok(())
+    } else {
+        Err(unresolved(options, best))
+    }
+}
+
+/// The error for a solution that no mesh seems to resolve.
+fn unresolved(options: &Options, best: &Solution) -> Error {
+    let (segment, s, length) = best.worst_interval();
+    Error::Unresolved {
+        segment,
+        s,
+        length,
+        meshes: best.stats.meshes,
+        defect: best.defect(),
+        error: best.error_estimate().unwrap_or(f64::INFINITY),
+        tolerance: options.tolerance,
+        best: Box::new(best.clone()),
+    }
+}
+
 /// The error for a failure of Newton's method.
-fn numerical(failure: Failure, best: Solution, tolerance: f64) -> Error {
+pub(crate) fn numerical(failure: Failure, best: Solution, tolerance: f64) -> Error {
     let steps = best.stats.newton_steps;
     let best = Box::new(best);
     match failure {

@@ -4,8 +4,9 @@ use crate::iterate::Iterate;
 use crate::mesh::{Mesh, intervals, uniform};
 use crate::{Equations, Error, Guess, Options};
 
-/// Checks that the problem is stated completely.
-pub(crate) fn check_statement(equations: &dyn Equations) -> Result<(), Error> {
+/// Checks that the problem is stated completely, with a condition for every state and parameter
+/// but so many `free` parameters.
+pub(crate) fn check_statement(equations: &dyn Equations, free: usize) -> Result<(), Error> {
     let segments = equations.segments();
     if segments.is_empty() {
         return Err(Error::NoSegments);
@@ -24,7 +25,7 @@ pub(crate) fn check_statement(equations: &dyn Equations) -> Result<(), Error> {
         }
     }
     let states = segments.iter().map(|segment| segment.states).sum();
-    let parameters = equations.parameters();
+    let parameters = equations.parameters() - free;
     let unknowns = states + parameters;
     let conditions = equations.condition_count();
     if conditions != unknowns {

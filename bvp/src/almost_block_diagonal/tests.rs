@@ -48,7 +48,8 @@ impl Linear {
 
     /// By the structured elimination: all node states and then the parameters.
     fn structured(&self) -> Result<Vec<f64>, Singular> {
-        let mut matrix = AlmostBlockDiagonal::new(self.sizes.iter().copied(), self.k);
+        let mut matrix =
+            AlmostBlockDiagonal::new(self.sizes.iter().copied(), self.k, self.values.len());
         for (segment, links) in self.links.iter().enumerate() {
             for (i, link) in links.iter().enumerate() {
                 matrix.chain_mut(segment).link_mut(i).copy_from_slice(link);

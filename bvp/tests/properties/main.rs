@@ -3,10 +3,13 @@
 mod end_to_end;
 mod exact;
 mod failures;
+mod family;
 mod guesses;
 mod honesty;
 mod jacobians;
+mod null_vectors;
 mod order;
+mod remesh;
 mod scalars;
 mod statements;
 mod work;
