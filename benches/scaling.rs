@@ -129,7 +129,7 @@ fn main() {
     let intervals = (0..8).map(|i| 100 << i);
     let sizes = intervals.map(|intervals| (4, intervals, intervals));
     bench(&mut criterion, "intervals, 4 states", sizes);
-    let states = [2, 4, 8, 16, 32].into_iter();
+    let states = [2, 4, 8, 16, 32, 64].into_iter();
     let sizes = states.map(|states| (states, 200, states));
     bench(&mut criterion, "states, 200 intervals", sizes);
     criterion.final_summary();

@@ -34,6 +34,8 @@ pub struct Belt {
     pub axial_stiffness: f64,
     /// Radial stiffness k: line load per radial penetration, N/m².
     pub radial_stiffness: f64,
+    /// Height of the cross-section, m, if known: how deep the belt may sink into the groove.
+    pub height: Option<f64>,
 }
 
 /// How the friction force depends on slip. The coefficient μ is common to all laws.

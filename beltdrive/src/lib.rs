@@ -35,19 +35,29 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod branch;
 mod drive;
 pub mod examples;
 pub mod input;
+mod limit_curve;
+mod limits;
 pub mod plot;
 pub mod report;
+mod state_summary;
 mod steady_state;
 mod vbelt;
 
+pub use branch::{Branch, BranchEnd, BranchEvent, EventKind, TraceConvergence, TracePoint};
 pub use drive::{Belt, Drive, FrictionLaw, Load, SpanTension};
+pub use limit_curve::{LimitCurve, LimitCurvePoint};
+pub use limits::{Limit, Limits, RangeEnd};
+pub use state_summary::{PulleyErrors, PulleySummary, StateErrors, StateSummary};
 pub use steady_state::{
     Check, Convergence, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind,
 };
-pub use vbelt::{LimitReason, SolveError, SolveOptions, solve, solve_from};
+pub use vbelt::{
+    LimitReason, SolveError, SolveOptions, limit_curve, limits, solve, solve_from, trace,
+};
 
 /// The examples of the README are tests.
 #[cfg(doctest)]

@@ -70,6 +70,8 @@ fn help_carries_examples() {
     for args in [
         &["--help"][..],
         &["solve", "--help"],
+        &["trace", "--help"],
+        &["limits", "--help"],
         &["examples", "--help"],
     ] {
         let output = run(args);
@@ -87,6 +89,7 @@ fn a_bad_command_line_is_status_2() {
     fails(&run(&[]), 2, "Usage:");
     fails(&run(&["sovle"]), 2, "unrecognized subcommand");
     fails(&run(&["solve"]), 2, "<FILE>");
+    fails(&run(&["trace", "a.toml"]), 2, "--parameter <KEY>");
     fails(
         &run(&["solve", "a.toml", "--tolerance", "1"]),
         2,
@@ -169,6 +172,87 @@ fn solving_prints_the_table_unless_asked_otherwise() {
     succeeds(&output);
     let json: serde_json::Value = serde_json::from_str(&stdout(&output)).unwrap();
     assert!(json.is_object());
+}
+
+#[test]
+fn what_cannot_be_traced_is_status_2() {
+    let trace = |arguments: &[&str]| {
+        let arguments = [&["trace", "-"], arguments].concat();
+        run_with_input(&arguments, &example("kim2009"))
+    };
+    let tight = ["--parameter", "load.tight_tractive_tension"];
+    let wrong_key = [
+        "--parameter",
+        "friction.coeficient",
+        "--from",
+        "1",
+        "--to",
+        "2",
+    ];
+    fails(
+        &trace(&wrong_key),
+        2,
+        "did you mean `friction.coefficient`?",
+    );
+    let wrong_unit = [&tight[..], &["--from", "200 N", "--to", "2 kNn"]].concat();
+    fails(&trace(&wrong_unit), 2, "1 | --to 2 kNn\n  |        ^^^");
+    let empty = [&tight[..], &["--from", "1 kN", "--to", "1000 N"]].concat();
+    fails(&trace(&empty), 2, "--from and --to are the same value");
+    let range = ["--from", "0.2", "--to", "0.6"];
+    let same = [&tight[..], &["--curve", tight[1]], &range].concat();
+    fails(
+        &trace(&same),
+        2,
+        "--parameter and --curve are the same entry",
+    );
+    let wrong_curve = [&tight[..], &["--curve", "friction.law"], &range].concat();
+    fails(&trace(&wrong_curve), 2, "`friction.law` is no number");
+    let arguments = ["limits", "-", "--parameter", "load.tight_tension"];
+    let output = run_with_input(&arguments, &example("kim2009"));
+    fails(&output, 2, "did you mean `load.tight_tractive_tension`?");
+}
+
+#[test]
+fn a_branch_is_traced_into_every_form() {
+    let directory = directory("trace");
+    let path = |name: &str| directory.join(name).to_str().unwrap().to_owned();
+    let (json, csv, figures) = (path("a.json"), path("a.csv"), path("figures"));
+    let range = ["trace", "-", "--parameter", "load.tight_tractive_tension"];
+    let range = [&range[..], &["--from", "500 N", "--to", "700 N"]].concat();
+    let outputs = ["--json", &json, "--csv", &csv, "--plot", &figures];
+    let output = run_with_input(&[&range[..], &outputs].concat(), &example("kim2009"));
+    succeeds(&output);
+    let table = stdout(&output);
+    assert!(
+        table.contains("Branch over load.tight_tractive_tension"),
+        "{table}"
+    );
+    let notes = stderr(&output);
+    assert!(
+        notes.contains("branch.svg") && !notes.contains('%'),
+        "{notes}"
+    );
+
+    let text = fs::read_to_string(json).unwrap();
+    let branch: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let points = branch["points"].as_array().unwrap();
+    let ends = [&points[0], points.last().unwrap()];
+    assert_eq!(
+        ends.map(|point| &point["tight_tractive_tension_N"]),
+        [500.0, 700.0]
+    );
+    let speed = ends[1]["driven"]["angular_speed_rad_per_s"]
+        .as_f64()
+        .unwrap();
+    assert!((speed - 102.6994).abs() < 1e-3, "{speed}");
+    assert_eq!(branch["events"][0]["kind"], "start");
+    assert_eq!(branch["end"]["reason"], "target");
+    let rows = fs::read_to_string(csv).unwrap();
+    assert!(rows.starts_with("tight_tractive_tension_N,arclength,event,pulley,"));
+
+    let output = run_with_input(&[&range[..], &["--quiet"]].concat(), &example("kim2009"));
+    succeeds(&output);
+    assert_eq!((stdout(&output), stderr(&output)), Default::default());
 }
 
 #[test]

@@ -76,7 +76,7 @@ fn unknown_tables_and_keys() {
       |
     9 | half_angle = 0.3
       | ^^^^^^^^^^
-    expected: one of `type`, `mass_per_length`, `axial_stiffness`, `radial_stiffness`
+    expected: one of `type`, `mass_per_length`, `axial_stiffness`, `radial_stiffness`, `height`
     help: did you mean `groove.half_angle`?
     "#);
     assert_snapshot!(error("[groove]", "colour = 3\n[groove]"), @r#"
@@ -85,7 +85,7 @@ fn unknown_tables_and_keys() {
       |
     9 | colour = 3
       | ^^^^^^
-    expected: one of `type`, `mass_per_length`, `axial_stiffness`, `radial_stiffness`
+    expected: one of `type`, `mass_per_length`, `axial_stiffness`, `radial_stiffness`, `height`
     "#);
 }
 

@@ -292,3 +292,12 @@ fn tensions_that_do_not_contradict() {
     ]);
     assert_eq!(drive.unwrap().load.slack, SpanTension::Tractive(200.0));
 }
+
+#[test]
+fn the_height_of_the_belt_may_be_given() {
+    let height = |overrides: &[&str]| overridden(overrides).unwrap().belt.height;
+    assert_eq!(height(&[]), None);
+    assert_eq!(height(&["belt.height=8 mm"]), Some(0.008));
+    let error = override_error(&["belt.height=0 m"]);
+    assert!(error.contains("`belt.height` must be positive"), "{error}");
+}

@@ -41,6 +41,7 @@ fn drive(random: &mut Random, law: FrictionLaw) -> Drive {
                 mass_per_length: random.scale(0.05, 0.6),
                 axial_stiffness: random.scale(30e3, 300e3),
                 radial_stiffness,
+                height: None,
             },
             half_angle,
             friction_coefficient: random.between(0.15, 0.8),

@@ -31,8 +31,8 @@
 
 use crate::dense::{add_scaled, dot};
 use crate::end_system::EndSystem;
-use crate::householder::Reflection;
 use crate::iterate::Iterate;
+use crate::reflections::{Blocks, MANY, eliminate};
 
 /// Where the Newton matrix is singular to working precision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +64,8 @@ pub(crate) struct Chain {
     work: Vec<f64>,
     /// One row of `work`, or 2n right-hand sides.
     row: Vec<f64>,
+    /// For the elimination of many states.
+    blocks: Option<Blocks>,
 }
 
 impl Chain {
@@ -79,6 +81,7 @@ impl Chain {
             reduced: vec![0.0; n * (2 * n + k)],
             work: vec![0.0; 2 * n * (3 * n + k)],
             row: vec![0.0; 3 * n + k],
+            blocks: (n >= MANY).then(|| Blocks::new(2 * n, 3 * n + k)),
         }
     }
 
@@ -125,9 +128,11 @@ impl Chain {
                 row[n + i] = 1.0;
                 add_scaled(&mut row[3 * n..], -1.0, &link[n..]);
             }
-            for (j, tau) in tau.iter_mut().enumerate() {
-                *tau = reflect(&mut self.work, width, j, &mut self.row).ok_or(interior + 1)?;
+            match &mut self.blocks {
+                Some(blocks) => blocks.eliminate(&mut self.work, width, tau),
+                None => eliminate(&mut self.work, width, tau, &mut self.row),
             }
+            .ok_or(interior + 1)?;
             for (panel, row) in panel.chunks_exact_mut(n).zip(self.work.chunks_exact(width)) {
                 panel.copy_from_slice(&row[..n]);
             }
@@ -212,34 +217,6 @@ impl Chain {
             }
         }
     }
-}
-
-/// Annihilates column `j` below row `j` of the rows in `work` by a Householder reflection, leaves
-/// its vector (with leading 1 implied) in their place and returns τ; `None` if the column vanishes
-/// or is not finite.
-fn reflect(work: &mut [f64], width: usize, j: usize, row: &mut [f64]) -> Option<f64> {
-    let (above, below) = work.split_at_mut((j + 1) * width);
-    let pivot_row = &mut above[j * width..];
-    let head = pivot_row[j];
-    let mut square = head * head;
-    for r in below.chunks_exact(width) {
-        square += r[j] * r[j];
-    }
-    let Reflection { beta, tau, scale } = Reflection::new(head, square)?;
-    pivot_row[j] = beta;
-    let row = &mut row[j + 1..width];
-    row.copy_from_slice(&pivot_row[j + 1..]);
-    for r in below.chunks_exact_mut(width) {
-        r[j] *= scale;
-        let (v, tail) = (r[j], &r[j + 1..]);
-        add_scaled(row, v, tail);
-    }
-    add_scaled(&mut pivot_row[j + 1..], -tau, row);
-    for r in below.chunks_exact_mut(width) {
-        let factor = -tau * r[j];
-        add_scaled(&mut r[j + 1..], factor, row);
-    }
-    Some(tau)
 }
 
 /// The whole matrix: one [`Chain`] per segment and the dense system of all ends and parameters.

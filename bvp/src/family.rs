@@ -250,6 +250,32 @@ impl<'a> Family<'a> {
         self.wrap(x, quality)
     }
 
+    /// The states at the left end of a segment of the point `z`, which is cheaper than a
+    /// [`solution`](Self::solution).
+    ///
+    /// # Panics
+    /// If there is no such segment or `z` is too short.
+    pub fn start<'z>(&self, z: &'z [f64], segment: usize) -> &'z [f64] {
+        let states = self.collocation.equations.segments()[segment].states;
+        &z[self.nodes_before(segment)..][..states]
+    }
+
+    /// The states at the right end of a segment of the point `z`.
+    ///
+    /// # Panics
+    /// If there is no such segment or `z` is too short.
+    pub fn end<'z>(&self, z: &'z [f64], segment: usize) -> &'z [f64] {
+        let states = self.collocation.equations.segments()[segment].states;
+        let nodes = self.x.segments[segment].nodes.len();
+        &z[self.nodes_before(segment) + nodes - states..][..states]
+    }
+
+    /// Where the nodes of a segment begin in a point.
+    fn nodes_before(&self, segment: usize) -> usize {
+        let before = self.x.segments[..segment].iter();
+        before.map(|s| s.nodes.len() + s.stages.len()).sum()
+    }
+
     /// The tolerance that [`adapt`](Self::adapt) keeps, [`Options::tolerance`].
     pub fn tolerance(&self) -> f64 {
         self.options.tolerance
@@ -271,6 +297,23 @@ impl<'a> Family<'a> {
     pub fn hold(&mut self, index: usize, value: f64) {
         let held = self.collocation.equations.hold(index, value);
         assert!(held, "a parameter that is held");
+    }
+
+    /// The same discretisation of other equations with the same segments, numbers of parameters and
+    /// of conditions, for instance of those with a smaller regularisation.
+    ///
+    /// # Errors
+    /// [`Error::ConditionCount`] if the number of conditions differs.
+    ///
+    /// # Panics
+    /// If the segments differ.
+    pub fn exchanged(&self, equations: &'a dyn Equations) -> Result<Self, Error> {
+        let own = &self.collocation.equations;
+        assert_eq!(own.segments(), equations.segments(), "the same segments");
+        check_statement(equations, own.held_count() + 1)?;
+        let mut family = self.clone();
+        family.collocation.equations = own.exchanged(equations);
+        Ok(family)
     }
 
     /// Reads a point into the iterate in work.

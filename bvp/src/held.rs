@@ -22,6 +22,17 @@ impl<'a> Held<'a> {
         Self { equations, values }
     }
 
+    /// Other equations with the same parameters held at the same values.
+    pub(crate) fn exchanged<'b>(&self, equations: &'b dyn Equations) -> Held<'b> {
+        let values = self.values.clone();
+        Held { equations, values }
+    }
+
+    /// Number of parameters held.
+    pub(crate) fn held_count(&self) -> usize {
+        self.values.len()
+    }
+
     /// The value of a parameter, if it is held.
     pub(crate) fn value(&self, index: usize) -> Option<f64> {
         let held = self.values.iter().find(|(held, _)| *held == index);

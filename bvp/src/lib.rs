@@ -224,6 +224,7 @@ mod newton;
 mod options;
 mod problem;
 mod real;
+mod reflections;
 mod restriction;
 mod scheme;
 mod solution;

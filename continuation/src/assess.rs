@@ -1,5 +1,6 @@
 //! The discretisation error of labelled points.
 
+use crate::branch::reverse;
 use crate::branch_point::{branch_point, column};
 use crate::corrector::{Accuracy, Condition, Corrector};
 use crate::metric::Metric;
@@ -22,6 +23,12 @@ impl<S: System> Branch<'_, S> {
         if point.kind == Kind::Regular {
             return point;
         }
+        let tolerance = self.system.tolerance();
+        // A branch that sets out from a branch point has no other place for it.
+        let kind = match point.kind {
+            Kind::Start if self.unoriented => Kind::BranchPoint,
+            kind => kind,
+        };
         for _ in 0..REFINEMENTS {
             let mut vectors = self.take_vectors();
             vectors.push(point.z.clone());
@@ -30,51 +37,55 @@ impl<S: System> Branch<'_, S> {
             let coarse = vectors.clone();
             let Some(mut fine) = self.system.refined(&mut vectors) else {
                 self.put_vectors(coarse);
-                return point;
+                break;
             };
             let other = point.other.as_ref().and_then(|_| vectors.pop());
             let tangent = vectors.pop().unwrap_or_default();
             let z = vectors.pop().unwrap_or_default();
             let mut metric = self.metric.clone();
             metric.regroup(&fine);
-            let Ok(refined) = self.relocate(&mut fine, &metric, &z, &tangent, point.kind) else {
+            let Ok(refined) = self.relocate(&mut fine, &metric, &z, &tangent, kind) else {
                 self.put_vectors(coarse);
-                return point;
+                let (lambda, states) = (f64::INFINITY, f64::INFINITY);
+                point.error = Some(DiscretisationError { lambda, states });
+                break;
             };
             let n = z.len() - 1;
             let error = DiscretisationError {
                 lambda: (refined[n] - z[n]).abs(),
                 states: metric.largest_difference(&refined, &z),
             };
-            let tolerance = self.system.tolerance();
-            let scale = refined[n].abs().max(1e-3 * metric.range());
-            let relative = error.states.max(error.lambda / scale);
-            if relative <= tolerance {
+            point.error = Some(error);
+            if self.relative(&error, refined[n]) <= tolerance {
                 self.put_vectors(coarse);
-                point.error = Some(error);
                 return point;
             }
             // The refined point is the better one; its own error is asked for next.
-            point = Point { z: refined, tangent, other, error: Some(error), ..point };
+            point = Point { z: refined, tangent, other, ..point };
             *self.system = fine;
             self.metric = metric;
             self.put_vectors(vectors);
+            if self.unoriented {
+                self.node.z.clone_from(&point.z);
+            }
             if let Err(difficulty) = self.settle() {
                 let step = self.step;
                 self.stop = Some(Stop::StepTooSmall { step, difficulty });
                 return point;
             }
-            if relative <= tolerance {
-                return point;
-            }
         }
         if let Some(error) = point.error {
-            self.stop = Some(Stop::Inaccurate {
-                error: error.states.max(error.lambda / point.lambda().abs()),
-                tolerance: self.system.tolerance(),
-            });
+            let error = self.relative(&error, point.lambda());
+            self.stop = Some(Stop::Inaccurate { error, tolerance });
         }
         point
+    }
+
+    /// The larger of both errors, that of λ relative to λ (but to no less than a thousandth of its
+    /// range).
+    fn relative(&self, error: &DiscretisationError, lambda: f64) -> f64 {
+        let scale = lambda.abs().max(1e-3 * self.metric.range());
+        error.states.max(error.lambda / scale)
     }
 
     /// The same labelled point on another system, from its place `z` and `tangent` there.
@@ -86,36 +97,39 @@ impl<S: System> Branch<'_, S> {
         tangent: &[f64],
         kind: Kind,
     ) -> Result<Vec<f64>, Difficulty> {
-        let (n, walls) = (z.len() - 1, self.options.bounds);
-        let mut corrector = Corrector::default();
+        let n = z.len() - 1;
+        let mut corrector = Corrector::within(self.options.bounds);
         let mut to = |system: &mut S, mut z: Vec<f64>, condition: &Condition| {
             let accuracy = Accuracy::Rounding;
             corrector
-                .correct(system, metric, &mut z, condition, walls, accuracy, CORRECTIONS)
+                .correct(system, metric, &mut z, condition, accuracy, CORRECTIONS)
                 .map(|_| z)
         };
         let mut events = std::mem::take(&mut self.events);
         let outcome = match kind {
-            Kind::Target | Kind::Bound | Kind::Start => {
+            Kind::Target | Kind::Bound => {
                 let condition = Condition::lambda(n + 1, z[n]);
                 to(system, z.to_vec(), &condition)
             }
+            // A limit point is not determined by its λ.
+            Kind::Start => to(system, z.to_vec(), &Condition::lambda(n + 1, z[n]))
+                .or_else(|_| to(system, z.to_vec(), &Condition::plane(metric, tangent, z))),
             Kind::Regular | Kind::Closed => {
                 to(system, z.to_vec(), &Condition::plane(metric, tangent, z))
             }
             Kind::BranchPoint => column(system, metric, z).and_then(|column| {
-                let mut corrector = Corrector::default();
+                let mut corrector = Corrector::anywhere();
                 branch_point(system, &mut corrector, metric, z, &column).map(|found| found.z)
             }),
             Kind::LimitPoint | Kind::Cusp | Kind::Event(_) => {
-                let mut tangents = Corrector::default();
+                let mut tangents = Corrector::anywhere();
                 let mut value = |system: &mut S, place: &[f64]| -> Result<f64, Difficulty> {
                     if let Kind::Event(index) = kind {
                         return Ok(events[index](system, place));
                     }
                     let mut t = tangents.tangent(system, metric, place)?;
                     if metric.dot(&t, tangent) < 0.0 {
-                        t.iter_mut().for_each(|t| *t = -*t);
+                        reverse(&mut t);
                     }
                     let cusp = system.cusp_function().filter(|_| kind == Kind::Cusp);
                     Ok(cusp.unwrap_or(t[n]))
@@ -138,22 +152,28 @@ impl<S: System> Branch<'_, S> {
     /// Brings the last node back to the curve after the system has changed.
     pub(crate) fn settle(&mut self) -> Result<(), Difficulty> {
         self.metric.regroup(self.system);
+        self.metric.normalise(&mut self.home.tangent);
+        if self.unoriented {
+            // A branch point, located already.
+            self.metric.normalise(&mut self.node.tangent);
+            self.column = column(self.system, &self.metric, &self.node.z)?;
+            return Ok(());
+        }
         let mut z = self.node.z.clone();
         let plane = Condition::plane(&self.metric, &self.node.tangent, &z);
-        let (accuracy, walls) = (Accuracy::Rounding, self.options.bounds);
+        let accuracy = Accuracy::Rounding;
         let (system, metric) = (&mut *self.system, &self.metric);
         self.corrector
-            .correct(system, metric, &mut z, &plane, walls, accuracy, CORRECTIONS)?;
+            .correct(system, metric, &mut z, &plane, accuracy, CORRECTIONS)?;
         let mut tangent = self.corrector.tangent(system, metric, &z)?;
         self.node.along = metric.dot(&tangent, &self.node.tangent) > 0.0;
         if !self.node.along {
-            tangent.iter_mut().for_each(|t| *t = -*t);
+            reverse(&mut tangent);
         }
         self.node.cusp = self.system.cusp_function();
         self.node.z = z;
         self.node.tangent = tangent;
-        self.metric.normalise(&mut self.home.tangent);
-        Ok(())
+        self.watch_branch_points()
     }
 }
 
@@ -166,6 +186,9 @@ fn secant(
     let mut last = f64::INFINITY;
     for _ in 0..SECANT_STEPS {
         let step = -value * (s - other) / (value - before);
+        if value.is_nan() {
+            break;
+        }
         if !step.is_finite() || step.abs() >= 0.5 * last && last < SECANT {
             return Ok(place);
         }

@@ -2,17 +2,18 @@
 
 use crate::corrector::{Accuracy, Condition, Corrector};
 use crate::metric::Metric;
+use crate::branch_point::column;
 use crate::null_space::NullSpace;
 use crate::predictor::History;
 use crate::span::Node;
-use crate::{Difficulty, Error, Kind, Options, Point, Stop, System, branch_point};
+use crate::{Difficulty, Error, Kind, Options, Point, Stop, System};
 use std::collections::VecDeque;
 
 /// A start whose Jacobian comes this close to a second null vector, relative to its size, is
 /// refused.
 const SINGULAR: f64 = 1e-11;
-/// λ turns where its rate along the unit tangent, with its range as unit, is below this.
-const TURNING: f64 = 1e-12;
+/// λ turns, or rests, where its rate along the unit tangent, with its range as unit, is below this.
+pub(crate) const TURNING: f64 = 1e-12;
 /// The first step onto another branch is shortened at most to this.
 const SHORTEST_SWITCH: f64 = 1e-6;
 /// The most corrections of a first point.
@@ -50,6 +51,8 @@ pub struct Branch<'a, S: System> {
     pub(crate) options: Options,
     pub(crate) metric: Metric,
     pub(crate) corrector: Corrector,
+    /// The column b of the test function for branch points.
+    pub(crate) column: Vec<f64>,
     pub(crate) events: Vec<EventFunction<'a, S>>,
     /// The last accepted point and those before.
     pub(crate) node: Node,
@@ -58,6 +61,8 @@ pub struct Branch<'a, S: System> {
     pub(crate) home: Node,
     /// Whether orientation and rates at the last node mean nothing: it is a branch point.
     pub(crate) unoriented: bool,
+    /// The rate of the height of the null space over the last step.
+    pub(crate) trend: Option<f64>,
     pub(crate) step: f64,
     pub(crate) steps: usize,
     pub(crate) queue: VecDeque<Point>,
@@ -79,8 +84,7 @@ impl<'a, S: System> Branch<'a, S> {
     ) -> Result<Self, Error> {
         let mut branch = Self::at(system, start, options)?;
         branch.correct_start()?;
-        let n = start.len() - 1;
-        let rate = branch.node.tangent[n] / branch.metric.range();
+        let rate = branch.rate(&branch.node.tangent);
         let forward = match direction {
             Direction::Increasing => rate >= 0.0 || rate.abs() < TURNING,
             Direction::Decreasing => rate < 0.0 && rate.abs() >= TURNING,
@@ -95,14 +99,17 @@ impl<'a, S: System> Branch<'a, S> {
     /// As [`new`](Self::new); branch points are no obstacle.
     pub fn resume(system: &'a mut S, point: &Point, options: &Options) -> Result<Self, Error> {
         let mut branch = Self::at(system, &point.z, options)?;
+        check_length(&point.tangent, point.z.len())?;
         branch.node.tangent.clone_from(&point.tangent);
         branch.metric.reach(&point.tangent);
         if point.kind == Kind::BranchPoint {
             branch.unoriented = true;
             branch.metric.normalise(&mut branch.node.tangent);
+            branch.column = column(branch.system, &branch.metric, &point.z).map_err(Error::Start)?;
             branch.set_out(true);
         } else {
             branch.correct_across(point.tangent.clone()).map_err(Error::Start)?;
+            branch.watch_branch_points().map_err(Error::Start)?;
             let ahead = branch.metric.dot(&branch.node.tangent, &point.tangent) >= 0.0;
             branch.set_out(ahead);
         }
@@ -126,7 +133,7 @@ impl<'a, S: System> Branch<'a, S> {
         let mut onward = point.clone();
         onward.tangent.clone_from(other);
         if leg == Leg::Backward {
-            onward.tangent.iter_mut().for_each(|t| *t = -*t);
+            reverse(&mut onward.tangent);
         }
         onward.kind = Kind::BranchPoint;
         let mut branch = Self::resume(system, &onward, options)?;
@@ -155,9 +162,9 @@ impl<'a, S: System> Branch<'a, S> {
     fn first_angle(&mut self, predicted: &[f64], direction: &[f64]) -> Option<f64> {
         let mut z = predicted.to_vec();
         let plane = Condition::plane(&self.metric, direction, predicted);
-        let (accuracy, walls) = (Accuracy::Length(self.options.accuracy), self.options.bounds);
+        let accuracy = Accuracy::Length(self.options.accuracy);
         self.corrector
-            .correct(self.system, &self.metric, &mut z, &plane, walls, accuracy, CORRECTIONS)
+            .correct(self.system, &self.metric, &mut z, &plane, accuracy, CORRECTIONS)
             .ok()?;
         let way: Vec<f64> = z.iter().zip(&self.node.z).map(|(z, a)| z - a).collect();
         let cosine = self.metric.dot(&way, direction) / self.metric.norm(&way);
@@ -168,32 +175,24 @@ impl<'a, S: System> Branch<'a, S> {
     fn at(system: &'a mut S, z: &[f64], options: &Options) -> Result<Self, Error> {
         let unknowns = system.unknowns();
         options.validate(unknowns)?;
-        if z.len() != unknowns {
-            let given = z.len();
-            return Err(Error::StartCount { given, unknowns });
-        }
+        check_length(z, unknowns)?;
         let (lambda, [low, high]) = (z[unknowns - 1], options.bounds);
         if !(low..=high).contains(&lambda) {
             return Err(Error::StartOutside { lambda, low, high });
         }
-        let node = Node {
-            z: z.to_vec(),
-            tangent: vec![0.0; unknowns],
-            along: true,
-            arclength: 0.0,
-            events: Vec::new(),
-            cusp: None,
-        };
+        let node = Node::new(z.to_vec(), vec![0.0; unknowns]);
         Ok(Self {
             metric: Metric::new(system, options, z),
             system,
             options: options.clone(),
-            corrector: Corrector::default(),
+            corrector: Corrector::within(options.bounds),
+            column: Vec::new(),
             events: Vec::new(),
             home: node.clone(),
             node,
             history: History::default(),
             unoriented: false,
+            trend: None,
             step: options.first_step.min(options.largest_step),
             steps: 0,
             queue: VecDeque::new(),
@@ -219,23 +218,16 @@ impl<'a, S: System> Branch<'a, S> {
                 }
             }
         }
-        let failed = Error::Start;
         self.metric.observe(&self.node.z);
-        let system = &mut *self.system;
-        let tangent = self
-            .corrector
-            .tangent(system, &self.metric, &self.node.z)
-            .map_err(failed)?;
+        let (system, z) = (&mut *self.system, &self.node.z);
+        let tangent = self.corrector.tangent(system, &self.metric, z).map_err(Error::Start)?;
         self.metric.reach(&tangent);
-        let column = branch_point::column(system, &self.metric, &self.node.z).map_err(failed)?;
-        let (corrector, metric) = (&mut self.corrector, &self.metric);
-        let space =
-            NullSpace::at(system, corrector, metric, &self.node.z, &column).map_err(failed)?;
-        if space.last(1).abs() < SINGULAR {
-            return Err(Error::SingularStart);
-        }
         self.node.tangent = tangent;
         self.metric.normalise(&mut self.node.tangent);
+        self.watch_branch_points().map_err(Error::Start)?;
+        if self.node.height().abs() < SINGULAR {
+            return Err(Error::SingularStart);
+        }
         Ok(())
     }
 
@@ -249,24 +241,38 @@ impl<'a, S: System> Branch<'a, S> {
         Ok(())
     }
 
+    /// Chooses the column for the test function for branch points and gives the node, where the system
+    /// was linearised last, its second null vector.
+    pub(crate) fn watch_branch_points(&mut self) -> Result<(), Difficulty> {
+        self.column = column(self.system, &self.metric, &self.node.z)?;
+        self.node.second = self.second_vector(&self.node.tangent.clone())?;
+        self.trend = None;
+        Ok(())
+    }
+
+    /// The second null vector of \[J b\], where the system was linearised last, for a unit tangent.
+    pub(crate) fn second_vector(&mut self, tangent: &[f64]) -> Result<Vec<f64>, Difficulty> {
+        NullSpace::second(self.system, &self.metric, tangent, &self.column)
+            .ok_or(Difficulty::Singular)
+    }
+
     fn correct_to(&mut self, z: &mut [f64], condition: &Condition) -> Result<(), Difficulty> {
-        let (accuracy, walls) = (Accuracy::Rounding, self.options.bounds);
+        let accuracy = Accuracy::Rounding;
         self.corrector
-            .correct(self.system, &self.metric, z, condition, walls, accuracy, CORRECTIONS)
+            .correct(self.system, &self.metric, z, condition, accuracy, CORRECTIONS)
             .map(|_| ())
     }
 
     /// Makes the node the first point, to be left along its tangent or against it.
     fn set_out(&mut self, along: bool) {
         if !along {
-            self.node.tangent.iter_mut().for_each(|t| *t = -*t);
+            reverse(&mut self.node.tangent);
         }
         self.node.along = along;
         self.node.cusp = self.system.cusp_function();
         self.home = self.node.clone();
         let start = self.point(&self.node, Kind::Start);
-        let n = self.node.z.len() - 1;
-        let turning = (self.node.tangent[n] / self.metric.range()).abs() < TURNING;
+        let turning = self.rate(&self.node.tangent).abs() < TURNING;
         if turning && !self.unoriented {
             self.queue.push_back(Point { kind: Kind::LimitPoint, ..start.clone() });
         }
@@ -285,7 +291,8 @@ impl<'a, S: System> Branch<'a, S> {
     }
 
     /// Adds a function whose zeros along the branch are located and yielded as
-    /// [`Kind::Event`] with the number of the function: 0 for the first one added.
+    /// [`Kind::Event`] with the number of the function: 0 for the first one added. A zero at the
+    /// first point is not reported. Where the function is NaN it has no zeros.
     #[must_use]
     pub fn event(mut self, mut function: impl FnMut(&S, &[f64]) -> f64 + 'a) -> Self {
         let value = function(self.system, &self.node.z);
@@ -336,22 +343,27 @@ pub fn homotopy<S: System>(
     let direction = if goal >= from { Direction::Increasing } else { Direction::Decreasing };
     let options = Options { targets: vec![goal], ..options.clone() };
     let mut branch = Branch::new(system, start, direction, &options)?;
-    let mut last = None;
-    while let Some(point) = branch.next() {
-        let arrived = point.lambda() == goal;
-        last = Some(point);
-        if arrived {
-            break;
+    let mut last = branch.point(&branch.node, Kind::Start);
+    for point in branch.by_ref() {
+        last = point;
+        if last.lambda() == goal {
+            return Ok(last);
         }
     }
-    match (last, branch.into_stop()) {
-        (Some(point), _) if point.lambda() == goal => Ok(point),
-        (Some(point), Some(stop)) => Err(Error::Homotopy {
-            lambda: point.lambda(),
-            goal,
-            stop,
-            last: Box::new(point),
-        }),
-        _ => Err(Error::SingularStart),
+    let stop = branch.into_stop().unwrap_or(Stop::Steps { steps: options.steps });
+    let lambda = last.lambda();
+    Err(Error::Homotopy { lambda, goal, stop, last: Box::new(last) })
+}
+
+/// A vector of unknowns must have the length that the system says.
+pub(crate) fn check_length(z: &[f64], unknowns: usize) -> Result<(), Error> {
+    match z.len() {
+        given if given == unknowns => Ok(()),
+        given => Err(Error::StartCount { given, unknowns }),
     }
+}
+
+/// Turns a tangent round.
+pub(crate) fn reverse(tangent: &mut [f64]) {
+    tangent.iter_mut().for_each(|t| *t = -*t);
 }

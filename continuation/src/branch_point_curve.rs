@@ -62,7 +62,7 @@ impl<S: TwoParameter + Clone> BranchPointCurve<S> {
         let anywhere = Options::within(f64::NEG_INFINITY, f64::INFINITY);
         let mut metric = Metric::new(&system, &anywhere, z);
         metric.reach(&vec![0.0; z.len()]);
-        let (mut probe, mut corrector) = (system.clone(), Corrector::default());
+        let (mut probe, mut corrector) = (system.clone(), Corrector::anywhere());
         let column = branch_point::column(&mut probe, &metric, z).map_err(failed)?;
         let reference =
             NullSpace::at(&mut probe, &mut corrector, &metric, z, &column).map_err(failed)?;
@@ -224,9 +224,12 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
     }
 
     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self> {
-        let fine = with_last(vectors, 2, |short| self.base.refined(short))?;
-        let near = vectors.first()?;
-        Self::new(fine, &near[..near.len() - 2]).ok()
+        let mut fine = with_last(vectors, 2, |short| self.base.refined(short))?;
+        let [z @ .., _, mu] = &vectors.first()?[..] else {
+            return None;
+        };
+        fine.set_second(*mu);
+        Self::new(fine, z).ok()
     }
 
     fn tolerance(&self) -> f64 {

@@ -21,6 +21,8 @@ const KEEP_BELOW: f64 = 0.1;
 const CONTRACTION: f64 = 0.7;
 /// Corrections shorter than this that shrink no more are rounding.
 const ROUNDING: f64 = 1e-8;
+/// A first correction shorter than this keeps the linearisation for the second one.
+const SHORT: f64 = 1e-3;
 /// A condition this nearly parallel to the curve determines nothing.
 const PARALLEL: f64 = 1e-13;
 
@@ -67,45 +69,57 @@ pub(crate) enum Accuracy {
     Rounding,
 }
 
-/// The buffers of the iteration.
-#[derive(Clone, Debug, Default)]
+/// Newton's method between walls of λ, with its buffers.
+#[derive(Clone, Debug)]
 pub(crate) struct Corrector {
+    /// λ may not leave them on the way to a solution.
+    walls: [f64; 2],
     residual: Vec<f64>,
     particular: Vec<f64>,
     null: Vec<f64>,
 }
 
 impl Corrector {
+    pub(crate) fn within(walls: [f64; 2]) -> Self {
+        Self {
+            walls,
+            residual: Vec::new(),
+            particular: Vec::new(),
+            null: Vec::new(),
+        }
+    }
+
+    /// Without walls.
+    pub(crate) fn anywhere() -> Self {
+        Self::within([f64::NEG_INFINITY, f64::INFINITY])
+    }
+
     fn resize(&mut self, unknowns: usize) {
         self.residual.resize(unknowns - 1, 0.0);
         self.particular.resize(unknowns, 0.0);
         self.null.resize(unknowns, 0.0);
     }
 
-    /// Corrects `z` onto the curve and `condition`; λ may not leave `walls` on the way. The null
-    /// vector of the last linearisation is left in [`null`](Self::null).
+    /// Corrects `z` onto the curve and `condition` by at most `limit` corrections. The null vector of
+    /// the last linearisation is left in [`null`](Self::null).
     pub(crate) fn correct<S: System>(
         &mut self,
         system: &mut S,
         metric: &Metric,
         z: &mut [f64],
         condition: &Condition,
-        walls: [f64; 2],
         accuracy: Accuracy,
         limit: usize,
     ) -> Result<Correction, Difficulty> {
         let n = z.len() - 1;
         self.resize(z.len());
-        let mut report = Correction {
-            first: 0.0,
-            contraction: 0.0,
-            drift: 0.0,
-        };
+        let mut report = Correction { first: 0.0, contraction: 0.0, drift: 0.0 };
         let wanted = match accuracy {
             Accuracy::Length(length) => length,
             Accuracy::Rounding => 0.0,
         };
-        let (mut before, mut keep) = (f64::INFINITY, false);
+        // The length of the correction before, unless it is no measure for the next one.
+        let (mut before, mut keep) = (None, false);
         for step in 0..limit {
             self.evaluate(system, z)?;
             if !keep {
@@ -113,19 +127,24 @@ impl Corrector {
                 report.drift = 0.0;
             }
             let length = self.solve(system, metric, condition, z)?;
-            let ratio = length / before;
-            if step > 0 && ratio > CONTRACTION {
-                if before <= ROUNDING {
+            let ratio = before.map(|before: f64| length / before);
+            if step == 1 {
+                report.contraction = ratio.unwrap_or(1.0);
+            }
+            if let Some(last) = before
+                && length > CONTRACTION * last
+            {
+                if last <= ROUNDING {
                     return Ok(report);
                 }
-                if keep {
-                    // The linearisation is too old: take a new one at the same point.
-                    (before, keep) = (f64::INFINITY, false);
-                    continue;
+                if !keep {
+                    return Err(no_convergence(length, step + 1, wanted));
                 }
-                return Err(no_convergence(length, step + 1, wanted));
+                // The linearisation is too old: another one at the same point.
+                (before, keep) = (None, false);
+                continue;
             }
-            let (lambda, [low, high]) = (z[n] + self.particular[n], walls);
+            let (lambda, [low, high]) = (z[n] + self.particular[n], self.walls);
             if lambda < low || lambda > high {
                 return Err(Difficulty::OutOfBounds { lambda });
             }
@@ -133,23 +152,26 @@ impl Corrector {
                 *z += delta;
             }
             report.drift += length;
-            match step {
-                0 => report.first = length,
-                1 => report.contraction = ratio,
-                _ => {}
+            if step == 0 {
+                report.first = length;
             }
             // With linear convergence the corrections to come add up to this.
-            let ahead = if ratio < 1.0 { length * ratio } else { length };
-            if length <= wanted || (step > 0 && ahead <= wanted) || length == 0.0 {
+            let ahead = length * ratio.unwrap_or(1.0);
+            if ahead <= wanted || length == 0.0 {
                 return Ok(report);
             }
-            keep = step > 0 && ratio < KEEP_BELOW || step == 0 && length < 1e-3;
-            before = length;
+            keep = match ratio {
+                Some(ratio) => ratio < KEEP_BELOW,
+                None => step == 0 && length < SHORT,
+            };
+            before = Some(length);
         }
-        if before <= ROUNDING && matches!(accuracy, Accuracy::Rounding) {
-            return Ok(report);
+        match before {
+            Some(length) if length <= ROUNDING && matches!(accuracy, Accuracy::Rounding) => {
+                Ok(report)
+            }
+            length => Err(no_convergence(length.unwrap_or(f64::INFINITY), limit, wanted)),
         }
-        Err(no_convergence(before, limit, wanted))
     }
 
     /// Evaluates the residual at `z` into the buffer.

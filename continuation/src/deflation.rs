@@ -11,6 +11,7 @@
 //! distinct solutions of nonlinear partial differential equations", SIAM J. Sci. Comput. 37 (2015)
 //! A2026-A2045.
 
+use crate::branch::check_length;
 use crate::branch_point::irregular;
 use crate::corrector::{Accuracy, Condition, Corrector};
 use crate::metric::Metric;
@@ -44,14 +45,8 @@ pub fn deflate<S: System>(
 ) -> Result<Vec<f64>, Error> {
     let unknowns = system.unknowns();
     options.validate(unknowns)?;
-    if let Some(wrong) = known.iter().find(|z| z.len() != unknowns) {
-        let given = wrong.len();
-        return Err(Error::StartCount { given, unknowns });
-    }
-    if guess.len() != unknowns {
-        let given = guess.len();
-        return Err(Error::StartCount { given, unknowns });
-    }
+    known.iter().try_for_each(|z| check_length(z, unknowns))?;
+    check_length(guess, unknowns)?;
     let lambda = guess[unknowns - 1];
     let mut metric = Metric::new(system, options, guess);
     known.iter().for_each(|z| metric.observe(z));
@@ -86,7 +81,7 @@ fn from<S: System>(
 ) -> Result<Vec<f64>, Error> {
     let (unknowns, lambda) = (z.len(), z[z.len() - 1]);
     let condition = Condition::lambda(unknowns, lambda);
-    let mut corrector = Corrector::default();
+    let mut corrector = Corrector::within(options.bounds);
     let (mut before, mut length) = (z.clone(), f64::INFINITY);
     for _ in 0..STEPS {
         let outcome = corrector.newton(system, metric, &condition, &z);
@@ -104,10 +99,9 @@ fn from<S: System>(
         length = metric.norm(&delta);
         if length <= CLOSE {
             let mut found = z.clone();
-            let (walls, accuracy) = (options.bounds, Accuracy::Rounding);
-            let outcome = corrector.correct(
-                system, metric, &mut found, &condition, walls, accuracy, CORRECTIONS,
-            );
+            let accuracy = Accuracy::Rounding;
+            let outcome =
+                corrector.correct(system, metric, &mut found, &condition, accuracy, CORRECTIONS);
             if outcome.is_ok() && known.iter().all(|x| metric.distance(&found, x) > DISTINCT) {
                 return Ok(found);
             }

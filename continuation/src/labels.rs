@@ -1,6 +1,7 @@
 //! The labelled points of a step.
 
-use crate::span::{Located, Node};
+use crate::branch::TURNING;
+use crate::span::{Located, Node, Span};
 use crate::{Branch, Difficulty, Kind, Point, System};
 
 /// Where λ turns more slowly than this at a branch point or cusp, it turns because of it.
@@ -9,8 +10,10 @@ const COINCIDENT: f64 = 1e-5;
 const FEWEST_STEPS: usize = 3;
 /// ... when the start lies within this share of a step from the secant, ...
 const NEAR: f64 = 0.3;
-/// ... and is met with this accuracy.
+/// ... and is met with this accuracy, or to that of the discretisation.
 const MET: f64 = 1e-6;
+/// Labelled points this close to the first point, as a share of the step, are those at the first one.
+const AT_HOME: f64 = 1e-6;
 
 /// A labelled point of a step.
 pub(crate) struct Found {
@@ -24,28 +27,32 @@ impl Found {
         let other = None;
         Self { at, kind, other }
     }
-
-    fn node(&self) -> Node {
-        Node {
-            z: self.at.z.clone(),
-            tangent: self.at.tangent.clone(),
-            along: true,
-            arclength: 0.0,
-            events: Vec::new(),
-            cusp: None,
-        }
-    }
 }
 
 impl<S: System> Branch<'_, S> {
-    /// All labelled points on the step to `to`, in order; an error where a point is indicated but
-    /// not found.
-    pub(crate) fn specials(&mut self, to: &Node) -> Result<Vec<Found>, Difficulty> {
-        let mut found = self.turning_points(to)?;
-        self.event_points(to, &mut found);
-        self.target_points(to, &mut found)?;
+    /// All labelled points on the step to `to`, in order. Where a point is indicated but not found,
+    /// an error if `strict`; else it is passed over.
+    pub(crate) fn specials(&mut self, to: &Node, strict: bool) -> Result<Vec<Found>, Difficulty> {
+        let pass = |outcome: Result<Vec<Found>, Difficulty>| match outcome {
+            Err(difficulty) if strict => Err(difficulty),
+            outcome => Ok(outcome.unwrap_or_default()),
+        };
+        let mut found = pass(self.branch_points(to))?;
+        found.extend(pass(self.cusps(to))?);
+        let limits = pass(self.limit_points(to, &found))?;
+        found.extend(limits);
+        for index in 0..self.events.len() {
+            found.extend(pass(self.event_points(index, to))?);
+        }
+        let mut corners = vec![self.node.clone()];
+        let turns = found.iter().filter(|found| found.kind == Kind::LimitPoint);
+        corners.extend(turns.map(|found| Node::new(found.at.z.clone(), found.at.tangent.clone())));
+        corners.push(to.clone());
+        for target in self.options.targets.clone() {
+            found.extend(pass(self.target_points(target, &corners, to))?);
+        }
         if let Some(home) = self.home_on(to) {
-            found.retain(|found| found.at.u <= home.u);
+            found.retain(|found| found.at.u < home.u - AT_HOME);
             found.push(Found::new(home, Kind::Closed));
         }
         found.sort_by(|a, b| a.at.u.total_cmp(&b.at.u));
@@ -53,83 +60,88 @@ impl<S: System> Branch<'_, S> {
     }
 
     /// The unit tangent's component along λ, with the range of λ as unit.
-    fn rate(&self, tangent: &[f64]) -> f64 {
+    pub(crate) fn rate(&self, tangent: &[f64]) -> f64 {
         tangent[tangent.len() - 1] / self.metric.range()
     }
 
-    /// Branch points, cusps and limit points. At the first two the rate of λ may change its sign
-    /// without a limit point.
-    fn turning_points(&mut self, to: &Node) -> Result<Vec<Found>, Difficulty> {
-        let mut found = Vec::new();
-        if self.unoriented {
-            return Ok(found);
+    /// A branch point, where the system turns the orientation of its null vector.
+    fn branch_points(&mut self, to: &Node) -> Result<Vec<Found>, Difficulty> {
+        if self.unoriented || to.along == self.node.along {
+            return Ok(Vec::new());
         }
-        if to.along != self.node.along {
-            let (at, crossing) = self.span(to).crossing()?;
-            let aligned = |t: &[f64]| self.metric.dot(t, &at.tangent).abs();
-            let least = |[a, b]: [Vec<f64>; 2]| if aligned(&a) < aligned(&b) { a } else { b };
-            let other = crossing.tangents.map(least);
-            let kind = Kind::BranchPoint;
-            found.push(Found { at, kind, other });
+        let (at, crossing) = self.span(to).crossing()?;
+        let aligned = |t: &[f64]| self.metric.dot(t, &at.tangent).abs();
+        let least = |[a, b]: [Vec<f64>; 2]| if aligned(&a) < aligned(&b) { a } else { b };
+        let other = crossing.tangents.map(least);
+        let kind = Kind::BranchPoint;
+        Ok(vec![Found { at, kind, other }])
+    }
+
+    /// A cusp, where the cusp function of the system changes its sign.
+    fn cusps(&mut self, to: &Node) -> Result<Vec<Found>, Difficulty> {
+        match (self.node.cusp, to.cusp) {
+            (Some(before), Some(after)) if before * after < 0.0 => {
+                let mut cusp = |system: &mut S, _: &[f64], _: &[f64]| {
+                    system.cusp_function().unwrap_or(f64::NAN)
+                };
+                let at = self.span(to).zero(&mut cusp, [before, after], 0.0)?;
+                Ok(vec![Found::new(at, Kind::Cusp)])
+            }
+            _ => Ok(Vec::new()),
         }
-        if let (Some(before), Some(after)) = (self.node.cusp, to.cusp)
-            && before * after < 0.0
-        {
-            let mut cusp = |system: &mut S, _: &[f64], _: &[f64]| {
-                system.cusp_function().unwrap_or(f64::NAN)
-            };
-            let at = self.span(to).zero(&mut cusp, [before, after], 0.0)?;
-            found.push(Found::new(at, Kind::Cusp));
-        }
-        let [before, after] = [&self.node, to].map(|node| self.rate(&node.tangent));
+    }
+
+    /// Limit points. At the branch points and cusps `found` on the step, and at a branch point at its
+    /// beginning, the rate of λ may change its sign without a limit point.
+    fn limit_points(&mut self, to: &Node, found: &[Found]) -> Result<Vec<Found>, Difficulty> {
         let turned = found.iter().any(|found| self.rate(&found.at.tangent).abs() < COINCIDENT);
-        if before * after < 0.0 && !turned {
-            let n = to.z.len() - 1;
-            let mut rate = |_: &mut S, _: &[f64], tangent: &[f64]| tangent[n];
-            let at = self.span(to).zero(&mut rate, [before, after], 0.0)?;
-            found.push(Found::new(at, Kind::LimitPoint));
+        let [before, after] = [&self.node, to].map(|node| self.rate(&node.tangent).abs());
+        let at_rest = before.max(after) < TURNING;
+        if turned || at_rest || self.unoriented && before < COINCIDENT {
+            return Ok(Vec::new());
+        }
+        let limits = self.span(to).limit_points()?;
+        Ok(limits.into_iter().map(|at| Found::new(at, Kind::LimitPoint)).collect())
+    }
+
+    /// A zero of an event function. Where the function changes its sign through a pole, or is
+    /// undefined, is none.
+    fn event_points(&mut self, index: usize, to: &Node) -> Result<Vec<Found>, Difficulty> {
+        let values = [self.node.events[index], to.events[index]];
+        if !(values[0] * values[1] < 0.0 || values[1] == 0.0 && values[0] != 0.0) {
+            return Ok(Vec::new());
+        }
+        let mut events = std::mem::take(&mut self.events);
+        let event = &mut events[index];
+        let mut value = |system: &mut S, z: &[f64], _: &[f64]| event(system, z);
+        let outcome = self.span(to).zero(&mut value, values, 0.0);
+        let least = outcome.as_ref().map_or(0.0, |at| event(self.system, &at.z).abs());
+        self.events = events;
+        let at = outcome?;
+        let zero = least <= values[0].abs().max(values[1].abs());
+        Ok(if zero { vec![Found::new(at, Kind::Event(index))] } else { Vec::new() })
+    }
+
+    /// Points with a target value of λ, on every piece of the step, between `corners`, where λ is
+    /// monotonic.
+    fn target_points(
+        &mut self,
+        target: f64,
+        corners: &[Node],
+        to: &Node,
+    ) -> Result<Vec<Found>, Difficulty> {
+        let n = to.z.len() - 1;
+        let mut found = Vec::new();
+        for pair in corners.windows(2) {
+            let [before, after] = [&pair[0], &pair[1]].map(|node| node.z[n] - target);
+            if before * after < 0.0 || after == 0.0 {
+                let mut piece = Span { from: &pair[0], ..self.span(&pair[1]) };
+                let mut at = piece.at_lambda(target)?;
+                at.u = self.span(to).place(&at.z);
+                found.push(Found::new(at, Kind::Target));
+            }
         }
         Ok(found)
-    }
-
-    /// Zeros of the event functions.
-    fn event_points(&mut self, to: &Node, found: &mut Vec<Found>) {
-        let mut events = std::mem::take(&mut self.events);
-        for (index, event) in events.iter_mut().enumerate() {
-            let values = [self.node.events[index], to.events[index]];
-            let crossed = values[0] * values[1] < 0.0 || values[1] == 0.0 && values[0] != 0.0;
-            let mut value = |system: &mut S, z: &[f64], _: &[f64]| event(system, z);
-            if crossed && let Ok(at) = self.span(to).zero(&mut value, values, 0.0) {
-                found.push(Found::new(at, Kind::Event(index)));
-            }
-        }
-        self.events = events;
-    }
-
-    /// Target values of λ, on every piece of the step where λ is monotonic.
-    fn target_points(&mut self, to: &Node, found: &mut Vec<Found>) -> Result<(), Difficulty> {
-        if self.options.targets.is_empty() {
-            return Ok(());
-        }
-        let n = to.z.len() - 1;
-        let turns = found.iter().filter(|found| found.kind == Kind::LimitPoint);
-        let mut corners: Vec<Node> = turns.map(Found::node).collect();
-        corners.insert(0, self.node.clone());
-        corners.push(to.clone());
-        for pair in corners.windows(2) {
-            for target in self.options.targets.clone() {
-                let [before, after] = [pair[0].z[n] - target, pair[1].z[n] - target];
-                if before * after < 0.0 || after == 0.0 {
-                    let mut whole = self.span(to);
-                    whole.from = &pair[0];
-                    whole.to = &pair[1];
-                    let mut at = whole.at_lambda(target)?;
-                    at.u = self.span(to).place(&at.z);
-                    found.push(Found::new(at, Kind::Target));
-                }
-            }
-        }
-        Ok(())
     }
 
     /// The first point, if the step passes it in the direction in which it was left.
@@ -153,8 +165,10 @@ impl<S: System> Branch<'_, S> {
         }
         let met = span.across(&near, &home.tangent, &home.z).ok()?;
         let missed = span.metric.distance(&met, &home.z);
+        let tolerance = span.system.tolerance();
+        let allowed = if tolerance.is_finite() { MET.max(10.0 * tolerance) } else { MET };
         let (z, tangent) = (home.z, home.tangent);
-        (missed <= MET).then_some(Located { u, z, tangent })
+        (missed <= allowed).then_some(Located { u, z, tangent })
     }
 
     /// A labelled point as it is yielded, on a step of so much arclength from the last node.

@@ -77,7 +77,7 @@ impl<S: TwoParameter + Clone> LimitPointCurve<S> {
         let anywhere = Options::within(f64::NEG_INFINITY, f64::INFINITY);
         let mut metric = Metric::new(&system, &anywhere, z);
         metric.reach(&vec![0.0; z.len()]);
-        let (mut probe, mut corrector) = (system.clone(), Corrector::default());
+        let (mut probe, mut corrector) = (system.clone(), Corrector::anywhere());
         let mu = system.second();
         let kind = "limit point";
         let plane = tangent_plane(&mut probe, &mut corrector, &metric, z, mu)
@@ -244,9 +244,10 @@ impl<S: TwoParameter + Clone> System for LimitPointCurve<S> {
     }
 
     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self> {
-        let fine = with_last(vectors, 1, |short| self.base.refined(short))?;
-        let near = vectors.last()?;
-        Self::new(fine, &near[..near.len() - 1]).ok()
+        let mut fine = with_last(vectors, 1, |short| self.base.refined(short))?;
+        let (mu, z) = vectors.first()?.split_last()?;
+        fine.set_second(*mu);
+        Self::new(fine, z).ok()
     }
 
     fn tolerance(&self) -> f64 {

@@ -27,20 +27,28 @@ impl NullSpace {
         b: &[f64],
     ) -> Result<Self, Difficulty> {
         let mut t = corrector.tangent(system, metric, z)?;
-        let mut v = vec![0.0; z.len()];
-        system.particular(b, &mut v);
-        for _ in 0..2 {
-            let along = metric.dot(&v, &t);
-            v.iter_mut().zip(&t).for_each(|(v, t)| *v -= along * t);
-        }
-        let norm = metric.norm(&v).hypot(1.0);
-        if !norm.is_finite() {
-            return Err(Difficulty::Singular);
-        }
-        v.iter_mut().for_each(|v| *v /= norm);
-        v.push(-1.0 / norm);
+        let v = Self::second(system, metric, &t, b).ok_or(Difficulty::Singular)?;
         t.push(0.0);
         Ok(Self([t, v]))
+    }
+
+    /// The second vector of the basis, where the system was linearised last, with unit tangent `t`.
+    pub(crate) fn second<S: System>(
+        system: &mut S,
+        metric: &Metric,
+        t: &[f64],
+        b: &[f64],
+    ) -> Option<Vec<f64>> {
+        let mut v = vec![0.0; t.len()];
+        system.particular(b, &mut v);
+        for _ in 0..2 {
+            let along = metric.dot(&v, t);
+            v.iter_mut().zip(t).for_each(|(v, t)| *v -= along * t);
+        }
+        let norm = metric.norm(&v).hypot(1.0);
+        v.iter_mut().for_each(|v| *v /= norm);
+        v.push(-1.0 / norm);
+        norm.is_finite().then_some(v)
     }
 
     /// The η components φ of the basis of the same space that is dual to `reference`: a smooth
@@ -96,7 +104,7 @@ impl NullSpace {
 }
 
 /// The inner product with a last component η of weight one.
-fn dot(metric: &Metric, a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(metric: &Metric, a: &[f64], b: &[f64]) -> f64 {
     let n = a.len() - 1;
     metric.dot(&a[..n], &b[..n]) + a[n] * b[n]
 }

@@ -1,6 +1,6 @@
 //! The piece of a branch between two accepted points, and what lies on it.
 
-use crate::branch_point::{Crossing, branch_point, column};
+use crate::branch_point::{Crossing, branch_point};
 use crate::corrector::{Accuracy, Condition, Corrector};
 use crate::metric::Metric;
 use crate::null_space::NullSpace;
@@ -26,19 +26,33 @@ pub(crate) struct Node {
     pub(crate) events: Vec<f64>,
     /// Value of the cusp function of the system.
     pub(crate) cusp: Option<f64>,
+    /// The second vector of the null space of \[J b\].
+    pub(crate) second: Vec<f64>,
 }
 
-/// A function along the branch whose zero is sought.
-pub(crate) trait Test<S> {
-    /// Its value at `z` with unit `tangent`, the system being linearised there.
-    fn value(&mut self, system: &mut S, z: &[f64], tangent: &[f64]) -> f64;
-}
+impl Node {
+    pub(crate) fn new(z: Vec<f64>, tangent: Vec<f64>) -> Self {
+        Self {
+            z,
+            tangent,
+            along: true,
+            arclength: 0.0,
+            events: Vec::new(),
+            cusp: None,
+            second: Vec::new(),
+        }
+    }
 
-impl<S, F: FnMut(&mut S, &[f64], &[f64]) -> f64> Test<S> for F {
-    fn value(&mut self, system: &mut S, z: &[f64], tangent: &[f64]) -> f64 {
-        self(system, z, tangent)
+    /// The height of the null space of \[J b\] above J, with a sign that changes at branch points.
+    pub(crate) fn height(&self) -> f64 {
+        let height = self.second.last().map_or(0.0, |eta| eta.abs());
+        if self.along { height } else { -height }
     }
 }
+
+/// A function along the branch whose zero is sought: of the system, linearised at a point, that point
+/// and its unit tangent.
+pub(crate) type Test<'t, S> = dyn FnMut(&mut S, &[f64], &[f64]) -> f64 + 't;
 
 /// A point between two nodes, at 0 ≤ u ≤ 1 of the secant.
 #[derive(Clone, Debug)]
@@ -53,7 +67,8 @@ pub(crate) struct Span<'a, S> {
     pub(crate) system: &'a mut S,
     pub(crate) corrector: &'a mut Corrector,
     pub(crate) metric: &'a Metric,
-    pub(crate) walls: [f64; 2],
+    /// The column b of the test function for branch points.
+    pub(crate) column: &'a [f64],
     pub(crate) from: &'a Node,
     pub(crate) to: &'a Node,
 }
@@ -81,16 +96,9 @@ impl<S: System> Span<'_, S> {
     ) -> Result<Located, Difficulty> {
         let pairs = near.z.iter().zip(&near.tangent);
         let mut z: Vec<f64> = pairs.map(|(z, t)| z + shift * t).collect();
-        let (system, accuracy) = (&mut *self.system, Accuracy::Rounding);
-        self.corrector.correct(
-            system,
-            self.metric,
-            &mut z,
-            condition,
-            self.walls,
-            accuracy,
-            CORRECTIONS,
-        )?;
+        let accuracy = Accuracy::Rounding;
+        self.corrector
+            .correct(self.system, self.metric, &mut z, condition, accuracy, CORRECTIONS)?;
         self.complete(z)
     }
 
@@ -104,9 +112,8 @@ impl<S: System> Span<'_, S> {
         let mut z = near.to_vec();
         let plane = Condition::plane(self.metric, normal, through);
         let accuracy = Accuracy::Rounding;
-        let (system, metric, walls) = (&mut *self.system, self.metric, self.walls);
         self.corrector
-            .correct(system, metric, &mut z, &plane, walls, accuracy, CORRECTIONS)?;
+            .correct(self.system, self.metric, &mut z, &plane, accuracy, CORRECTIONS)?;
         Ok(z)
     }
 
@@ -131,30 +138,69 @@ impl<S: System> Span<'_, S> {
     /// The point where `test` is zero, between ends with values of different sign.
     pub(crate) fn zero(
         &mut self,
-        test: &mut dyn Test<S>,
+        test: &mut Test<'_, S>,
         values: [f64; 2],
         tolerance: f64,
     ) -> Result<Located, Difficulty> {
-        let secant = self.secant();
-        let unit = self.metric.dot(&secant, &secant);
         let mut known: Vec<Located> = self.ends().into();
         let search = |u: f64| -> Result<f64, Difficulty> {
-            let gap = |point: &Located| (point.u - u).abs();
-            let nearest = known.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)));
-            let near = nearest.unwrap_or(&known[0]).clone();
-            let base = self.from.z.iter().zip(&secant);
-            let target: Vec<f64> = base.map(|(a, d)| a + u * d).collect();
-            let plane = Condition::plane(self.metric, &secant, &target);
-            let shift = (u - near.u) * unit / self.metric.dot(&secant, &near.tangent);
-            let found = self.correct(&near, shift, &plane)?;
-            let value = test.value(self.system, &found.z, &found.tangent);
-            known.push(Located { u, ..found });
+            let found = self.at(u, nearest(&known, u))?;
+            let value = test(self.system, &found.z, &found.tangent);
+            known.push(found);
             Ok(value)
         };
         let u = root(search, (0.0, values[0]), (1.0, values[1]), tolerance)?;
-        let gap = |point: &Located| (point.u - u).abs();
-        let found = known.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)));
-        Ok(found.unwrap_or(&known[0]).clone())
+        Ok(nearest(&known, u).clone())
+    }
+
+    /// The point at u, in the plane across the secant, from a known one.
+    fn at(&mut self, u: f64, near: &Located) -> Result<Located, Difficulty> {
+        let secant = self.secant();
+        let base = self.from.z.iter().zip(&secant);
+        let target: Vec<f64> = base.map(|(a, d)| a + u * d).collect();
+        let plane = Condition::plane(self.metric, &secant, &target);
+        let unit = self.metric.dot(&secant, &secant);
+        let shift = (u - near.u) * unit / self.metric.dot(&secant, &near.tangent);
+        let found = self.correct(near, shift, &plane)?;
+        Ok(Located { u, ..found })
+    }
+
+    /// The limit points, one where the rate of λ changes its sign from node to node. Where it does
+    /// not, but the cubic through both nodes with their tangents turns back twice, the branch is
+    /// looked at there.
+    pub(crate) fn limit_points(&mut self) -> Result<Vec<Located>, Difficulty> {
+        let n = self.from.z.len() - 1;
+        let [before, after] = [self.from, self.to].map(|node| node.tangent[n]);
+        let mut rate = |_: &mut S, _: &[f64], tangent: &[f64]| tangent[n];
+        if before * after < 0.0 {
+            return Ok(vec![self.zero(&mut rate, [before, after], 0.0)?]);
+        }
+        let length = self.metric.norm(&self.secant());
+        let mean = (self.to.z[n] - self.from.z[n]) / length;
+        let Some(u) = turns_between(before, after, mean) else {
+            return Ok(Vec::new());
+        };
+        let [from, to] = self.ends();
+        let between = self.at(u, if u < 0.5 { &from } else { &to })?;
+        if between.tangent[n] * before >= 0.0 {
+            return Ok(Vec::new());
+        }
+        let middle = Node::new(between.z, between.tangent);
+        let mut found = Vec::new();
+        for [from, to] in [[self.from, &middle], [&middle, self.to]] {
+            let mut half = Span {
+                system: &mut *self.system,
+                corrector: &mut *self.corrector,
+                from,
+                to,
+                ..*self
+            };
+            let values = [from, to].map(|node| node.tangent[n]);
+            let mut at = half.zero(&mut rate, values, 0.0)?;
+            at.u = self.place(&at.z);
+            found.push(at);
+        }
+        Ok(found)
     }
 
     /// The point with a prescribed λ, which must be passed between the nodes.
@@ -179,8 +225,9 @@ impl<S: System> Span<'_, S> {
             _ => {
                 let mut distance =
                     |_: &mut S, z: &[f64], _: &[f64]| z[n] - lambda;
-                let near = self.zero(&mut distance, [low - lambda, high - lambda], 1e-6)?;
-                self.correct(&near, 0.0, &condition)?
+                let near = self.zero(&mut distance, [low - lambda, high - lambda], 0.0)?;
+                // At a limit point λ does not determine the point, and is met to rounding.
+                self.correct(&near, 0.0, &condition).unwrap_or(near)
             }
         };
         found.z[n] = lambda;
@@ -189,24 +236,17 @@ impl<S: System> Span<'_, S> {
 
     /// The branch point that changes the orientation between the nodes.
     pub(crate) fn crossing(&mut self) -> Result<(Located, Crossing), Difficulty> {
-        let column = column(self.system, self.metric, &self.from.z)?;
-        let mut eta = [0.0; 2];
-        for (eta, node) in eta.iter_mut().zip([self.from, self.to]) {
-            let space =
-                NullSpace::at(self.system, self.corrector, self.metric, &node.z, &column)?;
-            *eta = -space.last(1) * if node.along == self.from.along { 1.0 } else { -1.0 };
-        }
         // The height of the null space above J changes its sign with the orientation.
-        let (along, metric) = (self.from.along, self.metric);
-        let mut v = vec![0.0; self.from.z.len()];
+        let eta = [self.from, self.to].map(Node::height);
+        let (along, metric, column) = (self.from.along, self.metric, self.column);
+        let start = eta[0].signum();
         let mut height = |system: &mut S, _: &[f64], tangent: &[f64]| {
-            system.particular(&column, &mut v);
-            let aligned = metric.dot(&v, tangent);
-            v.iter_mut().zip(tangent).for_each(|(v, t)| *v -= aligned * t);
             let mut null = tangent.to_vec();
             system.null_vector(&mut null);
             let same = (metric.dot(&null, tangent) > 0.0) == along;
-            1.0 / metric.norm(&v).hypot(1.0) * if same { 1.0 } else { -1.0 }
+            let second = NullSpace::second(system, metric, tangent, column);
+            let height = second.map_or(0.0, |second| second[second.len() - 1].abs());
+            if same { start * height } else { -start * height }
         };
         let near = match self.zero(&mut height, eta, BRACKET) {
             Ok(near) => near.z,
@@ -214,7 +254,7 @@ impl<S: System> Span<'_, S> {
             Err(_) if eta[0].abs() < eta[1].abs() => self.from.z.clone(),
             Err(_) => self.to.z.clone(),
         };
-        let crossing = branch_point(self.system, self.corrector, self.metric, &near, &column)?;
+        let crossing = branch_point(self.system, self.corrector, self.metric, &near, self.column)?;
         let place = self.place(&crossing.z);
         let off: Vec<f64> = self
             .secant()
@@ -270,5 +310,38 @@ impl<S: System> Span<'_, S> {
             self.metric.norm(&rate)
         };
         rule.iter().map(|&(u, weight)| weight * speed(u)).sum::<f64>() / 18.0
+    }
+}
+
+/// The known point that is nearest to u.
+fn nearest(known: &[Located], u: f64) -> &Located {
+    let gap = |point: &Located| (point.u - u).abs();
+    let nearest = known.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)));
+    nearest.unwrap_or(&known[0])
+}
+
+/// Where the rate of the cubic with rates `before` and `after` of the same sign at its ends and this
+/// mean rate is smallest, if it has the other sign there.
+fn turns_between(before: f64, after: f64, mean: f64) -> Option<f64> {
+    let (slope, curvature) = (6.0 * mean - 4.0 * before - 2.0 * after, before + after - 2.0 * mean);
+    let u = -slope / (6.0 * curvature);
+    let least = before + u * (slope + 3.0 * curvature * u);
+    (u > 0.0 && u < 1.0 && least * before < 0.0).then_some(u)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cubic_that_turns_back_twice_is_recognised() {
+        // (u − a)(u − b) is the rate.
+        let case = |a: f64, b: f64| {
+            turns_between(a * b, (1.0 - a) * (1.0 - b), 1.0 / 3.0 - 0.5 * (a + b) + a * b)
+        };
+        assert!((case(0.4, 0.401).unwrap() - 0.4005).abs() < 1e-12);
+        assert_eq!(case(-0.4, -0.3), None);
+        assert_eq!(case(1.1, 1.2), None);
+        assert_eq!(turns_between(1.0, 1.0, 1.0), None);
     }
 }

@@ -1,8 +1,11 @@
 //! From one point of a branch to the next.
 
+use crate::branch::reverse;
 use crate::corrector::{Accuracy, Condition, Correction};
 use crate::labels::Found;
+use crate::null_space;
 use crate::span::{Node, Span};
+use std::f64::consts::PI;
 use crate::{Branch, Difficulty, Kind, Parameterisation, Predictor, Stop, System};
 
 /// Contraction of Newton's method at which the step length stays as it is.
@@ -15,6 +18,16 @@ const MISSED: f64 = 0.7;
 const CHANGE: [f64; 2] = [0.3, 2.0];
 /// A tangent must turn by less than this many times the wanted angle.
 const SHARPEST: f64 = 3.0;
+/// Angle by which the second null vector should turn per step, rad; by less than twice as much it
+/// must. Between two branch points it turns by about a right angle.
+const SECOND: f64 = 0.6;
+/// A step on which the height of the null space should have changed its sign, and by more than this
+/// share of it, but has not, may have passed two branch points.
+const REFLECTED: f64 = 0.5;
+/// It is not shortened below this share of the largest, where the height only touches zero.
+const TOUCHING: f64 = 1.0 / 64.0;
+/// A linearisation further than this share of the step from a point gives no tangent there.
+const DRIFTED: f64 = 0.05;
 /// An imperfect crossing shortens steps down to this share of the largest, then it is passed.
 const CROSSING: f64 = 1e-3;
 
@@ -112,47 +125,31 @@ impl<S: System> Branch<'_, S> {
     /// A step of length h, with everything that lies on it.
     fn attempt(&mut self, h: f64) -> Result<Taken, Difficulty> {
         let (z, landed, report) = self.land_or_correct(h)?;
-        let mut node = Node {
-            tangent: self.corrector.null().to_vec(),
-            events: Vec::new(),
-            along: true,
-            arclength: 0.0,
-            cusp: None,
-            z,
-        };
+        let mut node = Node::new(z, self.corrector.null().to_vec());
         self.orient(&mut node)?;
-        let angle = self.angle(&node);
-        let limit = SHARPEST * self.options.angle;
-        if !(angle <= limit) {
-            return Err(Difficulty::Turn { angle, limit });
-        }
+        let angle = self.angle(&node)?;
         // The tangent of the last linearisation, on the way to the point, will do unless something
         // may have changed its sign since.
         let n = node.z.len() - 1;
         let share = report.drift / h;
-        let rate = (node.tangent[n] / self.metric.range()).abs();
+        let rate = self.rate(&node.tangent).abs();
         let turned = node.tangent[n] * self.node.tangent[n] <= 0.0 || node.along != self.node.along;
-        if turned || self.unoriented || rate <= 3.0 * share * angle || share > 0.05 {
+        let doubtful = turned || self.unoriented || rate <= 3.0 * share * angle || share > DRIFTED;
+        if doubtful || self.node.cusp.is_some() {
             node.tangent = self.corrector.tangent(self.system, &self.metric, &node.z)?;
             self.orient(&mut node)?;
             node.cusp = self.system.cusp_function();
-        } else if self.node.cusp.is_some() {
-            self.corrector.tangent(self.system, &self.metric, &node.z)?;
-            node.cusp = self.system.cusp_function();
         }
+        node.second = self.second_vector(&node.tangent)?;
+        let second = self.second_angle(&node, h)?;
         node.events = self.events.iter_mut().map(|event| event(self.system, &node.z)).collect();
         let span = self.span(&node);
         node.arclength = span.from.arclength + span.length();
-        let found = match self.specials(&node) {
-            Err(difficulty) if h > CROSSING * self.options.largest_step => return Err(difficulty),
-            found => found.unwrap_or_default(),
-        };
-        Ok(Taken {
-            node,
-            found,
-            landed,
-            growth: growth(&report, h, angle / self.options.angle),
-        })
+        let strict = h > CROSSING * self.options.largest_step;
+        let found = self.specials(&node, strict)?;
+        let turn = (angle / self.options.angle).max(second / SECOND);
+        let growth = growth(&report, h, turn);
+        Ok(Taken { node, found, landed, growth })
     }
 
     /// The corrected point a step h ahead, or on the bound of λ that it would cross.
@@ -223,27 +220,54 @@ impl<S: System> Branch<'_, S> {
         to: &Condition,
         accuracy: Accuracy,
     ) -> Result<Correction, Difficulty> {
-        let (walls, limit) = (self.options.bounds, self.options.corrections);
+        let limit = self.options.corrections;
         self.corrector
-            .correct(self.system, &self.metric, z, to, walls, accuracy, limit)
+            .correct(self.system, &self.metric, z, to, accuracy, limit)
     }
 
-    /// Turns the unit null vector of a node into the direction of travel.
+    /// Turns the null vector of a node into the unit tangent in the direction of travel.
     fn orient(&self, node: &mut Node) -> Result<(), Difficulty> {
         if !self.metric.normalise(&mut node.tangent) {
             return Err(Difficulty::Singular);
         }
         let ends = node.z.iter().zip(&self.node.z);
         let secant: Vec<f64> = ends.map(|(b, a)| b - a).collect();
+        let limit = SHARPEST * self.options.angle;
+        if !(self.metric.dot(&secant, &self.node.tangent) > 0.0) {
+            return Err(Difficulty::Turn { angle: PI, limit });
+        }
         node.along = self.metric.dot(&node.tangent, &secant) > 0.0;
-        node.tangent = oriented(std::mem::take(&mut node.tangent), node.along);
+        if !node.along {
+            reverse(&mut node.tangent);
+        }
         Ok(())
     }
 
-    fn angle(&self, node: &Node) -> f64 {
+    /// The angle by which the tangent turns.
+    fn angle(&self, node: &Node) -> Result<f64, Difficulty> {
         // Accurate at small angles, where the arc cosine is not.
         let half = 0.5 * self.metric.distance(&node.tangent, &self.node.tangent);
-        2.0 * half.min(1.0).asin()
+        let (angle, limit) = (2.0 * half.min(1.0).asin(), SHARPEST * self.options.angle);
+        if angle <= limit { Ok(angle) } else { Err(Difficulty::Turn { angle, limit }) }
+    }
+
+    /// The angle by which the second null vector turns on a step h: by too much, or with a height
+    /// that turns back before zero, the step may have passed two branch points.
+    fn second_angle(&self, node: &Node, h: f64) -> Result<f64, Difficulty> {
+        if self.unoriented {
+            return Ok(0.0);
+        }
+        let dot = |a: &[f64], b: &[f64]| null_space::dot(&self.metric, a, b);
+        let (a, b) = (&self.node.second, &node.second);
+        let cosine = dot(a, b).abs() / (dot(a, a) * dot(b, b)).sqrt();
+        let (mut angle, limit) = (cosine.min(1.0).acos(), 2.0 * SECOND);
+        let height = self.node.height();
+        let expected = 1.0 + self.trend.unwrap_or(0.0) * h / height;
+        let reflected = expected < -REFLECTED && node.along == self.node.along;
+        if reflected && h > TOUCHING * self.options.largest_step {
+            angle = PI;
+        }
+        if angle <= limit { Ok(angle) } else { Err(Difficulty::Turn { angle, limit }) }
     }
 
     pub(crate) fn span<'b>(&'b mut self, to: &'b Node) -> Span<'b, S> {
@@ -251,7 +275,7 @@ impl<S: System> Branch<'_, S> {
             system: self.system,
             corrector: &mut self.corrector,
             metric: &self.metric,
-            walls: self.options.bounds,
+            column: &self.column,
             from: &self.node,
             to,
         }
@@ -280,6 +304,7 @@ impl<S: System> Branch<'_, S> {
         }
         self.metric.observe(&node.z);
         self.metric.normalise(&mut node.tangent);
+        self.trend = (!self.unoriented).then(|| (node.height() - self.node.height()) / length);
         let left = std::mem::replace(&mut self.node, node);
         if self.unoriented {
             // Rates along a branch begin to mean something with the first step off a branch point.
@@ -296,11 +321,4 @@ fn growth(report: &Correction, h: f64, turn: f64) -> f64 {
     let prediction = (PREDICTION * h / report.first.max(1e-300)).sqrt();
     let [least, most] = CHANGE;
     contraction.min(prediction).min(1.0 / turn.max(1e-9)).clamp(least, most)
-}
-
-fn oriented(mut tangent: Vec<f64>, along: bool) -> Vec<f64> {
-    if !along {
-        tangent.iter_mut().for_each(|t| *t = -*t);
-    }
-    tangent
 }

@@ -13,6 +13,7 @@ pub(super) fn drive(values: &Values<'_>) -> Result<Drive, Finding> {
             mass_per_length: values.required_number("belt.mass_per_length")?,
             axial_stiffness: values.required_number("belt.axial_stiffness")?,
             radial_stiffness: values.required_number("belt.radial_stiffness")?,
+            height: values.number("belt.height"),
         },
         half_angle: values.required_number("groove.half_angle")?,
         law: law(values)?,
@@ -23,19 +24,59 @@ pub(super) fn drive(values: &Values<'_>) -> Result<Drive, Finding> {
         centre_distance: values.required_number("layout.centre_distance")?,
         load: load(values)?,
     };
+    match contradiction(&drive) {
+        Some(found) => {
+            Err(Finding::new(values.place(found.path), found.message).expected(found.expected))
+        }
+        None => Ok(drive),
+    }
+}
+
+/// Values of a drive that do not fit each other.
+pub(super) struct Contradiction {
+    /// The entry at fault in a drive file.
+    path: &'static str,
+    /// The entries that do not fit each other.
+    pub(super) between: &'static [&'static str],
+    /// What does not fit.
+    pub(super) message: String,
+    /// What that entry should be.
+    expected: String,
+}
+
+/// The first contradiction between the values of a drive.
+pub(super) fn contradiction(drive: &Drive) -> Option<Contradiction> {
     let radii = drive.driver_radius + drive.driven_radius;
     if drive.centre_distance <= radii {
-        let message = format!(
-            "the pulleys overlap: their radii add up to {} m, the centre distance is {} m",
-            rounded(radii),
-            rounded(drive.centre_distance)
-        );
-        return Err(
-            Finding::new(values.place("layout.centre_distance"), message)
-                .expected(format!("a length greater than {} m", rounded(radii))),
-        );
+        return Some(Contradiction {
+            path: "layout.centre_distance",
+            between: &[
+                "pulleys.driver.radius",
+                "pulleys.driven.radius",
+                "layout.centre_distance",
+            ],
+            message: format!(
+                "the pulleys overlap: their radii add up to {} m, the centre distance is {} m",
+                rounded(radii),
+                rounded(drive.centre_distance)
+            ),
+            expected: format!("a length greater than {} m", rounded(radii)),
+        });
     }
-    Ok(drive)
+    let [tractive, belt] = schema::TIGHT;
+    let (path, low, high) = match (drive.load.slack, drive.load.tight) {
+        (SpanTension::Tractive(low), SpanTension::Tractive(high)) => (tractive, low, high),
+        (SpanTension::Belt(low), SpanTension::Belt(high)) => (belt, low, high),
+        _ => return None,
+    };
+    let is_contradiction = high < low;
+    let [low, high] = [low, high].map(rounded);
+    is_contradiction.then(|| Contradiction {
+        path,
+        between: schema::TENSIONS.as_slice(),
+        message: format!("the tight tension {high} N is below the slack tension {low} N"),
+        expected: format!("a force of at least {low} N"),
+    })
 }
 
 /// The friction law. Parameters of the other laws may stand in the file for other runs.
@@ -57,30 +98,20 @@ fn law(values: &Values<'_>) -> Result<FrictionLaw, Finding> {
 }
 
 fn load(values: &Values<'_>) -> Result<Load, Finding> {
-    let (slack, _) = span_tension(values, schema::SLACK)?;
-    let (tight, path) = span_tension(values, schema::TIGHT)?;
-    match (slack, tight) {
-        (SpanTension::Tractive(low), SpanTension::Tractive(high))
-        | (SpanTension::Belt(low), SpanTension::Belt(high))
-            if high < low =>
-        {
-            let (low, high) = (rounded(low), rounded(high));
-            let message = format!("the tight tension {high} N is below the slack tension {low} N");
-            Err(Finding::new(values.place(path), message)
-                .expected(format!("a force of at least {low} N")))
-        }
-        _ => Ok(Load { slack, tight }),
-    }
+    Ok(Load {
+        slack: span_tension(values, schema::SLACK)?,
+        tight: span_tension(values, schema::TIGHT)?,
+    })
 }
 
-/// The tension of a span, stated as tractive or as belt tension, and the path where it stands.
-fn span_tension<'p>(
+/// The tension of a span, stated as tractive or as belt tension.
+fn span_tension(
     values: &Values<'_>,
-    [tractive, belt]: [&'p str; 2],
-) -> Result<(SpanTension, &'p str), Finding> {
+    [tractive, belt]: [&'static str; 2],
+) -> Result<SpanTension, Finding> {
     match (values.number(tractive), values.number(belt)) {
-        (Some(value), None) => Ok((SpanTension::Tractive(value), tractive)),
-        (None, Some(value)) => Ok((SpanTension::Belt(value), belt)),
+        (Some(value), None) => Ok(SpanTension::Tractive(value)),
+        (None, Some(value)) => Ok(SpanTension::Belt(value)),
         (None, None) => Err(values.missing(&[tractive, belt])),
         (Some(_), Some(_)) => {
             let message = format!("both `{tractive}` and `{belt}` are given");

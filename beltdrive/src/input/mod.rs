@@ -10,13 +10,18 @@
 //!                                  ranges
 //! ```
 //!
+//! What a branch is traced over, a [`Key`] with its range, is read by the same rules from an
+//! [`Argument`] of the command line.
+//!
 //! The first finding of any stage ends the reading and is shown where it stands.
 
+mod argument;
 mod check;
 mod diagnostic;
 mod dimension;
 mod document;
 mod file;
+mod key;
 mod overrides;
 mod quantity;
 mod schema;
@@ -25,7 +30,9 @@ pub(crate) mod spelling;
 mod unit;
 mod values;
 
+pub use argument::Argument;
 pub use diagnostic::Diagnostic;
+pub use key::Key;
 
 use crate::Drive;
 use diagnostic::Finding;

@@ -61,7 +61,7 @@ const fn refused(path: &'static str, example: &'static str, reason: &'static str
 const LATER: &str = "is not supported yet: give one slack and one tight tension";
 
 /// Every entry, in the order in which messages list them.
-const RULES: [Rule; 23] = [
+const RULES: [Rule; 24] = [
     Rule {
         path: "title",
         example: "\"Test drive\"",
@@ -90,6 +90,7 @@ const RULES: [Rule; 23] = [
         "\"900 kN/m^2\"",
         Dimension::FORCE_PER_AREA,
     ),
+    quantity("belt.height", "\"8 mm\"", Dimension::LENGTH),
     Rule {
         path: "groove.half_angle",
         example: "\"18 deg\"",
@@ -149,6 +150,9 @@ pub(super) const SLACK: [&str; 2] = ["load.slack_tractive_tension", "load.slack_
 /// As [`SLACK`], for the tight span.
 pub(super) const TIGHT: [&str; 2] = ["load.tight_tractive_tension", "load.tight_tension"];
 
+/// The entries of both span tensions.
+pub(super) const TENSIONS: [&str; 4] = [SLACK[0], SLACK[1], TIGHT[0], TIGHT[1]];
+
 impl Rule {
     /// The entry as a line of its table.
     pub(super) fn line(&self) -> String {
@@ -159,6 +163,29 @@ impl Rule {
 /// The rule for the entry at `path`.
 pub(super) fn rule(path: &str) -> Option<&'static Rule> {
     RULES.iter().find(|rule| rule.path == path)
+}
+
+/// The rule of a quantity with what it says.
+pub(super) struct QuantityRule {
+    /// The rule.
+    pub(super) rule: &'static Rule,
+    /// The dimension of the quantity.
+    pub(super) dimension: Dimension,
+    /// The number it stays below, in SI units and in words.
+    pub(super) below: Option<(f64, &'static str)>,
+}
+
+/// The rule for the quantity at `path`, if it is one.
+pub(super) fn quantity_rule(path: &str) -> Option<QuantityRule> {
+    let rule = rule(path)?;
+    match rule.kind {
+        Kind::Quantity { dimension, below } => Some(QuantityRule {
+            rule,
+            dimension,
+            below,
+        }),
+        _ => None,
+    }
 }
 
 /// The other way to state the quantity at `path`.

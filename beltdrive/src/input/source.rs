@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+/// What the command line is called as a source.
+const COMMAND_LINE: &str = "command line";
+
 /// A drive file and the overrides of its command line, laid end to end, so that a byte range tells
 /// where anything stands.
 pub(super) struct Source {
@@ -45,6 +48,11 @@ impl Source {
         }
     }
 
+    /// One option of a command line, with its value after a blank.
+    pub(super) fn argument(option: &str, value: &str) -> Self {
+        Self::new(COMMAND_LINE, &format!("{option} {value}"), &[])
+    }
+
     /// Where the text of each override starts.
     pub(super) fn override_starts(&self) -> impl Iterator<Item = usize> {
         self.override_starts.iter().copied()
@@ -60,7 +68,7 @@ impl Source {
         let (name, base) = if range.start <= self.file_length {
             (self.name.as_str(), 0)
         } else {
-            ("command line", self.file_length + 1)
+            (COMMAND_LINE, self.file_length + 1)
         };
         let start = range.start.min(self.text.len());
         let before = self.text(base..start);

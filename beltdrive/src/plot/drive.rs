@@ -1,12 +1,14 @@
 //! The drive to scale, with the belt seated in the grooves.
 
 use super::geometry::{Circle as Pitch, Geometry, Point, polar};
-use super::style::{self, Canvas, Drawn, Key, Stroke, px};
+use super::style::{self, Canvas, Drawn, Header, Legend, Stroke, px};
 use crate::report::{Precision, rpm, torque_scale};
 use crate::{PulleyState, SteadyState};
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_6};
+
+const CAPTION: &str = "Steady state of the drive";
 
 /// Width of the figure, px.
 const WIDTH: f64 = 1000.0;
@@ -37,9 +39,9 @@ pub(super) fn figure(state: &SteadyState) -> String {
     style::render([WIDTH, (view.bottom + BELOW).ceil()], |canvas| {
         let zones = style::kinds(state)
             .map(style::zone)
-            .map(|(name, color)| Key::Line(name, Stroke::solid(color, BELT)));
-        let legend: Vec<_> = zones.chain([Key::Line("free belt", FREE)]).collect();
-        style::header(canvas, state, "Steady state of the drive", &legend)?;
+            .map(|(name, color)| Legend::Line(name, Stroke::solid(color, BELT)));
+        let legend: Vec<_> = zones.chain([Legend::Line("free belt", FREE)]).collect();
+        style::header(canvas, &Header::of(state, CAPTION), &legend)?;
         view.draw(canvas, state)
     })
 }
@@ -69,7 +71,7 @@ impl View {
         let larger = driver.radius.max(driven.radius);
         let length = driver.radius + driven.centre.x + driven.radius;
         let scale = ((WIDTH - 2.0 * SIDE) / length).min(TALLEST / (2.0 * larger));
-        let top = style::header_height(state) + ABOVE;
+        let top = Header::of(state, CAPTION).height() + ABOVE;
         let penetration = state
             .driver
             .max_penetration
@@ -86,7 +88,7 @@ impl View {
             bottom: top + 2.0 * scale * larger,
             exaggeration: exaggeration(penetration, visible),
             precision: Precision::of(&state.convergence, 4),
-            torque_scale: torque_scale(state),
+            torque_scale: torque_scale(&state.drive, state.tight_tension),
         }
     }
 
@@ -195,7 +197,7 @@ impl View {
             format!(
                 "{} rad/s = {} rpm",
                 show(pulley.angular_speed),
-                show(rpm(pulley))
+                show(rpm(pulley.angular_speed))
             ),
             format!("torque {torque} N·m"),
             format!("wrap angle {}°", show(pulley.wrap_angle.to_degrees())),

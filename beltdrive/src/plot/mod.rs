@@ -1,12 +1,15 @@
-//! The steady state of a drive as figures in SVG.
+//! Results as figures in SVG.
 
 mod axis;
+mod branch;
 mod drive;
 mod geometry;
+mod limit_curve;
+mod panel;
 mod profiles;
 mod style;
 
-use crate::SteadyState;
+use crate::{Branch, LimitCurve, SteadyState};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -40,13 +43,39 @@ pub enum Error {
 /// # Errors
 /// [`Error`] names the directory or file that cannot be written.
 pub fn write_all(state: &SteadyState, directory: &Path) -> Result<Vec<PathBuf>, Error> {
+    let drive = std::iter::once(("drive.svg", drive::figure(state)));
+    write(drive.chain(profiles::figures(state)), directory)
+}
+
+/// Writes `branch.svg`, the bifurcation diagram of a branch, into a directory, as [`write_all`]
+/// does.
+///
+/// # Errors
+/// As [`write_all`].
+pub fn write_branch(branch: &Branch, directory: &Path) -> Result<Vec<PathBuf>, Error> {
+    let figure = ("branch.svg", branch::figure(branch));
+    write(std::iter::once(figure), directory)
+}
+
+/// Writes `limit_curve.svg`, the chart of a limit over a second parameter, into a directory, as
+/// [`write_all`] does.
+///
+/// # Errors
+/// As [`write_all`].
+pub fn write_limit_curve(curve: &LimitCurve, directory: &Path) -> Result<Vec<PathBuf>, Error> {
+    let figure = ("limit_curve.svg", limit_curve::figure(curve));
+    write(std::iter::once(figure), directory)
+}
+
+fn write(
+    figures: impl Iterator<Item = (&'static str, String)>,
+    directory: &Path,
+) -> Result<Vec<PathBuf>, Error> {
     fs::create_dir_all(directory).map_err(|source| Error::Directory {
         path: directory.to_owned(),
         source,
     })?;
-    let drive = std::iter::once(("drive.svg", drive::figure(state)));
-    drive
-        .chain(profiles::figures(state))
+    figures
         .map(|(name, figure)| {
             let path = directory.join(name);
             match fs::write(&path, figure) {
@@ -60,7 +89,7 @@ pub fn write_all(state: &SteadyState, directory: &Path) -> Result<Vec<PathBuf>, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample;
+    use crate::report::{sample, sample_branch};
 
     /// A directory of this process that is gone after the test.
     struct Scratch(PathBuf);
@@ -99,6 +128,20 @@ mod tests {
                 );
                 assert!(!text.contains("made up\""), "quotes are escaped");
             }
+        }
+    }
+
+    #[test]
+    fn branches_and_curves_have_a_figure() {
+        let scratch = Scratch::new("branches");
+        let mut files = write_branch(&sample_branch::folded(), &scratch.0).unwrap();
+        files.extend(write_limit_curve(&sample_branch::curve(), &scratch.0).unwrap());
+        let names: Vec<_> = files.iter().map(|file| file.file_name().unwrap()).collect();
+        assert_eq!(names, ["branch.svg", "limit_curve.svg"]);
+        for file in files {
+            let text = fs::read_to_string(file).unwrap();
+            assert!(text.starts_with("<svg") && !text.contains("NaN"));
+            assert!(text.contains("tight tractive tension"));
         }
     }
 

@@ -1,17 +1,13 @@
 //! Quantities along the belt on both pulleys, one figure each.
 
 use super::axis::{Axis, Scale};
-use super::style::{self, Canvas, Drawn, Key, Stroke, px};
+use super::panel::Panel;
+use super::style::{self, Canvas, Drawn, Header, Legend, Stroke, px};
 use crate::{Profile, PulleyState, SteadyState};
 use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
 
 /// Width and height of the figures, px.
 const SIZE: [f64; 2] = [900.0, 760.0];
-
-/// Where the vertical axis stands and where its description may begin, px.
-const LEFT: f64 = 84.0;
-const EDGE: f64 = 16.0;
 
 /// A figure: one or two quantities of one unit.
 struct Figure {
@@ -134,8 +130,9 @@ impl Figure {
             Axis::spanning(values, self.scale).padded(),
         ];
         style::render(SIZE, |canvas| {
-            style::header(canvas, state, self.title, &self.legend(state))?;
-            let (_, below) = canvas.split_vertically(px(style::header_height(state)));
+            let header = Header::of(state, self.title);
+            style::header(canvas, &header, &self.legend(state))?;
+            let (_, below) = canvas.split_vertically(px(header.height()));
             let panels = below.split_evenly((2, 1));
             let pulleys = [("driver", &state.driver), ("driven pulley", &state.driven)];
             for (panel, (name, pulley)) in panels.iter().zip(pulleys) {
@@ -145,54 +142,36 @@ impl Figure {
         })
     }
 
-    fn legend(&self, state: &SteadyState) -> Vec<Key> {
+    fn legend(&self, state: &SteadyState) -> Vec<Legend> {
         let curves = self
             .curves
             .iter()
-            .map(|curve| Key::Line(curve.label, curve.stroke));
+            .map(|curve| Legend::Line(curve.label, curve.stroke));
         let zones =
-            style::kinds(state).map(|kind| Key::Shade(style::zone(kind).0, style::tint(kind)));
+            style::kinds(state).map(|kind| Legend::Shade(style::zone(kind).0, style::tint(kind)));
         curves.chain(zones).collect()
     }
 
     /// The curves along one pulley over its shaded zones.
     fn panel(
         &self,
-        panel: &Canvas<'_>,
-        [angle, value]: &[Axis; 2],
+        canvas: &Canvas<'_>,
+        axes: &[Axis; 2],
         name: &str,
         pulley: &PulleyState,
     ) -> Drawn {
-        let label = |color| style::face(style::SMALL, color, HPos::Center);
-        style::write(
-            panel,
-            name,
-            &style::face(style::BODY, style::INK, HPos::Left),
-            [LEFT, 12.0],
-        )?;
-        let mut chart = ChartBuilder::on(panel)
-            .margin_top(px(24.0))
-            .margin_left(px(EDGE))
-            .margin_right(px(style::MARGIN))
-            .margin_bottom(px(10.0))
-            .set_label_area_size(LabelAreaPosition::Left, px(LEFT - EDGE))
-            .set_label_area_size(LabelAreaPosition::Bottom, px(46.0))
-            .build_cartesian_2d(angle.clone(), value.clone())?;
-        chart.draw_series(pulley.zones.iter().map(|zone| {
+        let panel = Panel {
+            title: name,
+            axes,
+            descriptions: ["angle φ from the entry in degrees", self.axis],
+        };
+        let [angle, value] = axes;
+        let zones = pulley.zones.iter().map(|zone| {
             let [from, to] =
                 [zone.from, zone.to].map(|end| end.to_degrees().clamp(angle.from, angle.to));
             Rectangle::new([(from, value.from), (to, value.to)], style::tint(zone.kind))
-        }))?;
-        chart
-            .configure_mesh()
-            .bold_line_style(style::INK.mix(0.15).stroke_width(px(0.6).unsigned_abs()))
-            .axis_style(Stroke::solid(style::INK, 1.0).shape())
-            .set_all_tick_mark_size(px(5.0))
-            .label_style(label(style::INK))
-            .axis_desc_style(style::face(style::BODY, style::INK, HPos::Center))
-            .x_desc("angle φ from the entry in degrees")
-            .y_desc(self.axis)
-            .draw()?;
+        });
+        let chart = panel.draw(canvas, zones)?;
         for curve in self.curves {
             for piece in self.pieces(curve, &pulley.profile) {
                 curve.stroke.draw(chart.plotting_area(), piece)?;

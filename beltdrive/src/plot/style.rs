@@ -1,7 +1,8 @@
 //! What all figures have in common: canvas, colours, text, header and legend.
 
+use crate::input::Key;
 use crate::report::{heading, law, warning};
-use crate::{SteadyState, ZoneKind};
+use crate::{Drive, SteadyState, Warning, ZoneKind};
 use plotters::coord::{CoordTranslate, Shift};
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::element::DashedPathElement;
@@ -21,8 +22,10 @@ pub(super) const INK: RGBColor = RGBColor(0x22, 0x22, 0x22);
 pub(super) const GREY: RGBColor = RGBColor(0x77, 0x77, 0x77);
 /// The second curve of a figure.
 pub(super) const WINE: RGBColor = RGBColor(0x88, 0x22, 0x55);
-const VERMILION: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
-const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xB2);
+/// Warnings and limits.
+pub(super) const VERMILION: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
+/// A third curve.
+pub(super) const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xB2);
 const ORANGE: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
 
 /// Sizes of text, px.
@@ -34,6 +37,9 @@ pub(super) const SMALL: f64 = 12.0;
 
 /// Empty space at the left and right edges of a figure, px.
 pub(super) const MARGIN: f64 = 24.0;
+
+/// Radius of a dot that marks a point of a curve, px.
+pub(super) const DOT: f64 = 4.5;
 
 /// The backend knows whole units only; a pixel has this many of them, so that curves are smooth.
 const UNITS: f64 = 10.0;
@@ -167,25 +173,46 @@ fn text_width(characters: usize, size: f64) -> f64 {
 }
 
 /// An entry of the legend.
-pub(super) enum Key {
+pub(super) enum Legend {
     /// A shaded background.
     Shade(&'static str, ShapeStyle),
     /// A line.
     Line(&'static str, Stroke),
+    /// A dot.
+    Dot(&'static str, RGBColor),
 }
 
-/// The height of the header of a figure, px.
-pub(super) fn header_height(state: &SteadyState) -> f64 {
-    98.0 + 20.0 * state.warnings.len() as f64
+/// What stands above a figure.
+pub(super) struct Header<'a> {
+    /// The drive.
+    pub(super) drive: &'a Drive,
+    /// The entries of the drive that vary in the figure.
+    pub(super) varied: &'a [Key],
+    /// What the figure shows.
+    pub(super) caption: &'a str,
+    /// What to beware of.
+    pub(super) warnings: &'a [Warning],
+}
+
+impl<'a> Header<'a> {
+    /// The header of a figure of one state.
+    pub(super) fn of(state: &'a SteadyState, caption: &'a str) -> Self {
+        Self {
+            drive: &state.drive,
+            varied: &[],
+            caption,
+            warnings: &state.warnings,
+        }
+    }
+
+    /// Its height with the legend, px.
+    pub(super) fn height(&self) -> f64 {
+        98.0 + 20.0 * self.warnings.len() as f64
+    }
 }
 
 /// Writes what the drive is, what the figure shows, what to beware of, and the legend.
-pub(super) fn header(
-    canvas: &Canvas<'_>,
-    state: &SteadyState,
-    caption: &str,
-    legend: &[Key],
-) -> Drawn {
+pub(super) fn header(canvas: &Canvas<'_>, header: &Header<'_>, legend: &[Legend]) -> Drawn {
     let width = f64::from(canvas.dim_in_pixel().0) / UNITS;
     let mut bottom = 0.0;
     let mut line = |text: &str, size: f64, color, advance: f64| {
@@ -194,14 +221,14 @@ pub(super) fn header(
         let style = face(size, color, HPos::Left);
         write(canvas, &fitted(text, size, room), &style, [MARGIN, bottom])
     };
-    line(&heading(&state.drive), TITLE, INK, 26.0)?;
+    line(&heading(header.drive), TITLE, INK, 26.0)?;
     line(
-        &format!("{caption} — {}", law(&state.drive)),
+        &format!("{} — {}", header.caption, law(header.drive, header.varied)),
         BODY,
         GREY,
         26.0,
     )?;
-    for remark in &state.warnings {
+    for remark in header.warnings {
         line(
             &format!("Warning: {}", warning(remark)),
             BODY,
@@ -211,8 +238,8 @@ pub(super) fn header(
     }
     bottom += 26.0;
     let mut left = MARGIN;
-    for key in legend {
-        left = entry(canvas, key, [left, bottom])?;
+    for item in legend {
+        left = entry(canvas, item, [left, bottom])?;
     }
     Ok(())
 }
@@ -220,12 +247,12 @@ pub(super) fn header(
 /// Draws an entry of the legend and returns where the next one begins, px.
 fn entry(
     canvas: &Canvas<'_>,
-    key: &Key,
+    legend: &Legend,
     [left, middle]: [f64; 2],
 ) -> Result<f64, DrawingAreaErrorKind<io::Error>> {
     let right = left + 30.0;
-    let label = match key {
-        Key::Shade(label, style) => {
+    let label = match legend {
+        Legend::Shade(label, style) => {
             let corners = [[left, middle - 7.0], [right, middle + 7.0]];
             canvas.draw(&Rectangle::new(
                 corners.map(|corner| corner.map(px).into()),
@@ -233,11 +260,16 @@ fn entry(
             ))?;
             label
         }
-        Key::Line(label, stroke) => {
+        Legend::Line(label, stroke) => {
             stroke.draw(
                 canvas,
                 vec![(px(left), px(middle)), (px(right), px(middle))],
             )?;
+            label
+        }
+        Legend::Dot(label, color) => {
+            let centre = [0.5 * (left + right), middle].map(px);
+            canvas.draw(&Circle::new(centre.into(), px(DOT), color.filled()))?;
             label
         }
     };

@@ -1,8 +1,9 @@
 //! The steady state as JSON: complete, at full precision, every key with its unit.
 
 use super::columns::COLUMNS;
-use super::{power, speed_loss, warning};
-use crate::{Convergence, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind};
+use super::scalars::Scalars;
+use super::warning;
+use crate::{Convergence, Profile, Pulley, StateSummary, SteadyState, Warning};
 use serde::{Serialize, Serializer};
 
 /// The whole state as pretty-printed JSON. Angles are in degrees (`_deg`), everything else is SI.
@@ -11,25 +12,20 @@ use serde::{Serialize, Serializer};
 /// # Panics
 /// Never: strings and numbers always have a representation.
 pub fn json(state: &SteadyState) -> String {
-    serde_json::to_string_pretty(&Report::from(state)).expect("strings and numbers")
+    pretty(&Report::from(state))
+}
+
+/// A report as text.
+pub(super) fn pretty(report: &impl Serialize) -> String {
+    serde_json::to_string_pretty(report).expect("strings and numbers")
 }
 
 #[derive(Serialize)]
-#[expect(non_snake_case, reason = "the keys carry units")]
 struct Report<'a> {
     title: Option<&'a str>,
     friction_law: &'static str,
-    mass_flow_kg_per_s: f64,
-    belt_length_m: f64,
-    slack_span_m: f64,
-    tight_span_m: f64,
-    efficiency: f64,
-    friction_loss_W: f64,
-    speed_loss: f64,
-    driver: PulleyReport,
-    driven: PulleyReport,
-    tension_N: Spans,
-    tractive_tension_N: Spans,
+    #[serde(flatten)]
+    scalars: Scalars,
     profiles: Profiles<'a>,
     warnings: Vec<WarningReport>,
     checks: Vec<CheckReport>,
@@ -41,23 +37,7 @@ impl<'a> From<&'a SteadyState> for Report<'a> {
         Self {
             title: state.drive.title.as_deref(),
             friction_law: state.drive.law.name(),
-            mass_flow_kg_per_s: state.mass_flow,
-            belt_length_m: state.belt_length,
-            slack_span_m: state.slack_span,
-            tight_span_m: state.tight_span,
-            efficiency: state.efficiency,
-            friction_loss_W: state.friction_loss,
-            speed_loss: speed_loss(state),
-            driver: PulleyReport::from(&state.driver),
-            driven: PulleyReport::from(&state.driven),
-            tension_N: Spans {
-                slack: state.slack_tension,
-                tight: state.tight_tension,
-            },
-            tractive_tension_N: Spans {
-                slack: state.slack_tractive_tension,
-                tight: state.tight_tractive_tension,
-            },
+            scalars: Scalars::from(&StateSummary::from(state)),
             profiles: Profiles {
                 driven: ProfileReport(&state.driven.profile),
                 driver: ProfileReport(&state.driver.profile),
@@ -75,55 +55,6 @@ impl<'a> From<&'a SteadyState> for Report<'a> {
             convergence: ConvergenceReport::from(&state.convergence),
         }
     }
-}
-
-#[derive(Serialize)]
-#[expect(non_snake_case, reason = "the keys carry units")]
-struct PulleyReport {
-    angular_speed_rad_per_s: f64,
-    torque_N_m: f64,
-    power_W: f64,
-    wrap_angle_deg: f64,
-    max_penetration_m: f64,
-    inclination_deg: [f64; 2],
-    zones: Vec<ZoneReport>,
-}
-
-impl From<&PulleyState> for PulleyReport {
-    fn from(pulley: &PulleyState) -> Self {
-        Self {
-            angular_speed_rad_per_s: pulley.angular_speed,
-            torque_N_m: pulley.torque,
-            power_W: power(pulley),
-            wrap_angle_deg: pulley.wrap_angle.to_degrees(),
-            max_penetration_m: pulley.max_penetration,
-            inclination_deg: pulley.inclination.map(f64::to_degrees),
-            zones: pulley.zones.iter().map(ZoneReport::from).collect(),
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct ZoneReport {
-    kind: ZoneKind,
-    from_deg: f64,
-    to_deg: f64,
-}
-
-impl From<&Zone> for ZoneReport {
-    fn from(zone: &Zone) -> Self {
-        Self {
-            kind: zone.kind,
-            from_deg: zone.from.to_degrees(),
-            to_deg: zone.to.to_degrees(),
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct Spans {
-    slack: f64,
-    tight: f64,
 }
 
 #[derive(Serialize)]

@@ -1,19 +1,35 @@
-//! The steady state of a drive as text: a table for people, JSON and CSV for programs.
+//! Results as text: a table for people, JSON and CSV for programs.
+//!
+//! [`table()`], [`json()`] and [`csv()`] are of a steady state; [`branch`], [`limits`] and
+//! [`limit_curve`] have their own.
 
+pub mod branch;
 mod columns;
 mod csv;
+mod errors;
 mod json;
+pub mod limit_curve;
+pub mod limits;
+mod lines;
 mod precision;
+mod rows;
 #[cfg(test)]
 pub(crate) mod sample;
+#[cfg(test)]
+pub(crate) mod sample_branch;
+mod scalars;
+mod state_columns;
 mod table;
+pub(crate) mod value;
+pub(crate) mod words;
 
 pub use self::csv::csv;
 pub use json::json;
 pub(crate) use precision::Precision;
 pub use table::table;
 
-use crate::{Drive, FrictionLaw, PulleyState, SteadyState, Warning};
+use crate::input::Key;
+use crate::{Drive, FrictionLaw, Warning};
 use precision::six_digits;
 
 /// The title of a drive on one line, or what it is when it has no title.
@@ -30,21 +46,26 @@ pub(crate) fn heading(drive: &Drive) -> String {
     }
 }
 
-/// The friction law of a drive in words, with its parameters.
-pub(crate) fn law(drive: &Drive) -> String {
-    let coefficient = six_digits(drive.friction_coefficient);
-    match drive.law {
-        FrictionLaw::Coulomb => format!("Coulomb friction, μ = {coefficient}"),
-        FrictionLaw::Epp { stiffness } => format!(
-            "elastic/perfectly-plastic friction, μ = {coefficient}, k_f = {} N/m²",
-            six_digits(stiffness)
-        ),
-        FrictionLaw::Bristle { stiffness } => {
-            format!(
-                "bristle friction, μ = {coefficient}, κ = {} 1/m",
-                six_digits(stiffness)
-            )
+/// The friction law of a drive in words, with its parameters; what varies has no value.
+pub(crate) fn law(drive: &Drive, varied: &[Key]) -> String {
+    let value = |symbol: &str, path: &str, value: f64, unit: &str| {
+        if varied.iter().any(|key| key.path() == path) {
+            format!("{symbol} varied")
+        } else {
+            format!("{symbol} = {}{unit}", six_digits(value))
         }
+    };
+    let coefficient = value("μ", "friction.coefficient", drive.friction_coefficient, "");
+    match drive.law {
+        FrictionLaw::Coulomb => format!("Coulomb friction, {coefficient}"),
+        FrictionLaw::Epp { stiffness } => format!(
+            "elastic/perfectly-plastic friction, {coefficient}, {}",
+            value("k_f", "friction.stiffness", stiffness, " N/m²")
+        ),
+        FrictionLaw::Bristle { stiffness } => format!(
+            "bristle friction, {coefficient}, {}",
+            value("κ", "friction.bristle_stiffness", stiffness, " 1/m")
+        ),
     }
 }
 
@@ -62,32 +83,15 @@ pub(crate) fn warning(warning: &Warning) -> String {
     }
 }
 
-/// Angular speed in revolutions per minute.
-pub(crate) fn rpm(pulley: &PulleyState) -> f64 {
-    pulley.angular_speed * 30.0 / std::f64::consts::PI
+/// An angular speed in revolutions per minute.
+pub(crate) fn rpm(angular_speed: f64) -> f64 {
+    angular_speed * 30.0 / std::f64::consts::PI
 }
 
 /// The tight tension at the larger radius, N·m: the scale of the error of a torque, which is a
 /// difference of tensions.
-pub(crate) fn torque_scale(state: &SteadyState) -> f64 {
-    state.tight_tension * state.drive.driver_radius.max(state.drive.driven_radius)
-}
-
-/// Power between belt and pulley, W.
-fn power(pulley: &PulleyState) -> f64 {
-    pulley.torque * pulley.angular_speed
-}
-
-/// Speed loss s = 1 − ω₁ R₁ / (ω₂ R₂) of the driven pulley 1 against the driver 2; 0 where the
-/// driver stands still.
-fn speed_loss(state: &SteadyState) -> f64 {
-    let driver = state.driver.angular_speed * state.drive.driver_radius;
-    let driven = state.driven.angular_speed * state.drive.driven_radius;
-    if driver == 0.0 {
-        0.0
-    } else {
-        1.0 - driven / driver
-    }
+pub(crate) fn torque_scale(drive: &Drive, tight_tension: f64) -> f64 {
+    tight_tension * drive.driver_radius.max(drive.driven_radius)
 }
 
 #[cfg(test)]
@@ -107,17 +111,14 @@ mod tests {
     fn laws_state_their_parameters() {
         let mut drive = sample::loaded().drive;
         drive.law = FrictionLaw::Coulomb;
-        assert_eq!(law(&drive), "Coulomb friction, μ = 0.4");
+        assert_eq!(law(&drive, &[]), "Coulomb friction, μ = 0.4");
         drive.law = FrictionLaw::Bristle { stiffness: 1620.0 };
-        assert_eq!(law(&drive), "bristle friction, μ = 0.4, κ = 1620 1/m");
+        assert_eq!(law(&drive, &[]), "bristle friction, μ = 0.4, κ = 1620 1/m");
         drive.law = FrictionLaw::Epp { stiffness: 8.1e6 };
-        assert!(law(&drive).ends_with("k_f = 8.1e6 N/m²"));
-    }
-
-    #[test]
-    fn a_standing_driver_loses_no_speed() {
-        assert_eq!(speed_loss(&sample::idle()), 0.0);
-        let state = sample::loaded();
-        assert!((speed_loss(&state) - 0.02).abs() < 1e-12);
+        assert!(law(&drive, &[]).ends_with("k_f = 8.1e6 N/m²"));
+        let mut keys = Key::all(&drive);
+        let coefficient = keys.find(|key| key.path() == "friction.coefficient");
+        let text = law(&drive, &[coefficient.unwrap()]);
+        assert!(text.contains("μ varied, k_f = 8.1e6 N/m²"), "{text}");
     }
 }

@@ -20,6 +20,11 @@ impl Precision {
         let error = convergence
             .error_estimate
             .max(convergence.slip_normalisation_effect);
+        Self::new(error, digits)
+    }
+
+    /// The precision of results of a relative error, shown to at most so many digits.
+    pub(super) fn new(error: f64, digits: u8) -> Self {
         Self {
             error: error.clamp(1e-12, 0.1),
             digits: f64::from(digits),
@@ -33,10 +38,15 @@ impl Precision {
 
     /// A value whose error is relative to `scale`, such as a small difference of large numbers.
     pub(crate) fn show_against(&self, value: f64, scale: f64) -> String {
-        let known = (-(self.error * scale.abs()).log10()).floor();
-        let useful = self.digits - 1.0 - value.abs().log10().floor();
-        rounded(value, known.min(useful))
+        known(value, self.error * scale.abs(), self.digits)
     }
+}
+
+/// A value with the digits that an absolute error leaves, and no more than so many.
+pub(super) fn known(value: f64, error: f64, digits: f64) -> String {
+    let known = (-error.log10()).floor();
+    let useful = digits - 1.0 - value.abs().log10().floor();
+    rounded(value, known.min(useful))
 }
 
 /// The value rounded to a number of decimals, or of tens when this is negative.
@@ -95,6 +105,13 @@ mod tests {
     fn a_difference_carries_the_error_of_its_terms() {
         assert_eq!(precision(2e-5).show_against(0.123_456, 100.0), "0.12");
         assert_eq!(precision(1e-9).show_against(-1e-12, 100.0), "0");
+    }
+
+    #[test]
+    fn an_absolute_error_leaves_its_digits() {
+        assert_eq!(known(8_221.013_4, 0.004, 10.0), "8221.01");
+        assert_eq!(known(8_221.013_4, 0.004, 5.0), "8221.0");
+        assert_eq!(known(8_221.013_4, 2.0, 10.0), "8220");
     }
 
     #[test]

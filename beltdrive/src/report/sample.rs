@@ -150,6 +150,7 @@ fn drive(slack: f64, tight: f64) -> Drive {
             mass_per_length: 0.108,
             axial_stiffness: 120e3,
             radial_stiffness: 900e3,
+            height: None,
         },
         half_angle: PI / 10.0,
         friction_coefficient: 0.4,

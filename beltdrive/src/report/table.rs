@@ -1,10 +1,8 @@
 //! The steady state as a table for a terminal.
 
-use super::{Precision, heading, law, power, rpm, speed_loss, torque_scale, warning};
-use crate::{Check, Convergence, PulleyState, SteadyState, Zone, ZoneKind};
-
-/// No line of the table is wider.
-const WIDTH: usize = 100;
+use super::lines::{self, row, single, small};
+use super::{Precision, heading, law, rpm, torque_scale, warning, words};
+use crate::{Check, Convergence, PulleySummary, StateSummary, SteadyState, Zone};
 
 /// Most significant digits shown; fewer where the error estimate does not support them.
 const DIGITS: u8 = 6;
@@ -15,30 +13,24 @@ const DIGITS: u8 = 6;
 /// supports.
 pub fn table(state: &SteadyState) -> String {
     let precision = Precision::of(&state.convergence, DIGITS);
-    let mut lines = vec![heading(&state.drive), law(&state.drive)];
-    for remark in &state.warnings {
-        lines.push(String::new());
-        lines.push(format!("WARNING: {}", warning(remark)));
-    }
-    for block in [
-        pulleys(state, precision),
+    let summary = StateSummary::from(state);
+    let remarks = state.warnings.iter();
+    let warnings = remarks.map(|remark| vec![format!("WARNING: {}", warning(remark))]);
+    let blocks = [
+        pulleys(state, &summary, precision),
         spans(state, precision),
-        whole(state, precision),
+        whole(&summary, precision),
         accuracy(&state.convergence),
         state.checks.iter().map(check).collect(),
-    ] {
-        if !block.is_empty() {
-            lines.push(String::new());
-            lines.extend(block);
-        }
-    }
-    lines.iter().map(|line| fitted(line) + "\n").collect()
+    ];
+    let title = vec![heading(&state.drive), law(&state.drive, &[])];
+    lines::text(std::iter::once(title).chain(warnings).chain(blocks))
 }
 
 /// Driver and driven pulley side by side.
-fn pulleys(state: &SteadyState, precision: Precision) -> Vec<String> {
-    let pulleys = [&state.driver, &state.driven];
-    let number = |label, quantity: fn(&PulleyState) -> f64, unit| {
+fn pulleys(state: &SteadyState, summary: &StateSummary, precision: Precision) -> Vec<String> {
+    let pulleys = [&summary.driver, &summary.driven];
+    let number = |label, quantity: fn(&PulleySummary) -> f64, unit| {
         row(
             label,
             pulleys.map(|pulley| precision.show(quantity(pulley))),
@@ -46,12 +38,12 @@ fn pulleys(state: &SteadyState, precision: Precision) -> Vec<String> {
         )
     };
     // Torque is a difference of tensions and carries their error; angles that of a radian.
-    let torque = torque_scale(state);
+    let torque = torque_scale(&state.drive, state.tight_tension);
     let angle = |value: f64| precision.show_against(value.to_degrees(), 1_f64.to_degrees());
     let mut lines = vec![
         row("", ["driver", "driven"].map(str::to_owned), ""),
         number("speed", |pulley| pulley.angular_speed, "rad/s"),
-        number("", rpm, "rpm"),
+        number("", |pulley| rpm(pulley.angular_speed), "rpm"),
         row(
             "torque",
             pulleys.map(|pulley| precision.show_against(pulley.torque, torque)),
@@ -61,7 +53,7 @@ fn pulleys(state: &SteadyState, precision: Precision) -> Vec<String> {
             "power",
             pulleys.map(|pulley| {
                 let scale = torque * pulley.angular_speed;
-                precision.show_against(power(pulley) * 1e-3, scale * 1e-3)
+                precision.show_against(pulley.power() * 1e-3, scale * 1e-3)
             }),
             "kW",
         ),
@@ -87,13 +79,10 @@ fn pulleys(state: &SteadyState, precision: Precision) -> Vec<String> {
         ),
     ];
     let zone = |zone: &Zone| {
-        let kind = match zone.kind {
-            ZoneKind::Elastic => "elastic",
-            ZoneKind::Slip => "slip",
-        };
+        let kind = words::zone(zone.kind);
         format!("{kind} {} – {}", angle(zone.from), angle(zone.to))
     };
-    let longest = state.driver.zones.len().max(state.driven.zones.len());
+    let longest = summary.driver.zones.len().max(summary.driven.zones.len());
     lines.extend((0..longest).map(|place| {
         let label = if place == 0 { "zones" } else { "" };
         row(
@@ -129,9 +118,9 @@ fn spans(state: &SteadyState, precision: Precision) -> Vec<String> {
 }
 
 /// The quantities of the drive as a whole.
-fn whole(state: &SteadyState, precision: Precision) -> Vec<String> {
+fn whole(state: &StateSummary, precision: Precision) -> Vec<String> {
     // Losses are differences: of two speeds, of two powers.
-    let input = power(&state.driver);
+    let input = state.driver.power();
     vec![
         single(
             "belt length, unstretched",
@@ -141,7 +130,7 @@ fn whole(state: &SteadyState, precision: Precision) -> Vec<String> {
         single("mass flow", precision.show(state.mass_flow), "kg/s"),
         single(
             "speed loss",
-            precision.show_against(100.0 * speed_loss(state), 100.0),
+            precision.show_against(100.0 * state.speed_loss, 100.0),
             "%",
         ),
         single(
@@ -159,7 +148,6 @@ fn whole(state: &SteadyState, precision: Precision) -> Vec<String> {
 
 /// How far the numbers can be trusted, and what they cost.
 fn accuracy(convergence: &Convergence) -> Vec<String> {
-    let small = |value: f64| format!("{value:.1e}");
     let mut lines = vec![
         single("relative tolerance", small(convergence.tolerance), ""),
         single("estimated error", small(convergence.error_estimate), ""),
@@ -203,28 +191,10 @@ fn check(check: &Check) -> String {
     )
 }
 
-fn row(label: &str, [left, right]: [String; 2], unit: &str) -> String {
-    format!("{label:<26}{left:>28}{right:>28}  {unit}")
-}
-
-fn single(label: &str, value: String, unit: &str) -> String {
-    format!("{label:<26}{value:>28}  {unit}")
-}
-
-/// The line without blanks at its end, and cut where it is too wide.
-fn fitted(line: &str) -> String {
-    let line = line.trim_end();
-    if line.chars().count() <= WIDTH {
-        line.to_owned()
-    } else {
-        line.chars().take(WIDTH - 1).chain(['…']).collect()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample;
+    use crate::report::{lines::WIDTH, sample};
 
     #[test]
     fn is_no_wider_than_a_terminal() {

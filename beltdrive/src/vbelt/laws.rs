@@ -31,7 +31,7 @@ const SMALLEST_EPSILON: f64 = 1e-12;
 /// The effect of ε may be this share of the tolerance.
 const EPSILON_SHARE: f64 = 0.3;
 /// First steps of a homotopy in ln ε or ln κ: a factor of 10, or of 3 where that failed.
-const GREAT_STEP: f64 = LN_10;
+pub(super) const GREAT_STEP: f64 = LN_10;
 const SMALL_STEP: f64 = 1.1;
 /// Zones are found anew at most so often; if they still change, the check of the state says so.
 const MAX_SPLITS: usize = 8;
@@ -203,6 +203,6 @@ impl Path<'_> {
 }
 
 /// The same problem with the slip normalised by ε = eᵗ.
-fn with_epsilon(problem: &DriveProblem, t: f64) -> DriveProblem {
+pub(super) fn with_epsilon(problem: &DriveProblem, t: f64) -> DriveProblem {
     problem.clone().with_epsilon(t.exp())
 }

@@ -13,15 +13,21 @@
 mod carried;
 mod closure;
 mod contact;
+mod curve;
 mod drive_problem;
+mod family;
 mod groove;
 mod guess;
 mod laws;
 mod limit;
+mod limit_curve;
+mod limits;
 mod path;
 mod scaling;
 mod solve;
 mod state;
+mod trace;
+mod tracer;
 mod zones;
 
 pub(crate) use closure::{EndAngles, Layout};
@@ -35,7 +41,10 @@ pub(crate) use scaling::{Scales, Strand};
 use groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 
 pub use limit::LimitReason;
+pub use limit_curve::limit_curve;
+pub use limits::limits;
 pub use solve::{SolveError, SolveOptions, solve, solve_from};
+pub use trace::trace;
 
 /// Index of the driven pulley, which comes first.
 pub(crate) const DRIVEN: usize = 0;

@@ -146,6 +146,7 @@ pub(super) mod tests {
                 mass_per_length: 0.108,
                 axial_stiffness: 120e3,
                 radial_stiffness: 900e3,
+                height: None,
             },
             half_angle: 18_f64.to_radians(),
             friction_coefficient: 0.4,

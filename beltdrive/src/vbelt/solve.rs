@@ -1,7 +1,7 @@
 //! The public face: a drive in, a steady state or the reason why there is none out.
 
 use super::limit::{Found, LimitReason};
-use super::path::{Path, Stuck};
+use super::path::{Path, Solved, Stuck};
 use super::state::steady_state;
 use crate::{Check, Drive, SpanTension, SteadyState};
 use std::time::Instant;
@@ -57,6 +57,14 @@ pub enum SolveError {
     Tolerance {
         /// The tolerance asked for.
         tolerance: f64,
+    },
+    /// No limit was found on a branch.
+    #[error("no limit was found up to {reached}; the branch was not followed further: {cause}")]
+    NoLimit {
+        /// Value of the entry up to which the branch was followed, SI.
+        reached: f64,
+        /// Why it was not followed further.
+        cause: String,
     },
     /// A state was found that violates an invariant.
     #[error(
@@ -124,7 +132,7 @@ pub fn solve_from(
     }
 }
 
-fn checked(options: &SolveOptions) -> Result<f64, SolveError> {
+pub(super) fn checked(options: &SolveOptions) -> Result<f64, SolveError> {
     let tolerance = options.tolerance;
     if (1e-12..=1e-2).contains(&tolerance) {
         Ok(tolerance)
@@ -139,16 +147,32 @@ fn conclude(
     found: Result<Found, Stuck>,
     start: Instant,
 ) -> Result<SteadyState, SolveError> {
+    let solved = carried(&path, found)?;
+    let state = steady_state(&path, solved, start);
+    match violated(&state) {
+        Some(check) => Err(SolveError::Violated(check.clone())),
+        None => Ok(state),
+    }
+}
+
+/// The first invariant that a state violates.
+pub(super) fn violated(state: &SteadyState) -> Option<&Check> {
+    let violated = |check: &&Check| check.deviation.is_nan() || check.deviation > check.limit;
+    state.checks.iter().find(violated)
+}
+
+/// The state found, or the reason why the load is not carried or not reached.
+pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<Solved, SolveError> {
     let (drive, scales) = (path.drive, path.scales);
     let found = found.map_err(|Stuck { last, cause }| SolveError::NotConverged {
         tight: last.map(|last| last.tight_tension() * scales.force),
         cause: Box::new(cause),
     })?;
-    let solved = match found {
-        Found::State(solved) => *solved,
+    match found {
+        Found::State(solved) => Ok(*solved),
         Found::Beyond(limit) => {
             let state = &limit.state;
-            return Err(SolveError::NoSteadyState {
+            Err(SolveError::NoSteadyState {
                 quantity: match drive.load.tight {
                     SpanTension::Tractive(_) => "tight tractive tension",
                     SpanTension::Belt(_) => "tight tension",
@@ -158,13 +182,7 @@ fn conclude(
                 reason: limit.reason,
                 driven_speed: state.driven_speed() * scales.angular_speed(super::DRIVEN),
                 exit_inclination: state.exit(super::DRIVER)[super::INCLINATION],
-            });
+            })
         }
-    };
-    let state = steady_state(&path, solved, start);
-    let violated = |check: &&Check| check.deviation.is_nan() || check.deviation > check.limit;
-    match state.checks.iter().find(violated) {
-        Some(check) => Err(SolveError::Violated(check.clone())),
-        None => Ok(state),
     }
 }

@@ -40,7 +40,7 @@ pub(super) fn steady_state(path: &Path<'_>, solved: Solved, start: Instant) -> S
 }
 
 /// The numbers of a steady state.
-fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
+pub(super) fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
     let problem = &solved.problem;
     let scales = problem.scales();
     let p = solved.solution.parameters();

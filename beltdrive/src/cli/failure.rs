@@ -1,0 +1,30 @@
+//! Why a command fails.
+
+use beltdrive::SolveError;
+use std::error::Error;
+
+/// Why a command fails: a message for standard error, by exit status.
+pub(super) enum Failure {
+    /// The drive has no steady state or none was found.
+    Unsolved(String),
+    /// An input, an output or the command line is at fault.
+    Usage(String),
+}
+
+impl Failure {
+    /// A fault of the input or the command line.
+    pub(super) fn usage(message: impl ToString) -> Self {
+        Self::Usage(message.to_string())
+    }
+
+    /// The failure to do something with a file or stream.
+    pub(super) fn io(action: &str, error: &dyn Error) -> Self {
+        Self::Usage(format!("error: cannot {action}: {error}"))
+    }
+}
+
+impl From<SolveError> for Failure {
+    fn from(error: SolveError) -> Self {
+        Self::Unsolved(format!("error: {error}"))
+    }
+}

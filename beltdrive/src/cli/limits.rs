@@ -1,0 +1,57 @@
+//! `beltdrive limits`: the smallest and the largest load that a drive carries.
+
+use super::{common::Common, failure::Failure, output::Report, parameter};
+use beltdrive::input::Key;
+use beltdrive::{plot, report};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+const HELP: &str = "\
+Example:
+  beltdrive limits kim2009.toml --set friction.coefficient=0.3 --json limits.json
+
+--csv writes one row per limit, --plot draws the branch between them.";
+
+#[derive(Args)]
+#[command(after_help = HELP)]
+pub(super) struct Limits {
+    #[command(flatten)]
+    common: Common,
+    /// Entry of the drive file to look for the limits of, by its dotted path; the tight tension
+    /// unless given
+    #[arg(long, value_name = "KEY")]
+    parameter: Option<String>,
+}
+
+impl Limits {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        let drive = self.common.drive()?;
+        let key = match &self.parameter {
+            Some(value) => parameter::key("--parameter", value, &drive)?,
+            None => Key::tight_tension(&drive),
+        };
+        let options = self.common.options();
+        let limits = self
+            .common
+            .with_progress(|progress| beltdrive::limits(&drive, &key, &options, progress))?;
+        self.common.output.write(&limits)
+    }
+}
+
+impl Report for beltdrive::Limits {
+    fn table(&self) -> String {
+        report::limits::table(self)
+    }
+
+    fn json(&self) -> String {
+        report::limits::json(self)
+    }
+
+    fn csv(&self) -> String {
+        report::limits::csv(self)
+    }
+
+    fn plot(&self, directory: &Path) -> Result<Vec<PathBuf>, plot::Error> {
+        plot::write_branch(&self.branch, directory)
+    }
+}

@@ -1,0 +1,77 @@
+//! The commands: what they read, what they write, and their exit status.
+
+mod common;
+mod examples;
+mod failure;
+mod limits;
+mod output;
+mod parameter;
+mod progress;
+mod read;
+mod solve;
+mod trace;
+
+use clap::{Parser, Subcommand};
+use failure::Failure;
+use std::process::ExitCode;
+
+const HELP: &str = "\
+Example:
+  beltdrive examples kim2009 > kim2009.toml
+  beltdrive solve kim2009.toml --set 'load.tight_tractive_tension=1200 N'
+
+Exit status:
+  0  success
+  1  the drive has no steady state, or none was found
+  2  an input, an output or the command line is at fault";
+
+#[derive(Parser)]
+#[command(version, about, after_help = HELP)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Find the steady state of a drive and print it as a table
+    Solve(solve::Solve),
+    /// Trace the branch of steady states over one entry of the drive file
+    Trace(trace::Trace),
+    /// Find the smallest and the largest load that a drive carries, and why the range ends there
+    Limits(limits::Limits),
+    /// List the drive files that come with the program, or print one
+    Examples(examples::Examples),
+}
+
+/// Runs the command that the command line asks for.
+pub(crate) fn run() -> ExitCode {
+    let outcome = match Cli::parse().command {
+        Command::Solve(command) => command.run(),
+        Command::Trace(command) => command.run(),
+        Command::Limits(command) => command.run(),
+        Command::Examples(command) => command.run(),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::Unsolved(message)) => {
+            output::note(&message);
+            ExitCode::from(1)
+        }
+        Err(Failure::Usage(message)) => {
+            output::note(&message);
+            ExitCode::from(2)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+}

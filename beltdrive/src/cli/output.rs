@@ -1,0 +1,120 @@
+//! Where results go: a table on standard output, files, figures.
+
+use super::failure::Failure;
+use beltdrive::plot;
+use clap::Args;
+use std::{
+    fs,
+    io::{self, ErrorKind, Write},
+    path::{Path, PathBuf},
+};
+
+/// Where the results go.
+#[derive(Args)]
+pub(super) struct Output {
+    /// Write everything as JSON; - for standard output, in place of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write rows as CSV; - for standard output, in place of the table
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Draw figures into a directory
+    #[arg(long, value_name = "DIR")]
+    plot: Option<PathBuf>,
+    /// Print neither the table nor the names of written files
+    #[arg(long)]
+    pub(super) quiet: bool,
+}
+
+/// A result in all its forms.
+pub(super) trait Report {
+    /// For people.
+    fn table(&self) -> String;
+    /// Complete.
+    fn json(&self) -> String;
+    /// Rows.
+    fn csv(&self) -> String;
+    /// Writes the figures into a directory and lists the files.
+    fn plot(&self, directory: &Path) -> Result<Vec<PathBuf>, plot::Error>;
+}
+
+impl Output {
+    /// Refuses two results on one standard output.
+    pub(super) fn check(&self) -> Result<(), Failure> {
+        if is_stdout(self.json.as_deref()) && is_stdout(self.csv.as_deref()) {
+            let message = "error: only one of --json and --csv can go to standard output";
+            return Err(Failure::usage(message));
+        }
+        Ok(())
+    }
+
+    /// Prints and writes a result in the forms asked for.
+    pub(super) fn write(&self, report: &impl Report) -> Result<(), Failure> {
+        let outputs = [self.json.as_deref(), self.csv.as_deref()];
+        if !self.quiet && !outputs.into_iter().any(is_stdout) {
+            print(&report.table())?;
+        }
+        for path in self.write_files(report)? {
+            if !self.quiet {
+                note(&format!("wrote {}", path.display()));
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the outputs asked for and lists the files among them.
+    fn write_files(&self, report: &impl Report) -> Result<Vec<PathBuf>, Failure> {
+        let mut written = Vec::new();
+        if let Some(path) = &self.json {
+            written.extend(write_text(path, &report.json())?);
+        }
+        if let Some(path) = &self.csv {
+            written.extend(write_text(path, &report.csv())?);
+        }
+        if let Some(directory) = &self.plot {
+            let action = format!("draw figures into {}", directory.display());
+            let figures = report.plot(directory);
+            written.extend(figures.map_err(|error| Failure::io(&action, &error))?);
+        }
+        Ok(written)
+    }
+}
+
+/// Writes a text to a file, which it returns, or to standard output.
+fn write_text(path: &Path, text: &str) -> Result<Option<PathBuf>, Failure> {
+    if is_stream(path) {
+        print(text)?;
+        return Ok(None);
+    }
+    let action = format!("write {}", path.display());
+    fs::write(path, text).map_err(|error| Failure::io(&action, &error))?;
+    Ok(Some(path.to_owned()))
+}
+
+/// Whether a path stands for a standard stream.
+pub(super) fn is_stream(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+fn is_stdout(output: Option<&Path>) -> bool {
+    output.is_some_and(is_stream)
+}
+
+/// Writes to standard output. Whoever closes it has read enough: that is no failure.
+pub(super) fn print(text: &str) -> Result<(), Failure> {
+    let mut output = io::stdout().lock();
+    match output
+        .write_all(text.as_bytes())
+        .and_then(|()| output.flush())
+    {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::io("write to standard output", &error))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes a line to standard error, which is the last place to complain: a failure is ignored.
+pub(super) fn note(message: &str) {
+    let _ = writeln!(io::stderr(), "{message}");
+}

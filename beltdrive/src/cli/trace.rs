@@ -1,0 +1,125 @@
+//! `beltdrive trace`: a branch of steady states, or of limits, over one entry of the drive file.
+
+use super::{common::Common, failure::Failure, output::Report, parameter};
+use beltdrive::input::Key;
+use beltdrive::{Branch, BranchEnd, Drive, LimitCurve, plot, report};
+use clap::Args;
+use std::path::{Path, PathBuf};
+
+const HELP: &str = "\
+Example:
+  beltdrive trace kim2009.toml --parameter load.tight_tractive_tension --from '200 N' --to '9 kN'
+
+The branch starts at A and goes on through limit points, where the parameter turns back, until it
+reaches B, is back at A, or a pulley slips grossly. --csv writes one row per state.
+
+A design chart, the largest tight tension for every coefficient of friction from 0.2 to 0.6:
+  beltdrive trace kim2009.toml --parameter load.tight_tractive_tension \
+    --curve friction.coefficient --from 0.2 --to 0.6 --plot figures";
+
+#[derive(Args)]
+#[command(after_help = HELP)]
+pub(super) struct Trace {
+    #[command(flatten)]
+    common: Common,
+    /// Entry of the drive file to trace over, by its dotted path
+    #[arg(long, value_name = "KEY")]
+    parameter: String,
+    /// Value of --parameter to start at, with its unit; of --curve where that is given
+    #[arg(long, value_name = "A", allow_hyphen_values = true)]
+    from: String,
+    /// Value to end at
+    #[arg(long, value_name = "B", allow_hyphen_values = true)]
+    to: String,
+    /// Follow the limit of --parameter over this second entry, from A to B
+    #[arg(long, value_name = "KEY")]
+    curve: Option<String>,
+}
+
+impl Trace {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        let drive = self.common.drive()?;
+        let key = parameter::key("--parameter", &self.parameter, &drive)?;
+        match &self.curve {
+            None => self.branch(&drive, key),
+            Some(curve) => {
+                let second = parameter::key("--curve", curve, &drive)?;
+                self.limit_curve(&drive, key, second)
+            }
+        }
+    }
+
+    fn branch(&self, drive: &Drive, key: Key) -> Result<(), Failure> {
+        let range = self.range(key, None, drive)?;
+        let options = self.common.options();
+        let branch = self
+            .common
+            .with_progress(|progress| beltdrive::trace(drive, &key, range, &options, progress))?;
+        self.common.output.write(&branch)?;
+        finished(&branch.end)
+    }
+
+    fn limit_curve(&self, drive: &Drive, key: Key, second: Key) -> Result<(), Failure> {
+        if second == key {
+            let message = "error: --parameter and --curve are the same entry";
+            return Err(Failure::usage(message));
+        }
+        let range = self.range(second, Some(key), drive)?;
+        let options = self.common.options();
+        let curve = self.common.with_progress(|progress| {
+            beltdrive::limit_curve(drive, &key, &second, range, &options, progress)
+        })?;
+        self.common.output.write(&curve)?;
+        finished(&curve.end)
+    }
+
+    /// The range of an entry to be traced over, where another one may be free.
+    fn range(&self, key: Key, free: Option<Key>, drive: &Drive) -> Result<[f64; 2], Failure> {
+        let options = [("--from", &*self.from), ("--to", &*self.to)];
+        parameter::range(options, key, free, drive)
+    }
+}
+
+/// A failure where the next state was not found.
+fn finished(end: &BranchEnd) -> Result<(), Failure> {
+    match end {
+        BranchEnd::NotConverged { .. } => Err(Failure::Unsolved(format!("error: {end}"))),
+        _ => Ok(()),
+    }
+}
+
+impl Report for Branch {
+    fn table(&self) -> String {
+        report::branch::table(self)
+    }
+
+    fn json(&self) -> String {
+        report::branch::json(self)
+    }
+
+    fn csv(&self) -> String {
+        report::branch::csv(self)
+    }
+
+    fn plot(&self, directory: &Path) -> Result<Vec<PathBuf>, plot::Error> {
+        plot::write_branch(self, directory)
+    }
+}
+
+impl Report for LimitCurve {
+    fn table(&self) -> String {
+        report::limit_curve::table(self)
+    }
+
+    fn json(&self) -> String {
+        report::limit_curve::json(self)
+    }
+
+    fn csv(&self) -> String {
+        report::limit_curve::csv(self)
+    }
+
+    fn plot(&self, directory: &Path) -> Result<Vec<PathBuf>, plot::Error> {
+        plot::write_limit_curve(self, directory)
+    }
+}

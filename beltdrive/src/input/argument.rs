@@ -1,0 +1,117 @@
+//! Entries and values that a command line names: what is traced, and from where to where.
+
+use super::{
+    check,
+    diagnostic::{Diagnostic, Finding},
+    document::{Content, Entry},
+    file,
+    key::Key,
+    schema::{self, Kind, QuantityRule},
+    source::Source,
+    spelling,
+};
+use crate::Drive;
+
+/// An option of a command line and its value.
+#[derive(Clone, Copy, Debug)]
+pub struct Argument<'a> {
+    /// The option, e.g. `--from`.
+    pub option: &'a str,
+    /// Its value, e.g. `700 N`.
+    pub value: &'a str,
+}
+
+impl Argument<'_> {
+    /// The entry of the drive file, given by its dotted path, over which a drive can be traced.
+    ///
+    /// # Errors
+    /// There is no such entry, it is no number, or it does not apply to the drive.
+    pub fn key(&self, drive: &Drive) -> Result<Key, Diagnostic> {
+        let known = Key::all(drive).find(|key| key.path() == self.value);
+        known.ok_or_else(|| self.diagnose(self.no_key(drive)))
+    }
+
+    /// The end of the range of an entry over which the drive is traced, in SI units. What the drive
+    /// has for another entry that is `free`, because it is found for each value, does not count.
+    ///
+    /// # Errors
+    /// The value is no quantity, of another dimension, out of its range, or contradicts the drive.
+    pub fn value(&self, key: Key, drive: &Drive, free: Option<Key>) -> Result<f64, Diagnostic> {
+        self.quantity(key, drive, free)
+            .map_err(|finding| self.diagnose(finding))
+    }
+
+    fn quantity(&self, key: Key, drive: &Drive, free: Option<Key>) -> Result<f64, Finding> {
+        let (source, entry) = (self.source(), self.entry());
+        let rule = schema::quantity_rule(key.path());
+        let QuantityRule {
+            rule,
+            dimension,
+            below,
+        } = rule.expect("a key is a quantity of the schema");
+        let value = check::number(rule, dimension, below, &entry, &source)?;
+        let mut drive = drive.clone();
+        key.set(&mut drive, value);
+        let is_free = |path: &&str| free.is_some_and(|free| free.path() == *path);
+        match file::contradiction(&drive) {
+            Some(contradiction) if !contradiction.between.iter().any(is_free) => {
+                Err(Finding::new(entry.place, contradiction.message))
+            }
+            _ => Ok(value),
+        }
+    }
+
+    /// Why the value is no entry over which the drive can be traced.
+    fn no_key(&self, drive: &Drive) -> Finding {
+        let path = self.value;
+        let place = self.entry().place;
+        let law = drive.law.name();
+        let other = schema::alternative(path);
+        let finding = |message| Finding::new(place.clone(), message);
+        match schema::rule(path).map(|rule| &rule.kind) {
+            Some(Kind::Refused(reason)) => finding(format!("`{path}` {reason}")),
+            Some(Kind::Text | Kind::Word { .. }) => {
+                finding(format!("`{path}` is no number, so it cannot be traced"))
+            }
+            Some(Kind::Quantity { .. }) if path == "belt.height" => finding(format!(
+                "`{path}` does not change the steady state, so it cannot be traced"
+            )),
+            Some(Kind::Quantity { .. }) => match other {
+                Some(other) => finding(format!("`{path}` is not given: the drive has `{other}`"))
+                    .did_you_mean(Some(other)),
+                None => finding(format!(
+                    "`{path}` does not apply to the friction law `{law}`"
+                )),
+            },
+            None => {
+                let keys = || Key::all(drive).map(|key| key.path());
+                let names = keys().map(|path| (schema::split(path).1, path));
+                let candidates = keys().map(|path| (path, path)).chain(names);
+                finding(format!("unknown key `{path}`"))
+                    .did_you_mean(spelling::nearest(path, candidates))
+            }
+        }
+        .expected(check::one_of(
+            &Key::all(drive).map(|key| key.path()).collect::<Vec<_>>(),
+        ))
+    }
+
+    fn source(&self) -> Source {
+        Source::argument(self.option, self.value)
+    }
+
+    /// The value as an entry of its source.
+    fn entry(&self) -> Entry {
+        let start = self.option.len() + 1;
+        let place = start..start + self.value.len();
+        Entry {
+            key: place.clone(),
+            place,
+            content: Content::Text(self.value.to_owned()),
+        }
+    }
+
+    fn diagnose(&self, finding: Finding) -> Diagnostic {
+        Diagnostic::new(finding, &self.source())
+    }
+}

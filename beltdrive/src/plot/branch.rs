@@ -1,0 +1,239 @@
+//! The bifurcation diagram of a branch: scalars of its states over the parameter.
+
+use super::axis::{Axis, Scale};
+use super::panel::{Chart, Panel};
+use super::style::{self, Canvas, Drawn, Header, Legend, Stroke, px};
+use crate::input::Key;
+use crate::report::{value, words};
+use crate::{Branch, StateSummary, TracePoint};
+use plotters::prelude::*;
+use plotters::style::text_anchor::HPos;
+use std::iter;
+
+/// Width of the figure and height of its panels together, px.
+const WIDTH: f64 = 1100.0;
+const PANELS: f64 = 680.0;
+
+/// Height of a line of the list of events and the space below it, px.
+const LINE: f64 = 20.0;
+const BELOW: f64 = 16.0;
+
+/// A panel: one or two scalars of one unit.
+struct Diagram {
+    title: &'static str,
+    axis: &'static str,
+    scale: Scale,
+    curves: &'static [Curve],
+}
+
+/// A scalar of the states.
+struct Curve {
+    color: RGBColor,
+    quantity: fn(&StateSummary) -> f64,
+}
+
+const DRIVER: RGBColor = style::VERMILION;
+const DRIVEN: RGBColor = style::BLUE;
+
+const DIAGRAMS: [Diagram; 4] = [
+    Diagram {
+        title: "Speed of the driven pulley",
+        axis: "angular speed in rad/s",
+        scale: Scale::Decimal,
+        curves: &[Curve {
+            color: DRIVEN,
+            quantity: |state| state.driven.angular_speed,
+        }],
+    },
+    Diagram {
+        title: "Efficiency",
+        axis: "efficiency in %",
+        scale: Scale::Decimal,
+        curves: &[Curve {
+            color: style::INK,
+            quantity: |state| 100.0 * state.efficiency,
+        }],
+    },
+    Diagram {
+        title: "Wrap angles",
+        axis: "wrap angle in degrees",
+        scale: Scale::Degrees,
+        curves: &[
+            Curve {
+                color: DRIVER,
+                quantity: |state| state.driver.wrap_angle.to_degrees(),
+            },
+            Curve {
+                color: DRIVEN,
+                quantity: |state| state.driven.wrap_angle.to_degrees(),
+            },
+        ],
+    },
+    Diagram {
+        title: "Inclination of the belt at the exit, positive outward",
+        axis: "inclination in degrees",
+        scale: Scale::Degrees,
+        curves: &[
+            Curve {
+                color: DRIVER,
+                quantity: |state| state.driver.inclination[1].to_degrees(),
+            },
+            Curve {
+                color: DRIVEN,
+                quantity: |state| state.driven.inclination[1].to_degrees(),
+            },
+        ],
+    },
+];
+
+/// The figure of a branch.
+pub(super) fn figure(branch: &Branch) -> String {
+    let key = branch.key;
+    let caption = format!("Branch over the {}", key.name());
+    let header = Header {
+        drive: &branch.drive,
+        varied: &[key],
+        caption: &caption,
+        warnings: &[],
+    };
+    let top = header.height();
+    let height = top + PANELS + LINE * branch.events.len() as f64 + BELOW;
+    let view = View::of(branch);
+    style::render([WIDTH, height], |canvas| {
+        style::header(canvas, &header, &view.legend())?;
+        let (_, below) = canvas.split_vertically(px(top));
+        let (panels, list) = below.split_vertically(px(PANELS));
+        for (panel, diagram) in panels.split_evenly((2, 2)).iter().zip(&DIAGRAMS) {
+            view.draw(panel, diagram)?;
+        }
+        view.list(&list)
+    })
+}
+
+/// A branch as it is drawn.
+struct View<'a> {
+    branch: &'a Branch,
+    /// The points before and behind the first limit point, which is in both.
+    sides: [Vec<&'a TracePoint>; 2],
+}
+
+impl<'a> View<'a> {
+    fn of(branch: &'a Branch) -> Self {
+        let fold = branch.first_limit_point().unwrap_or(f64::INFINITY);
+        let points: Vec<_> = branch.rows().into_iter().map(|(point, _)| point).collect();
+        let side = |is_on: &dyn Fn(f64) -> bool| {
+            let points = points.iter().copied();
+            points.filter(|point| is_on(point.arclength)).collect()
+        };
+        Self {
+            branch,
+            sides: [side(&|at| at <= fold), side(&|at| at >= fold)],
+        }
+    }
+
+    fn key(&self) -> Key {
+        self.branch.key
+    }
+
+    fn legend(&self) -> Vec<Legend> {
+        let line = |label, color| Legend::Line(label, Stroke::solid(color, 2.0));
+        let folded = self.sides[1].len() > 1;
+        let behind = Legend::Line("behind the limit point", Stroke::dashed(style::GREY, 2.0));
+        [line("driver", DRIVER), line("driven pulley", DRIVEN)]
+            .into_iter()
+            .chain(folded.then_some(behind))
+            .chain([Legend::Dot("event", style::INK)])
+            .collect()
+    }
+
+    fn draw(&self, canvas: &Canvas<'_>, diagram: &Diagram) -> Drawn {
+        let points = || self.sides.iter().flatten();
+        let across = points().map(|point| self.across(point));
+        let up = points().flat_map(|point| {
+            let curves = diagram.curves.iter();
+            curves.map(|curve| (curve.quantity)(&point.state))
+        });
+        let parameter = value::name(self.key());
+        let panel = Panel {
+            title: diagram.title,
+            axes: &[
+                Axis::spanning(across, Scale::Decimal).padded(),
+                Axis::spanning(up, diagram.scale).padded(),
+            ],
+            descriptions: [&parameter, diagram.axis],
+        };
+        let chart = panel.draw(canvas, iter::empty())?;
+        for curve in diagram.curves {
+            self.curve(&chart, curve)?;
+        }
+        Ok(())
+    }
+
+    /// A curve with the numbered events on it.
+    fn curve(&self, chart: &Chart<'_, '_>, curve: &Curve) -> Drawn {
+        let area = chart.plotting_area();
+        let at = |point: &TracePoint| (self.across(point), (curve.quantity)(&point.state));
+        let [before, behind] = &self.sides;
+        for (side, stroke) in [
+            (before, Stroke::solid(curve.color, 2.0)),
+            (behind, Stroke::dashed(curve.color, 2.0)),
+        ] {
+            if side.len() > 1 {
+                stroke.draw(area, side.iter().map(|point| at(point)).collect())?;
+            }
+        }
+        let face = style::face(style::SMALL, curve.color, HPos::Center);
+        for (number, event) in (1..).zip(&self.branch.events) {
+            let offset = [9.0, -9.0].map(px).into();
+            let dot = EmptyElement::at(at(&event.point))
+                + Circle::new((0, 0), px(style::DOT), curve.color.filled())
+                + Text::new(number.to_string(), offset, face.clone());
+            area.draw(&dot)?;
+        }
+        Ok(())
+    }
+
+    /// The numbered events in words.
+    fn list(&self, canvas: &Canvas<'_>) -> Drawn {
+        let face = style::face(style::BODY, style::INK, HPos::Left);
+        for (number, event) in (1..).zip(&self.branch.events) {
+            let place = value::quantity(self.key(), event.point.value, event.value_error);
+            let text = format!(
+                "{number}   {place}: {}",
+                words::event(event.kind, self.key())
+            );
+            let height = LINE * (f64::from(number) - 0.5);
+            style::write(canvas, &text, &face, [style::MARGIN, height])?;
+        }
+        Ok(())
+    }
+
+    fn across(&self, point: &TracePoint) -> f64 {
+        self.key().reported(point.value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample_branch;
+
+    #[test]
+    fn the_branch_is_parted_at_its_limit_point() {
+        let mut branch = sample_branch::folded();
+        let [before, behind] = View::of(&branch).sides;
+        assert_eq!(before.last(), behind.first());
+        assert_eq!(before.last().unwrap().value, branch.events[2].point.value);
+        branch.events.remove(2);
+        assert_eq!(View::of(&branch).sides[1], [] as [&TracePoint; 0]);
+        assert_eq!(View::of(&branch).legend().len(), 3);
+    }
+
+    #[test]
+    fn a_branch_of_one_state_has_a_figure() {
+        let mut branch = sample_branch::folded();
+        branch.points.truncate(1);
+        branch.events.clear();
+        assert!(figure(&branch).contains("Efficiency"));
+    }
+}

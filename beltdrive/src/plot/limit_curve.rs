@@ -1,0 +1,129 @@
+//! The chart of a limit over a second parameter.
+
+use super::axis::{Axis, Scale};
+use super::panel::Panel;
+use super::style::{self, Canvas, Drawn, Header, Legend, Stroke, px};
+use crate::report::{value, words};
+use crate::{LimitCurve, LimitCurvePoint, LimitReason};
+use plotters::prelude::*;
+use std::iter;
+
+/// Width and height of the figure, px.
+const SIZE: [f64; 2] = [900.0, 640.0];
+
+const WIDTH: f64 = 2.5;
+
+/// The figure of a curve.
+pub(super) fn figure(curve: &LimitCurve) -> String {
+    let LimitCurve { key, second, .. } = *curve;
+    let caption = format!("Limit of the {} over the {}", key.name(), second.name());
+    let header = Header {
+        drive: &curve.drive,
+        varied: &[key, second],
+        caption: &caption,
+        warnings: &[],
+    };
+    style::render(SIZE, |canvas| {
+        style::header(canvas, &header, &legend(curve))?;
+        let (_, below) = canvas.split_vertically(px(header.height()));
+        chart(&below, curve)
+    })
+}
+
+/// The colour of a kind of limit.
+fn color(reason: LimitReason) -> RGBColor {
+    match reason {
+        LimitReason::Overhang => style::VERMILION,
+        LimitReason::DriverSlips => style::WINE,
+        LimitReason::DrivenSlips => style::BLUE,
+    }
+}
+
+/// The kinds of limits that occur, in order along the curve.
+fn legend(curve: &LimitCurve) -> Vec<Legend> {
+    let mut reasons: Vec<LimitReason> = Vec::new();
+    for point in &curve.points {
+        if !reasons.contains(&point.reason) {
+            reasons.push(point.reason);
+        }
+    }
+    let cusp = (!curve.cusps.is_empty()).then_some(Legend::Dot("cusp", style::INK));
+    let lines = reasons.into_iter().map(|reason| {
+        Legend::Line(
+            words::limit_label(reason),
+            Stroke::solid(color(reason), WIDTH),
+        )
+    });
+    lines.chain(cusp).collect()
+}
+
+fn chart(canvas: &Canvas<'_>, curve: &LimitCurve) -> Drawn {
+    let LimitCurve { key, second, .. } = *curve;
+    let at = |point: &LimitCurvePoint| (second.reported(point.second), key.reported(point.value));
+    let points = || curve.points.iter().map(at);
+    let descriptions = [second, key].map(value::name);
+    let panel = Panel {
+        title: "",
+        axes: &[
+            Axis::spanning(points().map(|(across, _)| across), Scale::Decimal).padded(),
+            Axis::spanning(points().map(|(_, up)| up), Scale::Decimal).padded(),
+        ],
+        descriptions: descriptions.each_ref().map(String::as_str),
+    };
+    let chart = panel.draw(canvas, iter::empty())?;
+    let area = chart.plotting_area();
+    for (reason, piece) in pieces(curve) {
+        if piece.len() > 1 {
+            let line = piece.iter().map(at).collect();
+            Stroke::solid(color(reason), WIDTH).draw(area, line)?;
+        }
+    }
+    for point in &curve.points {
+        let dot = color(point.reason).filled();
+        area.draw(&Circle::new(at(point), px(WIDTH), dot))?;
+    }
+    for cusp in &curve.cusps {
+        area.draw(&Circle::new(at(cusp), px(style::DOT), style::INK.filled()))?;
+    }
+    Ok(())
+}
+
+/// The parts of the curve with one kind of limit each; every part begins where the one before
+/// ends.
+fn pieces(curve: &LimitCurve) -> Vec<(LimitReason, &[LimitCurvePoint])> {
+    let mut start = 0;
+    let parts = curve.points.chunk_by(|one, next| one.reason == next.reason);
+    parts
+        .map(|part| {
+            let from = start;
+            start += part.len();
+            (part[0].reason, &curve.points[from.saturating_sub(1)..start])
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::sample_branch;
+
+    #[test]
+    fn the_curve_is_parted_where_the_kind_of_limit_changes() {
+        let mut curve = sample_branch::curve();
+        let parts = pieces(&curve);
+        assert_eq!(parts.len(), 2);
+        assert_eq!(parts[0].1.last(), parts[1].1.first());
+        assert_eq!(parts[1].0, LimitReason::Overhang);
+        assert_eq!(legend(&curve).len(), 2);
+        curve.cusps = vec![curve.points[3].clone()];
+        assert_eq!(legend(&curve).len(), 3);
+        assert!(figure(&curve).contains("cusp"));
+    }
+
+    #[test]
+    fn a_curve_without_points_has_a_figure() {
+        let mut curve = sample_branch::curve();
+        curve.points.clear();
+        assert!(figure(&curve).contains("coefficient of friction"));
+    }
+}

@@ -1,0 +1,237 @@
+//! Drives that differ in one or two entries of the drive file, as a family of boundary value
+//! problems.
+//!
+//! The family has the parameters of [`DriveProblem`] and then the entries, each in a unit of its
+//! own. States and constants are differentiated exactly, entries by central differences: these
+//! only set the direction of a branch, never the place of a point on it.
+
+use super::groove::Groove;
+use super::{DRIVEN, DRIVER, DriveProblem, Regime, Scales, Solved};
+use crate::Drive;
+use crate::input::Key;
+use bvp::{Ends, Equations, Problem, Segment};
+use std::cell::RefCell;
+
+/// Relative step of the differences.
+const DIFFERENCE: f64 = 1e-5;
+
+/// An entry of a drive file that varies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    pub(super) key: Key,
+    /// The value (SI) that counts as one; positive.
+    pub(super) unit: f64,
+}
+
+/// A family of drives over its entries.
+pub(super) struct DriveFamily {
+    drive: Drive,
+    entries: Vec<Entry>,
+    force: f64,
+    epsilon: f64,
+    regimes: [Vec<Regime>; 2],
+    segments: Vec<Segment>,
+    /// Number of parameters of a member.
+    constants: usize,
+    members: RefCell<Members>,
+}
+
+/// The members in use, and buffers.
+struct Members {
+    values: Vec<f64>,
+    here: DriveProblem,
+    /// For each entry the members with a smaller and a larger value, if they were asked for.
+    beside: Option<Vec<[DriveProblem; 2]>>,
+    jacobian: Vec<f64>,
+    low: Vec<f64>,
+    high: Vec<f64>,
+}
+
+impl DriveFamily {
+    /// The drives like `solved`, of which `drive` is one, over `entries`: with its friction zones
+    /// and its ε.
+    pub(super) fn new(drive: &Drive, solved: &Solved, entries: Vec<Entry>) -> Self {
+        let problem = &solved.problem;
+        Self {
+            drive: drive.clone(),
+            entries,
+            force: problem.scales().force,
+            epsilon: problem.epsilon(),
+            regimes: [DRIVEN, DRIVER].map(|pulley| problem.regimes(pulley).to_vec()),
+            segments: Problem::segments(problem).to_vec(),
+            constants: Problem::parameters(problem),
+            members: RefCell::new(Members {
+                values: Vec::new(),
+                here: problem.clone(),
+                beside: None,
+                jacobian: Vec::new(),
+                low: Vec::new(),
+                high: Vec::new(),
+            }),
+        }
+    }
+
+    /// The same family with another normalisation ε of the slip direction.
+    pub(super) fn with_epsilon(mut self, epsilon: f64) -> Self {
+        self.epsilon = epsilon;
+        self.members.get_mut().values.clear();
+        self
+    }
+
+    /// Index of the first entry among the parameters.
+    pub(super) fn first_entry(&self) -> usize {
+        self.constants
+    }
+
+    /// The drive with scaled values of the entries.
+    pub(super) fn drive(&self, values: &[f64]) -> Drive {
+        let mut drive = self.drive.clone();
+        for (entry, value) in self.entries.iter().zip(values) {
+            entry.key.set(&mut drive, value * entry.unit);
+        }
+        drive
+    }
+
+    /// Its problem.
+    pub(super) fn member(&self, values: &[f64]) -> DriveProblem {
+        let drive = self.drive(values);
+        let [driven, driver] = &self.regimes;
+        DriveProblem::new(&drive, Scales::with_force(&drive, self.force), self.epsilon)
+            .with_zones(driven, driver)
+    }
+
+    /// Works with the members at the values of the entries among the parameters `p`.
+    fn with<T>(&self, p: &[f64], beside: bool, work: impl FnOnce(&mut Members, &[f64]) -> T) -> T {
+        let (constants, values) = p.split_at(self.constants);
+        let members = &mut *self.members.borrow_mut();
+        if members.values != values {
+            members.here = self.member(values);
+            members.values = values.to_vec();
+            members.beside = None;
+        }
+        if beside && members.beside.is_none() {
+            let mut moved = values.to_vec();
+            let pairs = (0..values.len()).map(|i| {
+                let pair = [-1.0, 1.0].map(|sign| {
+                    moved[i] = values[i] + sign * step(values[i]);
+                    self.member(&moved)
+                });
+                moved[i] = values[i];
+                pair
+            });
+            members.beside = Some(pairs.collect());
+        }
+        work(members, constants)
+    }
+}
+
+/// The step of a difference at the scaled value of an entry.
+fn step(value: f64) -> f64 {
+    DIFFERENCE * value.abs().max(DIFFERENCE)
+}
+
+impl Members {
+    /// Completes the rows of a Jacobian: those of the member, found in `jacobian`, and the
+    /// derivatives by the entries, as differences of `evaluate`.
+    fn complete(
+        &mut self,
+        rows: usize,
+        to: &mut [f64],
+        differs: impl Fn(&DriveProblem, &DriveProblem) -> bool,
+        mut evaluate: impl FnMut(&DriveProblem, &mut [f64]),
+    ) {
+        let columns = to.len() / rows;
+        let known = columns - self.values.len();
+        for (to, from) in to
+            .chunks_exact_mut(columns)
+            .zip(self.jacobian.chunks_exact(known))
+        {
+            to[..known].copy_from_slice(from);
+        }
+        self.low.resize(rows, 0.0);
+        self.high.resize(rows, 0.0);
+        for (i, [below, above]) in self.beside.iter().flatten().enumerate() {
+            if differs(below, above) {
+                evaluate(below, &mut self.low);
+                evaluate(above, &mut self.high);
+            } else {
+                self.low.fill(0.0);
+                self.high.fill(0.0);
+            }
+            let width = 2.0 * step(self.values[i]);
+            let pairs = self.low.iter().zip(&self.high);
+            for (to, (low, high)) in to.chunks_exact_mut(columns).zip(pairs) {
+                to[known + i] = (high - low) / width;
+            }
+        }
+    }
+}
+
+impl Equations for DriveFamily {
+    fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    fn parameters(&self) -> usize {
+        self.constants + self.entries.len()
+    }
+
+    fn condition_count(&self) -> usize {
+        let states: usize = self.segments.iter().map(|segment| segment.states).sum();
+        states + self.constants
+    }
+
+    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        self.with(p, false, |members, p| {
+            Problem::rhs(&members.here, segment, s, y, p, dy)
+        });
+    }
+
+    fn rhs_jacobian(
+        &self,
+        segment: usize,
+        s: f64,
+        y: &[f64],
+        p: &[f64],
+        dy: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        self.with(p, true, |members, p| {
+            let mut own = std::mem::take(&mut members.jacobian);
+            own.resize(y.len() * (y.len() + p.len()), 0.0);
+            members.here.rhs_jacobian(segment, s, y, p, dy, &mut own);
+            members.jacobian = own;
+            let grooves = |problem: &DriveProblem| -> [Groove; 2] {
+                [DRIVEN, DRIVER].map(|pulley| *problem.groove(pulley))
+            };
+            members.complete(
+                y.len(),
+                jacobian,
+                |one, other| grooves(one) != grooves(other),
+                |problem, dy| Problem::rhs(problem, segment, s, y, p, dy),
+            );
+        });
+    }
+
+    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+        self.with(p, false, |members, p| {
+            Problem::conditions(&members.here, at, p, r)
+        });
+    }
+
+    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
+        self.with(p, true, |members, p| {
+            let mut own = std::mem::take(&mut members.jacobian);
+            own.resize(r.len() * (ends.len() + p.len()), 0.0);
+            members.here.conditions_jacobian(ends, p, r, &mut own);
+            members.jacobian = own;
+            let at = Ends::new(&self.segments, ends);
+            members.complete(
+                r.len(),
+                jacobian,
+                |_, _| true,
+                |problem, r| Problem::conditions(problem, at, p, r),
+            );
+        });
+    }
+}

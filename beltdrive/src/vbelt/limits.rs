@@ -1,0 +1,248 @@
+//! Both ends of the range of an entry over which a drive has steady states.
+
+use super::limit::LimitReason;
+use super::path::{Path, Solved};
+use super::solve::{carried, checked};
+use super::state::describe;
+use super::tracer::{Tracer, Until, errors};
+use super::{SolveError, SolveOptions};
+use crate::input::Key;
+use crate::{
+    Branch, BranchEnd, BranchEvent, Drive, EventKind, Limit, Limits, RangeEnd, StateSummary,
+    TracePoint,
+};
+use continuation::Direction;
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::time::Instant;
+
+/// How far a load is lowered, in logarithms of its ratio to the slack tension, where the drive does
+/// not carry it.
+const EASIER: [f64; 6] = [0.8, 0.6, 0.4, 0.25, 0.15, 0.08];
+/// An upper end is sought up to this multiple of the value in the drive, and from there again.
+const STRETCH: f64 = 8.0;
+/// The most such stretches.
+const STRETCHES: usize = 6;
+/// A lower end is sought down to this share of the value.
+const SMALLEST_SHARE: f64 = 1e-3;
+/// Where the tight tension is below this multiple of the slack one, a branch under no load is left
+/// to the state without load.
+const LOW_RATIO: f64 = 3.0;
+
+/// Finds the smallest and the largest value of an entry — by default of the tight tension — that the
+/// drive carries, why the range ends there, and the branch between.
+///
+/// # Errors
+/// Those of [`solve`](crate::solve), if no state is found from which to search.
+///
+/// # Panics
+/// If the entry is none of this drive.
+pub fn limits(
+    drive: &Drive,
+    key: &Key,
+    options: &SolveOptions,
+    progress: &mut dyn FnMut(f64, &str),
+) -> Result<Limits, SolveError> {
+    let start = Instant::now();
+    let tolerance = checked(options)?;
+    progress(0.0, "solving a state between the limits");
+    let (drive, solved) = first_state(drive, key, tolerance)?;
+    let value = key.get(&drive);
+    let [low, high] = domain(&drive, key);
+
+    let mut up = upwards(&drive, key, tolerance, solved.clone(), high, progress);
+    let largest = limit(&up);
+    let is_load = *key == Key::tight_tension(&drive);
+    let bottom = if is_load && !matches!(drive.law, crate::FrictionLaw::Bristle { .. }) {
+        (LOW_RATIO * drive.load.slack.value()).min(value)
+    } else {
+        low
+    };
+    let mut down = Tracer::new(&drive, *key, [bottom, value], tolerance, Until::LimitPoint);
+    let down_end = if bottom < value {
+        down.run(solved, value, Direction::Decreasing, progress)
+    } else {
+        BranchEnd::Target
+    };
+    let smallest = if is_load && bottom > low {
+        no_load(&drive, tolerance)?
+    } else {
+        limit_of(&down, &down_end)
+    };
+
+    // From the smallest value to the largest.
+    let turn = |point: &mut TracePoint| point.arclength = -point.arclength;
+    down.points.iter_mut().for_each(turn);
+    down.events
+        .iter_mut()
+        .for_each(|event| turn(&mut event.point));
+    let mut points: Vec<TracePoint> = down.points.into_iter().rev().collect();
+    let mut events: Vec<BranchEvent> = down.events.into_iter().rev().collect();
+    points.append(&mut up.tracer.points);
+    events.append(&mut up.tracer.events);
+    events.retain(|event| !matches!(event.kind, EventKind::Start | EventKind::End));
+    let mut convergence = up.tracer.convergence;
+    convergence.newton_iterations += down.convergence.newton_iterations;
+    convergence.rhs_evaluations += down.convergence.rhs_evaluations;
+    convergence.factorisations += down.convergence.factorisations;
+    convergence.continuation_steps += down.convergence.continuation_steps;
+    convergence.seconds = start.elapsed().as_secs_f64();
+    Ok(Limits {
+        branch: Branch {
+            key: *key,
+            drive: drive.clone(),
+            points,
+            events,
+            end: up.end,
+            convergence,
+        },
+        smallest,
+        largest,
+    })
+}
+
+/// A finished trace and how it ended.
+pub(super) struct Upwards<'d> {
+    pub(super) tracer: Tracer<'d>,
+    pub(super) end: BranchEnd,
+}
+
+/// A state of the drive, at a smaller load if it does not carry its own.
+pub(super) fn first_state(
+    drive: &Drive,
+    key: &Key,
+    tolerance: f64,
+) -> Result<(Drive, Solved), SolveError> {
+    let tight = Key::tight_tension(drive);
+    let mut first = drive.clone();
+    let mut failure = None;
+    let ratio = tight.get(drive) / drive.load.slack.value();
+    for share in [1.0].into_iter().chain(EASIER) {
+        tight.set(&mut first, drive.load.slack.value() * ratio.powf(share));
+        let mut path = Path::new(&first, tolerance);
+        let found = path.find(first.load.tight.value() / path.scales.force);
+        match carried(&path, found) {
+            Ok(solved) => return Ok((first, solved)),
+            Err(error) if *key != tight => return Err(error),
+            Err(error) => failure = Some(error),
+        }
+    }
+    failure.map_or_else(|| Err(SolveError::Tolerance { tolerance }), Err)
+}
+
+/// Follows the branch towards larger values until it ends.
+pub(super) fn upwards<'d>(
+    drive: &'d Drive,
+    key: &Key,
+    tolerance: f64,
+    solved: Solved,
+    high: f64,
+    progress: &mut dyn FnMut(f64, &str),
+) -> Upwards<'d> {
+    let value = key.get(drive);
+    let mut top = value;
+    let mut outcome = None;
+    for _ in 0..STRETCHES {
+        top = (top * STRETCH).min(high);
+        let mut tracer = Tracer::new(drive, *key, [value, top], tolerance, Until::LimitPoint);
+        let end = tracer.run(solved.clone(), value, Direction::Increasing, progress);
+        let reached = tracer.points.last().is_some_and(|point| point.value == top);
+        let finished = !reached || top == high;
+        outcome = Some(Upwards { tracer, end });
+        if finished {
+            break;
+        }
+    }
+    outcome.unwrap_or_else(|| Upwards {
+        tracer: Tracer::new(drive, *key, [value, high], tolerance, Until::LimitPoint),
+        end: BranchEnd::Target,
+    })
+}
+
+/// The end of a trace as a limit.
+pub(super) fn limit(found: &Upwards<'_>) -> Limit {
+    limit_of(&found.tracer, &found.end)
+}
+
+fn limit_of(tracer: &Tracer<'_>, end: &BranchEnd) -> Limit {
+    let last = tracer.events.last();
+    let reason = match last {
+        Some(event) if matches!(event.kind, EventKind::GrossSlip(_)) => {
+            RangeEnd::Limit(LimitReason::DrivenSlips)
+        }
+        Some(event) if event.kind == EventKind::LimitPoint => {
+            let steep = event.point.state.driver.inclination[1] > FRAC_PI_2;
+            RangeEnd::Limit(if steep {
+                LimitReason::Overhang
+            } else {
+                LimitReason::DriverSlips
+            })
+        }
+        _ if *end == BranchEnd::NoLoad => RangeEnd::NoLoad,
+        _ => RangeEnd::NotFound,
+    };
+    let event = last.filter(|_| matches!(reason, RangeEnd::Limit(_)));
+    let at_event = event.map(|event| &event.point);
+    let point = at_event
+        .or(tracer.points.last())
+        .expect("a trace has a first point");
+    Limit {
+        value: point.value,
+        value_error: event.and_then(|event| event.value_error),
+        reason,
+        state: point.state.clone(),
+        errors: event.and_then(|event| event.errors),
+    }
+}
+
+/// The state without load: both spans have the same tension. Its ε is the smallest that was reached.
+fn no_load(drive: &Drive, tolerance: f64) -> Result<Limit, SolveError> {
+    let key = Key::tight_tension(drive);
+    let mut idle = drive.clone();
+    let value = drive.load.slack.value();
+    key.set(&mut idle, value);
+    let mut path = Path::new(&idle, tolerance);
+    let scaled = value / path.scales.force;
+    let solved = match path.at_load(scaled) {
+        Ok(solved) => solved,
+        Err(stuck) => match stuck.last {
+            Some(last) => *last,
+            None => {
+                let tight = None;
+                let cause = Box::new(stuck.cause);
+                return Err(SolveError::NotConverged { tight, cause });
+            }
+        },
+    };
+    let state = describe(&path, &solved);
+    let relative = path
+        .epsilon_effect
+        .max(solved.solution.error_estimate().unwrap_or(0.0));
+    let state = StateSummary {
+        error_estimate: Some(relative),
+        ..StateSummary::from(&state)
+    };
+    Ok(Limit {
+        value,
+        value_error: Some(0.0),
+        reason: RangeEnd::NoLoad,
+        errors: Some(errors(&state, drive, relative)),
+        state,
+    })
+}
+
+/// The values of an entry that a drive can have.
+pub(super) fn domain(drive: &Drive, key: &Key) -> [f64; 2] {
+    let value = key.get(drive);
+    let (slack, tight) = (drive.load.slack.value(), drive.load.tight.value());
+    let [mut low, mut high] = [SMALLEST_SHARE * value, f64::INFINITY];
+    match key.path() {
+        "load.tight_tractive_tension" | "load.tight_tension" => low = slack,
+        "load.slack_tractive_tension" | "load.slack_tension" => high = tight,
+        "groove.half_angle" => high = 0.49 * PI,
+        "layout.centre_distance" => low = 1.001 * (drive.driver_radius + drive.driven_radius),
+        "pulleys.driver.radius" => high = 0.999 * drive.centre_distance - drive.driven_radius,
+        "pulleys.driven.radius" => high = 0.999 * drive.centre_distance - drive.driver_radius,
+        _ => {}
+    }
+    [low, high]
+}
