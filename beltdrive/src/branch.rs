@@ -85,7 +85,8 @@ pub enum EventKind {
 pub enum BranchEnd {
     /// The parameter has reached the value asked for.
     Target,
-    /// Behind a limit point the parameter has come back to where the branch starts.
+    /// Behind a limit point the parameter has come back by a quarter of its way, or to where the
+    /// branch starts.
     Returned,
     /// The pulley slips grossly.
     GrossSlip(Pulley),
@@ -106,7 +107,7 @@ impl fmt::Display for BranchEnd {
         match self {
             Self::Target => f.write_str("the parameter reached the value asked for"),
             Self::Returned => {
-                f.write_str("behind a limit point the parameter came back to where it started")
+                f.write_str("behind a limit point the parameter came back")
             }
             Self::GrossSlip(pulley) => write!(f, "the {} slips grossly", pulley.name()),
             Self::NoLoad => {

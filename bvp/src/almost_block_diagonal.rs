@@ -299,9 +299,11 @@ impl AlmostBlockDiagonal {
     ///
     /// With the interior nodes eliminated by Q and tₑ the part of t at the ends, det \[J; tᵀ\] has
     /// the sign of det Q Π det R det \[E; tₑᵀ\], E being the matrix of the end system: what the
-    /// elimination makes of the row tᵀ has the product t · t > 0 with tₑ, as tₑᵀ itself has.
-    pub(crate) fn null_vector(&mut self, x: &mut Iterate) {
-        let negative = self.ends.null_vector(&mut self.unknowns)
+    /// elimination makes of the row tᵀ has the product t · t > 0 with tₑ, as tₑᵀ itself has. The same
+    /// holds for the stages eliminated before, whose determinants change the sign `stages` times.
+    pub(crate) fn null_vector(&mut self, x: &mut Iterate, stages: usize) {
+        let negative = stages
+            + self.ends.null_vector(&mut self.unknowns)
             + self.chains.iter().map(Chain::negative).sum::<usize>();
         if negative % 2 == 1 {
             self.unknowns.iter_mut().for_each(|t| *t = -*t);

@@ -225,10 +225,10 @@ impl<'a> Collocation<'a> {
     }
 
     /// The null vector of the Newton matrix J, oriented so that det \[J; tᵀ\] has one sign for all
-    /// linearisations on a mesh, provided that the intervals are short enough for their stages:
-    /// det M > 0 ([`Condensation`]). `zeros` is a residual that vanishes.
+    /// linearisations on a mesh. `zeros` is a residual that vanishes.
     pub(crate) fn null_vector(&mut self, zeros: &Residual, t: &mut Iterate) {
-        self.matrix.null_vector(t);
+        let stages = self.stages.iter().map(Condensation::negative).sum();
+        self.matrix.null_vector(t, stages);
         self.stage_correction(zeros, t);
     }
 

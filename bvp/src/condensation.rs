@@ -115,6 +115,22 @@ impl Condensation {
         Ok(())
     }
 
+    /// The number of exchanges and of negative pivots of all M: odd if the product of their
+    /// determinants is negative.
+    pub(crate) fn negative(&self) -> usize {
+        let size = self.size;
+        let intervals = self
+            .lu
+            .chunks_exact(size * size)
+            .zip(self.pivots.chunks_exact(size));
+        let count = |(lu, pivots): (&[f64], &[usize])| {
+            let exchanges = pivots.iter().enumerate().filter(|(i, pivot)| i != *pivot);
+            let diagonal = lu.iter().step_by(size + 1);
+            exchanges.count() + diagonal.filter(|pivot| **pivot < 0.0).count()
+        };
+        intervals.map(count).sum()
+    }
+
     /// The right-hand sides −Xᵀ r − c of all links, into the slots of nodes 1 … N of `nodes`.
     pub(crate) fn reduce(&self, residual: &SegmentIterate, nodes: &mut [f64]) {
         let (n, size) = (self.n, self.size);

@@ -186,8 +186,7 @@ impl<'a> Family<'a> {
     ///
     /// Its direction is such that det \[J; tᵀ\] has the same sign for all linearisations on one mesh:
     /// along a curve t keeps its direction, but for a jump to its opposite at a point where two
-    /// curves of solutions cross. This supposes intervals so short that a solution on one of them is
-    /// determined by its left end and stays so; any that meet the tolerance are, in practice.
+    /// curves of solutions cross.
     ///
     /// # Panics
     /// If `t` is too short.

@@ -76,7 +76,9 @@ impl<S: System> Branch<'_, S> {
         }
         if let Some(error) = point.error {
             let error = self.relative(&error, point.lambda());
-            self.stop = Some(Stop::Inaccurate { error, tolerance });
+            if error > tolerance {
+                self.stop = Some(Stop::Inaccurate { error, tolerance });
+            }
         }
         point
     }

@@ -14,13 +14,12 @@
 //! Schaeffer, *Singularities and Groups in Bifurcation Theory* I, Springer 1985; compare H. B.
 //! Keller (1977), section 5.
 
+use crate::bending::{FINE, ROUGH, Rule, bending, mixed};
 use crate::corrector::Corrector;
 use crate::metric::Metric;
-use crate::null_space::{NullSpace, derivative, solve};
+use crate::null_space::{NullSpace, solve};
 use crate::{Difficulty, System};
 
-/// Step of the differences of φ, in the arclength norm.
-const DIFFERENCE: f64 = 1e-3;
 /// Newton steps shorter than this that no longer shrink are rounding.
 const ROUNDING: f64 = 1e-7;
 /// Branches that come closer than this, in the arclength norm, meet.
@@ -83,7 +82,7 @@ pub(crate) fn branch_point<S: System>(
 ) -> Result<Crossing, Difficulty> {
     let n = z.len() - 1;
     let (mut z, mut eta) = (z.to_vec(), 0.0);
-    let (mut residual, mut step) = (vec![0.0; n], vec![0.0; n + 1]);
+    let mut residual = vec![0.0; n];
     let mut before = f64::INFINITY;
     let mut saddle = None;
     for count in 0.. {
@@ -91,27 +90,9 @@ pub(crate) fn branch_point<S: System>(
         residual.fill(f64::NAN);
         system.residual(&z, &mut residual);
         let right: Vec<f64> = residual.iter().zip(b).map(|(g, b)| -(g + eta * b)).collect();
-        system.particular(&right, &mut step);
-        let mut onto = step.clone();
-        onto.push(0.0);
-        space.project_out(metric, &mut onto);
-        add(&mut z, &mut eta, &onto);
-
-        let mut phi = |place: &[f64]| -> Result<[f64; 2], Difficulty> {
-            let there = NullSpace::at(system, corrector, metric, place, b)?;
-            there.eta(metric, &space).ok_or(Difficulty::Singular)
-        };
-        let gradient = phi(&z)?;
-        let mut hessian = [[0.0; 2]; 2];
-        for (j, direction) in space.0.iter().enumerate() {
-            let moved = |h: f64| -> Vec<f64> {
-                z.iter().zip(direction).map(|(z, d)| z + h * d).collect()
-            };
-            let slope = derivative(|h| phi(&moved(h)), DIFFERENCE)?;
-            for i in 0..2 {
-                hessian[i][j] = slope[i];
-            }
-        }
+        let onto = space.shortest(system, metric, b, &right);
+        let (hessian, change) = slopes(system, metric, &z, b, &space, &onto[..=n])?;
+        let gradient = [change[0], space.last(1) + change[1]];
         let a = solve(hessian, gradient.map(|g| -g)).ok_or(Difficulty::Singular)?;
         let along = space.combine(a);
         let length = metric.norm(&onto[..=n]) + a[0].hypot(a[1]);
@@ -128,6 +109,7 @@ pub(crate) fn branch_point<S: System>(
             saddle = Some((space, hessian));
             break;
         }
+        add(&mut z, &mut eta, &onto);
         add(&mut z, &mut eta, &along);
         before = length;
     }
@@ -148,6 +130,48 @@ pub(crate) fn branch_point<S: System>(
         })
     });
     Ok(Crossing { z, tangents })
+}
+
+/// The derivatives D of φ along the basis of `space`, column by column, and its change by `onto`.
+fn slopes<S: System>(
+    system: &mut S,
+    metric: &Metric,
+    z: &[f64],
+    b: &[f64],
+    space: &NullSpace,
+    onto: &[f64],
+) -> Result<([[f64; 2]; 2], [f64; 2]), Difficulty> {
+    let mut bend = |direction: &[f64], rule: &Rule| {
+        let residual = |s: f64, g: &mut [f64]| {
+            let moved: Vec<f64> = z.iter().zip(direction).map(|(z, d)| z + s * d).collect();
+            system.residual(&moved, g);
+        };
+        bending(residual, z.len() - 1, rule)
+    };
+    let sum = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a + b).collect() };
+    let [first, second] = [0, 1].map(|i| &space.0[i][..z.len()]);
+    let bends = [bend(first, &FINE), bend(second, &FINE)];
+    let cross = mixed(&bend(&sum(first, second), &FINE), &bends[0], &bends[1]);
+    let length = metric.norm(onto);
+    let along_onto = (length > 0.0).then(|| {
+        let unit: Vec<f64> = onto.iter().map(|v| v / length).collect();
+        let own = bend(&unit, &ROUGH);
+        [(first, &bends[0]), (second, &bends[1])]
+            .map(|(t, other)| mixed(&bend(&sum(&unit, t), &ROUGH), &own, other))
+    });
+    let mut rate = |bends: [&Vec<f64>; 2]| {
+        let rates = bends.map(|bend| {
+            let turned = space.shortest(system, metric, b, bend);
+            turned.iter().map(|w| -w).collect()
+        });
+        space.eta_rate(metric, space, &rates).ok_or(Difficulty::Singular)
+    };
+    let ([a, c], [b, d]) = (rate([&bends[0], &cross])?, rate([&cross, &bends[1]])?);
+    let change = match &along_onto {
+        Some([first, second]) => rate([first, second])?.map(|rate| length * rate),
+        None => [0.0; 2],
+    };
+    Ok(([[a, b], [c, d]], change))
 }
 
 fn add(z: &mut [f64], eta: &mut f64, step: &[f64]) {

@@ -10,17 +10,14 @@
 //! with φ the two η components of the null space of \[J b\]. η stays zero as long as the branch point
 //! persists; where it does not, the saddle goes on with η ≠ 0 and the branches part.
 
-use crate::corrector::Corrector;
-use crate::limit_point_curve::{second_derivative, with_last};
-use crate::metric::Metric;
-use crate::null_space::{NullSpace, derivative, solve};
+use crate::bending::{FINE, ROUGH};
+use crate::branch::check_length;
+use crate::branch_point;
+use crate::null_space::{NullSpace, solve};
+use crate::surface::Surface;
 use crate::system::{Cause, System, TwoParameter};
-use crate::{Difficulty, Error, Options, branch_point};
+use crate::{Difficulty, Error};
 
-/// Step of the differences of φ along the null space, in the arclength norm.
-const DIFFERENCE: f64 = 1e-3;
-/// Step of forward differences, in the arclength norm.
-const FORWARD: f64 = 1e-7;
 /// Saddles higher than this, relative to what a unit step in the null space of \[J b\] changes, are
 /// no branch points.
 const PERSISTENT: f64 = 1e-8;
@@ -32,17 +29,10 @@ const PERSISTENT: f64 = 1e-8;
 /// they do not, the trace ends with [`Stop::Adaptation`](crate::Stop::Adaptation).
 #[derive(Clone)]
 pub struct BranchPointCurve<S> {
-    base: S,
-    /// Evaluates away from the linearisation that `base` keeps.
-    probe: S,
-    corrector: Corrector,
-    metric: Metric,
-    column: Vec<f64>,
-    /// The null space of \[J b\] to whose basis φ refers.
+    /// The null spaces of \[J b\].
+    surface: Surface<S>,
+    /// The one to whose basis φ refers.
     reference: NullSpace,
-    z: Vec<f64>,
-    mu: f64,
-    phi: [f64; 2],
     /// Three vectors (z, η, μ) that span the null space of \[J b `G_μ`\].
     basis: [Vec<f64>; 3],
     /// Derivatives of φ along them.
@@ -55,96 +45,76 @@ impl<S: TwoParameter + Clone> BranchPointCurve<S> {
     /// The curve of branch points of `system` near the branch point `z` found at its present μ.
     ///
     /// # Errors
-    /// [`Error::NotSpecial`] where the null space cannot be had there.
+    /// [`Error::StartCount`] if `z` has the wrong length, [`Error::NotSpecial`] where the null space
+    /// cannot be had there.
     pub fn new(system: S, z: &[f64]) -> Result<Self, Error> {
+        let unknowns = system.unknowns();
+        check_length(z, unknowns)?;
         let kind = "branch point";
-        let failed = |difficulty| Error::NotSpecial { kind, difficulty };
-        let anywhere = Options::within(f64::NEG_INFINITY, f64::INFINITY);
-        let mut metric = Metric::new(&system, &anywhere, z);
-        metric.reach(&vec![0.0; z.len()]);
-        let (mut probe, mut corrector) = (system.clone(), Corrector::anywhere());
-        let column = branch_point::column(&mut probe, &metric, z).map_err(failed)?;
-        let reference =
-            NullSpace::at(&mut probe, &mut corrector, &metric, z, &column).map_err(failed)?;
-        let unknowns = z.len() + 2;
+        let column = |system: &mut S, metric: &_| branch_point::column(system, metric, z).map(Some);
+        let surface = Surface::new(system, z, column)
+            .map_err(|difficulty| Error::NotSpecial { kind, difficulty })?;
         Ok(Self {
-            base: system,
-            probe,
-            corrector,
-            metric,
-            column,
-            reference,
-            z: Vec::new(),
-            mu: 0.0,
-            phi: [0.0; 2],
-            basis: [(); 3].map(|()| vec![0.0; unknowns]),
+            reference: surface.space().clone(),
+            surface,
+            basis: [(); 3].map(|()| vec![0.0; unknowns + 2]),
             slopes: [[0.0; 3]; 2],
-            tangent: vec![0.0; unknowns],
+            tangent: vec![0.0; unknowns + 2],
         })
     }
 
     /// The unknowns (z, η, μ) of a branch point `z` found at the present μ of the system.
     pub fn start(&self, z: &[f64]) -> Vec<f64> {
-        [z, &[0.0, self.base.second()]].concat()
+        [z, &[0.0, self.base().second()]].concat()
     }
 
-    /// φ away from the linearisation.
-    fn phi(&mut self, z: &[f64], mu: f64) -> Result<[f64; 2], Difficulty> {
-        self.probe.set_second(mu);
-        let (probe, corrector) = (&mut self.probe, &mut self.corrector);
-        let space = NullSpace::at(probe, corrector, &self.metric, z, &self.column)?;
-        space.eta(&self.metric, &self.reference).ok_or(Difficulty::Singular)
+    /// The system whose branch points are followed.
+    pub fn base(&self) -> &S {
+        &self.surface.base
     }
 
-    /// φ moved from the linearisation by h times a direction (z, η, μ).
-    fn phi_along(&mut self, direction: &[f64], h: f64) -> Result<[f64; 2], Difficulty> {
-        let n = self.z.len();
-        let z: Vec<f64> = self.z.iter().zip(direction).map(|(z, d)| z + h * d).collect();
-        self.phi(&z, self.mu + h * direction[n + 1])
+    /// The derivative of φ, where both basis vectors of the null space change at these `rates`.
+    fn slope(&self, rates: &[Vec<f64>; 2]) -> Option<[f64; 2]> {
+        let (space, metric) = (self.surface.space(), &self.surface.metric);
+        space.eta_rate(metric, &self.reference, rates)
     }
 }
 
 impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
     fn unknowns(&self) -> usize {
-        self.base.unknowns() + 2
+        self.base().unknowns() + 2
     }
 
     fn residual(&mut self, z: &[f64], g: &mut [f64]) {
         let n = g.len() - 2;
         let (eta, mu) = (z[n + 1], z[n + 2]);
-        self.probe.set_second(mu);
-        self.probe.residual(&z[..=n], &mut g[..n]);
-        g[..n].iter_mut().zip(&self.column).for_each(|(g, b)| *g += eta * b);
-        let phi = self.phi(&z[..=n], mu).unwrap_or([f64::NAN; 2]);
-        g[n..].copy_from_slice(&phi);
+        self.surface.residual(&z[..=n], mu, &mut g[..n]);
+        let column = self.surface.column().iter();
+        g[..n].iter_mut().zip(column).for_each(|(g, b)| *g += eta * b);
+        let space = self.surface.look(&z[..=n], mu).cloned().ok();
+        let phi = space.and_then(|space| space.eta(&self.surface.metric, &self.reference));
+        g[n..].copy_from_slice(&phi.unwrap_or([f64::NAN; 2]));
     }
 
     fn linearise(&mut self, z: &[f64]) -> Result<(), Cause> {
         let n = z.len() - 3;
-        self.mu = z[n + 2];
-        self.z.clear();
-        self.z.extend_from_slice(&z[..=n]);
-        let rate = second_derivative(&mut self.probe, &self.z, self.mu);
-        self.base.set_second(self.mu);
-        let (base, corrector) = (&mut self.base, &mut self.corrector);
-        let space = NullSpace::at(base, corrector, &self.metric, &self.z, &self.column)?;
-        self.phi = space.eta(&self.metric, &self.reference).ok_or(Difficulty::Singular)?;
-        let mut v = vec![0.0; n + 1];
-        base.particular(&rate, &mut v);
-        v.iter_mut().for_each(|v| *v = -*v);
-        v.push(0.0);
-        space.project_out(&self.metric, &mut v);
-        let norm = self.metric.norm(&v[..=n]).hypot(v[n + 1]).hypot(1.0);
-        v.push(1.0);
-        v.iter_mut().for_each(|v| *v /= norm);
-        let [mut first, mut second] = space.0;
+        self.surface.linearise(&z[..=n], z[n + 2], &self.reference)?;
+        let [mut first, mut second] = self.surface.space().0.clone();
         first.push(0.0);
         second.push(0.0);
-        self.basis = [first, second, v];
-        for (j, direction) in self.basis.clone().iter().enumerate() {
-            let slope = derivative(|h| self.phi_along(direction, h), DIFFERENCE)?;
-            for i in 0..2 {
-                self.slopes[i][j] = slope[i];
+        // The third one is the way with μ, orthogonal to both.
+        let rate = self.surface.second_derivative();
+        let mut third: Vec<f64> = self.surface.shortest(&rate).iter().map(|v| -v).collect();
+        let norm = self.surface.metric.norm(&third[..=n]).hypot(third[n + 1]).hypot(1.0);
+        third.push(1.0);
+        third.iter_mut().for_each(|v| *v /= norm);
+        let [along_first, along_second] = self.surface.own_rates();
+        let along_third = self.surface.rates(&third[..=n], third[n + 2], &FINE);
+        self.basis = [first, second, third];
+        for (j, rates) in [along_first, along_second, along_third].iter().enumerate() {
+            let slope = self.slope(rates).ok_or(Difficulty::Singular)?;
+            for (slopes, slope) in self.slopes.iter_mut().zip(slope) {
+                slopes[j] = slope;
             }
         }
         let [a, b] = &self.slopes;
@@ -162,20 +132,15 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
 
     fn particular(&mut self, r: &[f64], v: &mut [f64]) {
         let n = r.len() - 2;
-        self.base.particular(&r[..n], &mut v[..=n]);
-        v[n + 1..].fill(0.0);
-        let mut shortest = v[..n + 2].to_vec();
-        let space = [0, 1].map(|i| self.basis[i][..n + 2].to_vec());
-        NullSpace(space).project_out(&self.metric, &mut shortest);
-        v[..n + 2].copy_from_slice(&shortest);
-        let length = self.metric.norm(&v[..=n]);
+        v[..n + 2].copy_from_slice(&self.surface.shortest(&r[..n]));
+        v[n + 2] = 0.0;
+        let length = self.surface.metric.norm(&v[..=n]);
         let mut right = [r[n], r[n + 1]];
         if length > 0.0 {
-            let h = FORWARD / length;
-            let moved = self.phi_along(v, h).unwrap_or([f64::NAN; 2]);
-            for (i, right) in right.iter_mut().enumerate() {
-                *right -= (moved[i] - self.phi[i]) / h;
-            }
+            let unit: Vec<f64> = v[..=n].iter().map(|v| v / length).collect();
+            let rates = self.surface.rates(&unit, 0.0, &ROUGH);
+            let slope = self.slope(&rates).unwrap_or([f64::NAN; 2]);
+            right.iter_mut().zip(slope).for_each(|(r, slope)| *r -= length * slope);
         }
         // The shortest a with D a = right: a = Dᵀ (D Dᵀ)⁻¹ right.
         let d = &self.slopes;
@@ -193,7 +158,7 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
 
     fn groups(&self, group: &mut [usize], share: &mut [f64]) {
         let n = group.len() - 2;
-        self.base.groups(&mut group[..n], &mut share[..n]);
+        self.base().groups(&mut group[..n], &mut share[..n]);
         let next = group[..n].iter().max().map_or(0, |last| last + 1);
         (group[n], share[n]) = (next, 1.0);
         // η is a measure of failure, not of progress.
@@ -205,35 +170,30 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
         if !(z[n + 1].abs() <= PERSISTENT) {
             return Err("the branch point does not persist: its branches part".into());
         }
-        self.base.set_second(z[n + 2]);
-        let changed = with_last(vectors, 2, |short| self.base.adapt(&z[..=n], short))?;
-        let mut here = z[..=n].to_vec();
+        let column = |system: &mut S, metric: &_, z: &[f64]| {
+            branch_point::column(system, metric, z).map(Some)
+        };
+        let here = (&z[..=n], z[n + 2]);
+        let (mut space, changed) = self.surface.adapt(here, vectors, 2, column)?;
         if changed {
-            here.clone_from(&vectors[0][..=n].to_vec());
-            self.probe = self.base.clone();
-            self.metric.regroup(&self.base);
-            self.probe.set_second(z[n + 2]);
-            self.column = branch_point::column(&mut self.probe, &self.metric, &here)?;
-            self.tangent = vec![0.0; here.len() + 2];
+            self.tangent = vec![0.0; self.unknowns()];
+        } else {
+            space.align(&self.surface.metric, &self.reference);
         }
-        self.metric.observe(&here);
-        self.probe.set_second(z[n + 2]);
-        let (probe, corrector) = (&mut self.probe, &mut self.corrector);
-        self.reference = NullSpace::at(probe, corrector, &self.metric, &here, &self.column)?;
+        self.reference = space;
         Ok(changed)
     }
 
     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self> {
-        let mut fine = with_last(vectors, 2, |short| self.base.refined(short))?;
-        let [z @ .., _, mu] = &vectors.first()?[..] else {
+        let fine = self.surface.refined(vectors, 2)?;
+        let [z @ .., _, _] = &vectors.first()?[..] else {
             return None;
         };
-        fine.set_second(*mu);
         Self::new(fine, z).ok()
     }
 
     fn tolerance(&self) -> f64 {
-        self.base.tolerance()
+        self.base().tolerance()
     }
 }
 

@@ -19,8 +19,10 @@ use crate::{Difficulty, System};
 const KEEP_BELOW: f64 = 0.1;
 /// Corrections that shrink less than this are diverging, or rounding.
 const CONTRACTION: f64 = 0.7;
-/// Corrections shorter than this that shrink no more are rounding.
+/// Corrections shorter than this, or than this many times the length wanted, that shrink no more
+/// are rounding.
 const ROUNDING: f64 = 1e-8;
+const ROUNDING_FACTOR: f64 = 100.0;
 /// A first correction shorter than this keeps the linearisation for the second one.
 const SHORT: f64 = 1e-3;
 /// A condition this nearly parallel to the curve determines nothing.
@@ -134,7 +136,7 @@ impl Corrector {
             if let Some(last) = before
                 && length > CONTRACTION * last
             {
-                if last <= ROUNDING {
+                if last <= ROUNDING.max(ROUNDING_FACTOR * wanted) {
                     return Ok(report);
                 }
                 if !keep {

@@ -110,6 +110,9 @@ pub enum Difficulty {
     /// The system could not be linearised.
     #[error("the system cannot be linearised: {0}")]
     Linearisation(#[source] Cause),
+    /// The system could not adapt its discretisation to the point.
+    #[error("the discretisation cannot be adapted: {0}")]
+    Adaptation(#[source] Cause),
     /// The null vector or the particular solution is not finite.
     #[error("the linearised system is singular")]
     Singular,

@@ -1,7 +1,7 @@
 //! The labelled points of a step.
 
 use crate::branch::TURNING;
-use crate::span::{Located, Node, Span};
+use crate::span::{Located, Node, RESOLVED, Span};
 use crate::{Branch, Difficulty, Kind, Point, System};
 
 /// Where λ turns more slowly than this at a branch point or cusp, it turns because of it.
@@ -84,7 +84,7 @@ impl<S: System> Branch<'_, S> {
                 let mut cusp = |system: &mut S, _: &[f64], _: &[f64]| {
                     system.cusp_function().unwrap_or(f64::NAN)
                 };
-                let at = self.span(to).zero(&mut cusp, [before, after], 0.0)?;
+                let at = self.span(to).zero(&mut cusp, [before, after], RESOLVED)?;
                 Ok(vec![Found::new(at, Kind::Cusp)])
             }
             _ => Ok(Vec::new()),
@@ -114,7 +114,7 @@ impl<S: System> Branch<'_, S> {
         let mut events = std::mem::take(&mut self.events);
         let event = &mut events[index];
         let mut value = |system: &mut S, z: &[f64], _: &[f64]| event(system, z);
-        let outcome = self.span(to).zero(&mut value, values, 0.0);
+        let outcome = self.span(to).zero(&mut value, values, RESOLVED);
         let least = outcome.as_ref().map_or(0.0, |at| event(self.system, &at.z).abs());
         self.events = events;
         let at = outcome?;
@@ -171,16 +171,11 @@ impl<S: System> Branch<'_, S> {
         (missed <= allowed).then_some(Located { u, z, tangent })
     }
 
-    /// A labelled point as it is yielded, on a step of so much arclength from the last node.
-    pub(crate) fn labelled(&self, found: Found, length: f64) -> Point {
+    /// A labelled point as it is yielded.
+    pub(crate) fn labelled(&mut self, found: Found) -> Point {
         let Found { at, kind, other } = found;
-        Point {
-            arclength: self.node.arclength + at.u.clamp(0.0, 1.0) * length,
-            z: at.z,
-            tangent: at.tangent,
-            kind,
-            other,
-            error: None,
-        }
+        let node = Node::new(at.z, at.tangent);
+        let arclength = self.node.arclength + self.span(&node).length();
+        Point { arclength, other, ..self.point(&node, kind) }
     }
 }

@@ -1,5 +1,6 @@
 //! Pseudo-arclength continuation of nonlinear systems.
 mod assess;
+mod bending;
 mod branch;
 mod branch_point;
 mod branch_point_curve;
@@ -18,6 +19,7 @@ mod root;
 mod span;
 mod step;
 mod stop;
+mod surface;
 mod system;
 
 pub use branch::{Branch, Direction, Leg, homotopy};

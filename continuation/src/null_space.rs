@@ -75,6 +75,14 @@ impl NullSpace {
         }
     }
 
+    /// Turns the basis within its space to where it is closest to `reference`.
+    pub(crate) fn align(&mut self, metric: &Metric, reference: &Self) {
+        self.orient(metric, reference);
+        let [[a, b], [c, d]] = self.alignment(metric, reference);
+        let (sine, cosine) = (c - b).atan2(a + d).sin_cos();
+        self.0 = [self.combine([cosine, -sine]), self.combine([sine, cosine])];
+    }
+
     /// The products ⟨reference, basis⟩.
     fn alignment(&self, metric: &Metric, reference: &Self) -> [[f64; 2]; 2] {
         let product = |i: usize, j: usize| dot(metric, &reference.0[i], &self.0[j]);
@@ -87,13 +95,73 @@ impl NullSpace {
     }
 
     /// The part of `vector` (n + 2 numbers) that is orthogonal to the space.
-    pub(crate) fn project_out(&self, metric: &Metric, vector: &mut [f64]) {
+    fn project_out(&self, metric: &Metric, vector: &mut [f64]) {
         for _ in 0..2 {
             for basis in &self.0 {
                 let along = dot(metric, basis, vector);
                 vector.iter_mut().zip(basis).for_each(|(x, b)| *x -= along * b);
             }
         }
+    }
+
+    /// The vector w = (v, η) orthogonal to the space with \[J b\] w = r, J where the system was
+    /// linearised last.
+    ///
+    /// Near a branch point a solution of J v = r is huge and its part orthogonal to the space lost in
+    /// rounding; but η is not, and J v = r − η b has a solution of the size of w.
+    pub(crate) fn shortest<S: System>(
+        &self,
+        system: &mut S,
+        metric: &Metric,
+        b: &[f64],
+        r: &[f64],
+    ) -> Vec<f64> {
+        let (n, mut eta) = (r.len(), 0.0);
+        let mut w = vec![0.0; n + 2];
+        for _ in 0..2 {
+            let right: Vec<f64> = r.iter().zip(b).map(|(r, b)| r - eta * b).collect();
+            system.particular(&right, &mut w[..=n]);
+            w[n + 1] = eta;
+            self.project_out(metric, &mut w);
+            eta = w[n + 1];
+        }
+        w
+    }
+
+    /// The derivative of [`eta`](Self::eta) where both basis vectors change at these `rates`.
+    pub(crate) fn eta_rate(
+        &self,
+        metric: &Metric,
+        reference: &Self,
+        rates: &[Vec<f64>; 2],
+    ) -> Option<[f64; 2]> {
+        let [[a, b], [c, d]] = self.alignment(metric, reference);
+        let [p, q] = self.eta(metric, reference)?;
+        // φ′ M = η′ − φ M′, transposed.
+        let right = [0, 1].map(|j| {
+            let turn = |i: usize| dot(metric, &reference.0[i], &rates[j]);
+            rates[j][rates[j].len() - 1] - p * turn(0) - q * turn(1)
+        });
+        solve([[a, c], [b, d]], right)
+    }
+
+    /// The derivative of [`determinant`](Self::determinant) where both basis vectors change at these
+    /// `rates`.
+    pub(crate) fn determinant_rate(
+        &self,
+        metric: &Metric,
+        reference: &Self,
+        rates: &[Vec<f64>; 2],
+    ) -> f64 {
+        let [[a, b], [c, d]] = self.alignment(metric, reference);
+        let turn = |i: usize, j: usize| dot(metric, &reference.0[i], &rates[j]);
+        let scale = a * d - b * c;
+        let scale_rate = turn(0, 0) * d + a * turn(1, 1) - turn(0, 1) * c - b * turn(1, 0);
+        let ends = |v: &[f64]| [v[v.len() - 2], v[v.len() - 1]];
+        let cross = |[p, q]: [f64; 2], [r, s]: [f64; 2]| p * s - r * q;
+        let [first, second] = [0, 1].map(|j| ends(&self.0[j]));
+        let rate = cross(ends(&rates[0]), second) + cross(first, ends(&rates[1]));
+        (rate - self.determinant(metric, reference) * scale_rate) / scale
     }
 
     /// Σ aᵢ Tᵢ.
@@ -117,18 +185,4 @@ pub(crate) fn solve(m: [[f64; 2]; 2], r: [f64; 2]) -> Option<[f64; 2]> {
         (m[0][0] * r[1] - r[0] * m[1][0]) / determinant,
     ];
     x.iter().all(|x| x.is_finite()).then_some(x)
-}
-
-/// The derivative of a function along a line, of fourth order in the step h.
-pub(crate) fn derivative<const N: usize, E>(
-    mut at: impl FnMut(f64) -> Result<[f64; N], E>,
-    h: f64,
-) -> Result<[f64; N], E> {
-    let values = [at(-2.0 * h)?, at(-h)?, at(h)?, at(2.0 * h)?];
-    let [a, b, c, d] = values;
-    let mut slope = [0.0; N];
-    for (i, slope) in slope.iter_mut().enumerate() {
-        *slope = (a[i] - d[i] + 8.0 * (c[i] - b[i])) / (12.0 * h);
-    }
-    Ok(slope)
 }

@@ -103,6 +103,10 @@ impl Options {
                 return Err(Error::Setting { name, value });
             }
         }
+        if self.corrections == 0 {
+            let (name, value) = ("corrections", 0.0);
+            return Err(Error::Setting { name, value });
+        }
         if let Some(&value) = self.targets.iter().find(|target| !target.is_finite()) {
             let name = "targets";
             return Err(Error::Setting { name, value });

@@ -6,20 +6,26 @@ const EVALUATIONS: usize = 100;
 /// Finds x between two points of different sign with f(x) = 0, to `tolerance` or to rounding, by
 /// inverse quadratic interpolation where that is safe and bisection elsewhere. T. R. Chandrupatla,
 /// "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without
-/// using derivatives", Adv. Eng. Softw. 28 (1997) 145-149.
+/// using derivatives", Adv. Eng. Softw. 28 (1997) 145-149. It ends when the interpolation moves no
+/// further than that, which spares the evaluation that closes the bracket.
 pub(crate) fn root<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
     (mut b, mut fb): (f64, f64),
     (mut a, mut fa): (f64, f64),
     tolerance: f64,
 ) -> Result<f64, E> {
-    let mut t: f64 = 0.5;
+    // The first place is that of linear interpolation, but not too close to an end.
+    let mut t = (fa / (fa - fb)).clamp(0.1, 0.9);
+    let mut interpolated = false;
     for _ in 0..EVALUATIONS {
         let best = if fa.abs() < fb.abs() { a } else { b };
         let width = (b - a).abs();
         let resolved = 0.5 * tolerance + 2.0 * f64::EPSILON * best.abs();
         if width <= 2.0 * resolved || fa == 0.0 || fb == 0.0 {
             return Ok(best);
+        }
+        if interpolated && t.abs() * width <= resolved {
+            return Ok(a);
         }
         let x = a + t.clamp(resolved / width, 1.0 - resolved / width) * (b - a);
         let fx = f(x)?;
@@ -33,7 +39,8 @@ pub(crate) fn root<E>(
         (a, fa) = (x, fx);
         // Interpolation is monotone, hence safe, under this condition.
         let (xi, phi) = ((a - b) / (c - b), (fa - fb) / (fc - fb));
-        t = if phi * phi < xi && (1.0 - phi).powi(2) < 1.0 - xi {
+        interpolated = phi * phi < xi && (1.0 - phi).powi(2) < 1.0 - xi;
+        t = if interpolated {
             fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
         } else {
             0.5
@@ -60,6 +67,8 @@ mod tests {
     fn roots_are_found_to_rounding_in_few_evaluations() {
         let (x, count) = solve(|x| x * x - 2.0, 0.0, 2.0);
         assert!((x - 2f64.sqrt()).abs() < 4.0 * f64::EPSILON && count < 12, "{x} {count}");
+        let (x, count) = solve(f64::sin, 3.0, 3.3);
+        assert!((x - std::f64::consts::PI).abs() < 1e-15 && count < 6, "{x} {count}");
         let (x, count) = solve(|x| (x - 0.3).powi(3), -1.0, 1.0);
         assert!((x - 0.3).abs() < 1e-5 && count < 70, "{x} {count}");
         let (x, _) = solve(|x| if x < 0.7 { -1.0 } else { 1.0 }, 0.0, 1.0);

@@ -9,6 +9,12 @@ use crate::{Difficulty, System};
 
 /// Branch points are bracketed this closely before Newton's method takes over.
 const BRACKET: f64 = 1e-3;
+/// Where the rate of λ seems to fall below this share of that at both nodes, it is looked at ...
+const SUSPICIOUS: f64 = 0.25;
+/// ... so many times.
+const LOOKS: usize = 4;
+/// Zeros are located to this share of a step.
+pub(crate) const RESOLVED: f64 = 1e-13;
 /// The most corrections of a located point.
 const CORRECTIONS: usize = 30;
 
@@ -165,26 +171,18 @@ impl<S: System> Span<'_, S> {
         Ok(Located { u, ..found })
     }
 
-    /// The limit points, one where the rate of λ changes its sign from node to node. Where it does
-    /// not, but the cubic through both nodes with their tangents turns back twice, the branch is
-    /// looked at there.
+    /// The limit points: one where the rate of λ changes its sign from node to node, two where it does
+    /// so in between.
     pub(crate) fn limit_points(&mut self) -> Result<Vec<Located>, Difficulty> {
         let n = self.from.z.len() - 1;
         let [before, after] = [self.from, self.to].map(|node| node.tangent[n]);
         let mut rate = |_: &mut S, _: &[f64], tangent: &[f64]| tangent[n];
         if before * after < 0.0 {
-            return Ok(vec![self.zero(&mut rate, [before, after], 0.0)?]);
+            return Ok(vec![self.zero(&mut rate, [before, after], RESOLVED)?]);
         }
-        let length = self.metric.norm(&self.secant());
-        let mean = (self.to.z[n] - self.from.z[n]) / length;
-        let Some(u) = turns_between(before, after, mean) else {
+        let Some(between) = self.turned_between()? else {
             return Ok(Vec::new());
         };
-        let [from, to] = self.ends();
-        let between = self.at(u, if u < 0.5 { &from } else { &to })?;
-        if between.tangent[n] * before >= 0.0 {
-            return Ok(Vec::new());
-        }
         let middle = Node::new(between.z, between.tangent);
         let mut found = Vec::new();
         for [from, to] in [[self.from, &middle], [&middle, self.to]] {
@@ -196,11 +194,43 @@ impl<S: System> Span<'_, S> {
                 ..*self
             };
             let values = [from, to].map(|node| node.tangent[n]);
-            let mut at = half.zero(&mut rate, values, 0.0)?;
+            let mut at = half.zero(&mut rate, values, RESOLVED)?;
             at.u = self.place(&at.z);
             found.push(at);
         }
         Ok(found)
+    }
+
+    /// A point between nodes with the same sign of the rate of λ where it has the other one. It is
+    /// looked for where the cubic through both nodes with their tangents suggests that the rate
+    /// becomes small, then at the vertex of the parabola through the rates.
+    fn turned_between(&mut self) -> Result<Option<Located>, Difficulty> {
+        let n = self.from.z.len() - 1;
+        let length = self.metric.norm(&self.secant());
+        let mean = (self.to.z[n] - self.from.z[n]) / length;
+        let [before, after] = [self.from, self.to].map(|node| node.tangent[n]);
+        let [from, to] = self.ends();
+        let Some((mut u, least)) = cubic_vertex(before, after, mean) else {
+            return Ok(None);
+        };
+        if least / before > SUSPICIOUS * (after / before).min(1.0) {
+            return Ok(None);
+        }
+        let mut near = if u < 0.5 { from } else { to };
+        for _ in 0..LOOKS {
+            near = self.at(u, &near)?;
+            let rate = near.tangent[n];
+            if rate * before < 0.0 {
+                return Ok(Some(near));
+            }
+            // The vertex of the parabola through the three rates.
+            let (p, q) = ((rate - before) / u, (after - rate) / (1.0 - u));
+            u = 0.5 * (u - p / (q - p));
+            if !(u > 0.0 && u < 1.0) {
+                break;
+            }
+        }
+        Ok(None)
     }
 
     /// The point with a prescribed λ, which must be passed between the nodes.
@@ -225,7 +255,7 @@ impl<S: System> Span<'_, S> {
             _ => {
                 let mut distance =
                     |_: &mut S, z: &[f64], _: &[f64]| z[n] - lambda;
-                let near = self.zero(&mut distance, [low - lambda, high - lambda], 0.0)?;
+                let near = self.zero(&mut distance, [low - lambda, high - lambda], RESOLVED)?;
                 // At a limit point λ does not determine the point, and is met to rounding.
                 self.correct(&near, 0.0, &condition).unwrap_or(near)
             }
@@ -320,13 +350,13 @@ fn nearest(known: &[Located], u: f64) -> &Located {
     nearest.unwrap_or(&known[0])
 }
 
-/// Where the rate of the cubic with rates `before` and `after` of the same sign at its ends and this
-/// mean rate is smallest, if it has the other sign there.
-fn turns_between(before: f64, after: f64, mean: f64) -> Option<f64> {
+/// Where the rate of the cubic with rates `before` and `after` at its ends and this mean rate is
+/// stationary between them, and the rate there.
+fn cubic_vertex(before: f64, after: f64, mean: f64) -> Option<(f64, f64)> {
     let (slope, curvature) = (6.0 * mean - 4.0 * before - 2.0 * after, before + after - 2.0 * mean);
     let u = -slope / (6.0 * curvature);
-    let least = before + u * (slope + 3.0 * curvature * u);
-    (u > 0.0 && u < 1.0 && least * before < 0.0).then_some(u)
+    let rate = before + u * (slope + 3.0 * curvature * u);
+    (u > 0.0 && u < 1.0).then_some((u, rate))
 }
 
 #[cfg(test)]
@@ -334,14 +364,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cubic_that_turns_back_twice_is_recognised() {
+    fn the_rate_of_a_cubic_is_stationary_at_its_vertex() {
         // (u − a)(u − b) is the rate.
         let case = |a: f64, b: f64| {
-            turns_between(a * b, (1.0 - a) * (1.0 - b), 1.0 / 3.0 - 0.5 * (a + b) + a * b)
+            cubic_vertex(a * b, (1.0 - a) * (1.0 - b), 1.0 / 3.0 - 0.5 * (a + b) + a * b)
         };
-        assert!((case(0.4, 0.401).unwrap() - 0.4005).abs() < 1e-12);
+        let (u, rate) = case(0.4, 0.41).unwrap();
+        assert!((u - 0.405).abs() < 1e-12 && (rate + 2.5e-5).abs() < 1e-14);
         assert_eq!(case(-0.4, -0.3), None);
         assert_eq!(case(1.1, 1.2), None);
-        assert_eq!(turns_between(1.0, 1.0, 1.0), None);
+        assert_eq!(cubic_vertex(1.0, 1.0, 1.0), None);
     }
 }

@@ -4,6 +4,7 @@ use crate::branch::reverse;
 use crate::corrector::{Accuracy, Condition, Correction};
 use crate::labels::Found;
 use crate::null_space;
+use crate::predictor::History;
 use crate::span::{Node, Span};
 use std::f64::consts::PI;
 use crate::{Branch, Difficulty, Kind, Parameterisation, Predictor, Stop, System};
@@ -28,6 +29,8 @@ const REFLECTED: f64 = 0.5;
 const TOUCHING: f64 = 1.0 / 64.0;
 /// A linearisation further than this share of the step from a point gives no tangent there.
 const DRIFTED: f64 = 0.05;
+/// The most changes of the discretisation at one point.
+const ADAPTATIONS: usize = 3;
 /// An imperfect crossing shortens steps down to this share of the largest, then it is passed.
 const CROSSING: f64 = 1e-3;
 
@@ -47,10 +50,6 @@ impl<S: System> Branch<'_, S> {
             self.stop = Some(Stop::Steps { steps: self.steps });
             return;
         }
-        if self.steps > 0 && let Err(stop) = self.adapt() {
-            self.stop = Some(stop);
-            return;
-        }
         let n = self.node.z.len() - 1;
         let (rate, lambda) = (self.node.tangent[n], self.node.z[n]);
         let [low, high] = self.options.bounds;
@@ -59,9 +58,9 @@ impl<S: System> Branch<'_, S> {
             return;
         }
         loop {
-            let difficulty = match self.attempt(self.step) {
-                Ok(taken) => return self.accept(taken),
-                Err(difficulty) => difficulty,
+            let taken = self.attempt(self.step);
+            let Err(difficulty) = taken.and_then(|taken| self.accept(taken)) else {
+                return;
             };
             self.step *= match difficulty {
                 Difficulty::NotFinite { .. } | Difficulty::Linearisation(_) => 0.25,
@@ -75,19 +74,17 @@ impl<S: System> Branch<'_, S> {
         }
     }
 
-    /// Lets the system adapt its discretisation, and the branch with it.
-    fn adapt(&mut self) -> Result<(), Stop> {
+    /// Lets the system adapt its discretisation, and the branch with it; returns whether it has.
+    fn adapt(&mut self) -> Result<bool, Difficulty> {
         let z = self.node.z.clone();
         let mut vectors = self.take_vectors();
         let outcome = self.system.adapt(&z, &mut vectors);
         self.put_vectors(vectors);
-        if !outcome.map_err(Stop::Adaptation)? {
-            return Ok(());
+        let changed = outcome.map_err(Difficulty::Adaptation)?;
+        if changed {
+            self.settle()?;
         }
-        self.settle().map_err(|difficulty| Stop::StepTooSmall {
-            step: self.step,
-            difficulty,
-        })
+        Ok(changed)
     }
 
     /// All vectors that depend on the discretisation.
@@ -210,7 +207,12 @@ impl<S: System> Branch<'_, S> {
         let (z, t, s) = (&self.node.z, &self.node.tangent, self.node.arclength);
         match self.options.predictor {
             Predictor::Polynomial => self.history.predict(z, t, s, h, to),
-            Predictor::Tangent => crate::predictor::History::default().predict(z, t, s, h, to),
+            Predictor::Tangent => History::default().predict(z, t, s, h, to),
+        }
+        if self.options.parameterisation == Parameterisation::Natural {
+            // A polynomial would pass limit points now and then.
+            let n = z.len() - 1;
+            to[n] = z[n] + h * t[n];
         }
     }
 
@@ -248,7 +250,10 @@ impl<S: System> Branch<'_, S> {
         // Accurate at small angles, where the arc cosine is not.
         let half = 0.5 * self.metric.distance(&node.tangent, &self.node.tangent);
         let (angle, limit) = (2.0 * half.min(1.0).asin(), SHARPEST * self.options.angle);
-        if angle <= limit { Ok(angle) } else { Err(Difficulty::Turn { angle, limit }) }
+        let n = node.z.len() - 1;
+        let turned = node.tangent[n] * self.node.tangent[n] < 0.0;
+        let stuck = turned && self.options.parameterisation == Parameterisation::Natural;
+        if angle <= limit && !stuck { Ok(angle) } else { Err(Difficulty::Turn { angle, limit }) }
     }
 
     /// The angle by which the second null vector turns on a step h: by too much, or with a height
@@ -281,37 +286,55 @@ impl<S: System> Branch<'_, S> {
         }
     }
 
-    /// Moves on to the end of a step and queues its points.
-    fn accept(&mut self, taken: Taken) {
+    /// Moves on to the end of a step and queues its points; fails, with nothing changed, if the
+    /// system cannot adapt its discretisation to the new point.
+    fn accept(&mut self, taken: Taken) -> Result<(), Difficulty> {
         let Taken { mut node, found, landed, growth } = taken;
-        self.steps += 1;
         let closed = found.iter().any(|found| found.kind == Kind::Closed);
         let length = node.arclength - self.node.arclength;
         for found in found {
-            let point = self.labelled(found, length);
+            let point = self.labelled(found);
             self.queue.push_back(point);
         }
-        if closed {
-            self.stop = Some(Stop::Closed);
-            return;
-        }
-        let lambda = node.z[node.z.len() - 1];
-        let kind = if landed { Kind::Bound } else { Kind::Regular };
-        self.queue.push_back(self.point(&node, kind));
-        if landed {
+        if closed || landed {
+            self.steps += 1;
+            if closed {
+                self.stop = Some(Stop::Closed);
+                return Ok(());
+            }
+            let point = self.point(&node, Kind::Bound);
+            let lambda = point.lambda();
+            self.queue.push_back(point);
             self.stop = Some(Stop::Bound { lambda });
-            return;
+            return Ok(());
         }
         self.metric.observe(&node.z);
         self.metric.normalise(&mut node.tangent);
-        self.trend = (!self.unoriented).then(|| (node.height() - self.node.height()) / length);
+        let trend = (!self.unoriented).then(|| (node.height() - self.node.height()) / length);
         let left = std::mem::replace(&mut self.node, node);
-        if self.unoriented {
-            // Rates along a branch begin to mean something with the first step off a branch point.
-            self.unoriented = false;
+        let history = self.history.clone();
+        self.history.push(left.z.clone(), left.arclength);
+        for adaptation in 0..ADAPTATIONS {
+            match self.adapt() {
+                Ok(true) => {}
+                Ok(false) => break,
+                Err(difficulty) if adaptation == 0 => {
+                    (self.node, self.history) = (left, history);
+                    self.queue.clear();
+                    return Err(difficulty);
+                }
+                // The discretisation is better than it was; the next step asks again.
+                Err(_) => break,
+            }
         }
-        self.history.push(left.z, left.arclength);
+        self.steps += 1;
+        self.trend = trend;
+        // Rates along a branch begin to mean something with the first step off a branch point.
+        self.unoriented = false;
         self.step = (self.step * growth).min(self.options.largest_step);
+        let point = self.point(&self.node, Kind::Regular);
+        self.queue.push_back(point);
+        Ok(())
     }
 }
 

@@ -1,6 +1,6 @@
 //! Why a branch ends.
 
-use crate::{Cause, Difficulty};
+use crate::Difficulty;
 
 /// Why a branch ends. None of these is a fault of the caller; the last point yielded is good.
 #[derive(Debug, thiserror::Error)]
@@ -30,9 +30,6 @@ pub enum Stop {
         #[source]
         difficulty: Difficulty,
     },
-    /// The system could not adapt its discretisation.
-    #[error("the discretisation cannot be adapted: {0}")]
-    Adaptation(#[source] Cause),
     /// The discretisation error of a labelled point stays above the tolerance of the system. The
     /// point was yielded with its error.
     #[error("discretisation error {error:.1e} of a labelled point, tolerance {tolerance:.1e}")]

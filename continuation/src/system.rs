@@ -49,7 +49,8 @@ pub trait System {
     /// does nothing.
     ///
     /// # Errors
-    /// Where the discretisation needed is out of reach; the branch ends there.
+    /// Where the discretisation needed is out of reach, with the system and the vectors unchanged: a
+    /// shorter step is then tried.
     fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Cause> {
         let _ = (z, vectors);
         Ok(false)

@@ -12,8 +12,8 @@ use std::time::Instant;
 /// Traces the branch of steady states of a drive over one entry of the drive file, from the value
 /// `range[0]` to `range[1]` (SI), around limit points where there are any.
 ///
-/// The branch ends where it reaches the end of the range, where it comes back to its beginning
-/// behind a limit point, or where the driven pulley stands still: beyond that no state is a drive
+/// The branch ends where it reaches the end of the range, where it has come back by a quarter of
+/// its way behind a limit point, or where the driven pulley stands still: beyond that no state is a drive
 /// state. What happens on the way — limit points, an inclination of 90°, friction zones that vanish —
 /// is located and carries an error estimate. `progress` is called with the share of the range that is
 /// done and what is being done.

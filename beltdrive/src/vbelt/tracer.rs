@@ -37,8 +37,13 @@ const LOW_RATIO_EPSILON: f64 = 1e-5;
 const MAX_PIECES: usize = 40;
 /// The most steps of a piece.
 const MAX_STEPS: usize = 600;
+/// Behind a limit point a branch is followed until the entry has come back by this share of its way.
+const WAY_BACK: f64 = 0.25;
 /// The longest step, where the range of the entry counts as one.
 const LARGEST_STEP: f64 = 0.1;
+
+/// Accuracy of the points of a branch, as a share of the tolerance.
+const ACCURACY: f64 = 1e-3;
 
 /// Event functions of every piece, by their number; those of the zones follow.
 const OVERHANG: [usize; 2] = [0, 1];
@@ -246,6 +251,7 @@ impl<'d> Tracer<'d> {
         let options = Options {
             largest_step: LARGEST_STEP,
             steps: MAX_STEPS,
+            accuracy: ACCURACY * self.tolerance,
             ..Options::within(self.range[0] / unit, self.range[1] / unit)
         };
         let branch = match Branch::new(&mut curve, &z, direction, &options) {
@@ -288,7 +294,7 @@ impl<'d> Tracer<'d> {
                 Some(EventKind::LimitPoint) if self.until == Until::LimitPoint => {
                     Some(BranchEnd::Target)
                 }
-                _ => None,
+                _ => self.came_back(place).then_some(BranchEnd::Returned),
             };
             last = Some(here.solution.stats().to_owned());
             if let Some(end) = ends_here {
@@ -404,7 +410,9 @@ impl<'d> Tracer<'d> {
     /// Records a point and what happens there; returns its value.
     fn record(&mut self, point: &Point, kind: Option<EventKind>, state: &SteadyState) -> f64 {
         let value = self.value(point.lambda());
-        let relative = point.error.map(|error| {
+        // Where the comparison did not converge, nothing is known.
+        let error = point.error.filter(|error| error.states.is_finite());
+        let relative = error.map(|error| {
             let own = if value == 0.0 {
                 0.0
             } else {
@@ -424,7 +432,7 @@ impl<'d> Tracer<'d> {
             self.events.push(BranchEvent {
                 kind,
                 point: traced.clone(),
-                value_error: point.error.map(|error| error.lambda * self.unit()),
+                value_error: error.map(|error| error.lambda * self.unit()),
                 errors: relative.map(|relative| errors(&traced.state, self.drive, relative)),
             });
         }
@@ -433,6 +441,16 @@ impl<'d> Tracer<'d> {
             self.points.push(traced);
         }
         value
+    }
+
+    /// Whether the entry has come back far enough behind the last limit point.
+    fn came_back(&self, value: f64) -> bool {
+        let is_turn = |event: &&BranchEvent| event.kind == EventKind::LimitPoint;
+        let Some(turn) = self.events.iter().rfind(is_turn) else {
+            return false;
+        };
+        let (first, turn) = (self.points[0].value, turn.point.value);
+        (value - turn).abs() >= WAY_BACK * (turn - first).abs()
     }
 
     /// How much of the range lies behind.
