@@ -1,0 +1,50 @@
+! Bratu by central differences at n = NDIM inner points, h = 1 / (n + 1), u_0 = u_{n+1} = 0:
+!
+!     (u_{i-1} - 2 u_i + u_{i+1}) / h^2 + lambda exp(u_i) = 0,   i = 1 .. n,
+!
+! an algebraic system, from lambda = 0, u = 0. U = (u_1, .., u_n), PAR = (lambda).
+
+SUBROUTINE FUNC(NDIM, U, ICP, PAR, IJAC, F, DFDU, DFDP)
+  IMPLICIT NONE
+  INTEGER, INTENT(IN) :: NDIM, ICP(*), IJAC
+  DOUBLE PRECISION, INTENT(IN) :: U(NDIM), PAR(*)
+  DOUBLE PRECISION, INTENT(OUT) :: F(NDIM)
+  DOUBLE PRECISION, INTENT(INOUT) :: DFDU(NDIM, NDIM), DFDP(NDIM, *)
+  DOUBLE PRECISION :: H
+  INTEGER :: I
+  H = 1D0 / (NDIM + 1)
+  F = -2 * U
+  F(2:NDIM) = F(2:NDIM) + U(1:NDIM-1)
+  F(1:NDIM-1) = F(1:NDIM-1) + U(2:NDIM)
+  F = F / H**2 + PAR(1) * EXP(U)
+  IF (IJAC == 0) RETURN
+  DFDU = 0
+  DO I = 1, NDIM
+    DFDU(I, I) = -2 / H**2 + PAR(1) * EXP(U(I))
+    IF (I > 1) DFDU(I, I-1) = 1 / H**2
+    IF (I < NDIM) DFDU(I, I+1) = 1 / H**2
+  END DO
+  IF (IJAC == 1) RETURN
+  DFDP(:, 1) = EXP(U)
+END SUBROUTINE FUNC
+
+SUBROUTINE STPNT(NDIM, U, PAR, X)
+  IMPLICIT NONE
+  INTEGER, INTENT(IN) :: NDIM
+  DOUBLE PRECISION, INTENT(INOUT) :: U(NDIM), PAR(*)
+  DOUBLE PRECISION, INTENT(IN) :: X
+  PAR(1) = 0
+  U = 0
+END SUBROUTINE STPNT
+
+SUBROUTINE BCND
+END SUBROUTINE BCND
+
+SUBROUTINE ICND
+END SUBROUTINE ICND
+
+SUBROUTINE FOPT
+END SUBROUTINE FOPT
+
+SUBROUTINE PVLS
+END SUBROUTINE PVLS
