@@ -33,6 +33,8 @@ const EPSILON: f64 = 1e-7;
 /// ... where the tight tension is less than this multiple of the slack one.
 const LOW_RATIO: f64 = 3.0;
 const LOW_RATIO_EPSILON: f64 = 1e-5;
+/// A share of the range that is no way.
+const AHEAD: f64 = 1e-6;
 /// The most pieces of a branch.
 const MAX_PIECES: usize = 40;
 /// The most steps of a piece.
@@ -211,7 +213,12 @@ impl<'d> Tracer<'d> {
         let not_converged = |cause: String| PieceEnd::Branch(BranchEnd::NotConverged { cause });
         let unit = self.unit();
         let drive = self.drive_at(value);
-        let epsilon = Self::epsilon(&drive);
+        // A piece may begin where ε changes: what counts is what lies ahead.
+        let ahead = match direction {
+            Direction::Increasing => AHEAD,
+            Direction::Decreasing => -AHEAD,
+        };
+        let epsilon = Self::epsilon(&self.drive_at(value + ahead * unit));
         let mut solved = solved.clone();
         if epsilon > 0.0 && solved.problem.epsilon() != epsilon {
             let range = [solved.problem.epsilon().ln(), epsilon.ln()];
@@ -228,9 +235,11 @@ impl<'d> Tracer<'d> {
         };
         let family = DriveFamily::new(self.drive, &solved, vec![entry]);
         let finer = DriveFamily::new(self.drive, &solved, vec![entry]).with_epsilon(0.25 * epsilon);
+        // Bristles make smooth profiles; layers of ε ask for a higher order.
+        let stages = if epsilon > 0.0 { 6 } else { 5 };
         let options = bvp::Options {
             tolerance: self.tolerance,
-            scheme: Scheme::Gauss { stages: 6 },
+            scheme: Scheme::Gauss { stages },
             global_error: GlobalError::Skip,
             ..bvp::Options::default()
         };
@@ -284,7 +293,7 @@ impl<'d> Tracer<'d> {
             let place = self.record(&point, kind, &state);
             progress(self.share(place), "tracing");
             let restart = match point.kind {
-                Kind::Event(RATIO) => true,
+                Kind::Event(RATIO) => point.arclength > AHEAD,
                 Kind::Event(index) => index >= FIRST_ZONE,
                 Kind::Regular => here.problem.is_split() && Split::of(&here).is_some(),
                 _ => false,
