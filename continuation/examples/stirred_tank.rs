@@ -25,12 +25,18 @@ fn main() -> Result<(), Error> {
     println!("steady states for p2 = 18");
     let mut folds = Vec::new();
     for point in branch.by_ref() {
-        println!("{:12.8} {:12.8} {:12.8}  {:?}", point.lambda(), point.z[0], point.z[1], point.kind);
+        println!(
+            "{:12.8} {:12.8} {:12.8}  {:?}",
+            point.lambda(),
+            point.z[0],
+            point.z[1],
+            point.kind
+        );
         if point.kind == Kind::LimitPoint {
             folds.push(point.z);
         }
     }
-    println!("{}", branch.stop().expect("the branch has ended"));
+    println!("{}", branch.into_stop().expect("the branch has ended"));
     // u₂ = 3/2 and 3, u₁ = 1/3 and 2/3
     assert_eq!(folds.len(), 2);
     assert!((folds[0][2] - 0.5 * (-1.5f64).exp()).abs() < 1e-12);
@@ -38,18 +44,29 @@ fn main() -> Result<(), Error> {
 
     let mut curve = LimitPointCurve::new(system, &folds[0])?;
     let start = curve.start(&folds[0]);
-    let options = Options { targets: vec![17.0], ..Options::within(10.0, 20.0) };
+    let options = Options {
+        targets: vec![17.0],
+        ..Options::within(10.0, 20.0)
+    };
     let branch = Branch::new(&mut curve, &start, Direction::Decreasing, &options)?;
     println!("limit points: p2, p1, u2");
     let mut cusps = Vec::new();
     for point in branch {
-        println!("{:12.8} {:12.8} {:12.8}  {:?}", point.z[3], point.z[2], point.z[1], point.kind);
+        println!(
+            "{:12.8} {:12.8} {:12.8}  {:?}",
+            point.z[3], point.z[2], point.z[1], point.kind
+        );
         if point.kind == Kind::Cusp {
             cusps.push(point.z);
         }
     }
     let exact = [0.5, 2.0, (-2.0f64).exp(), 16.0];
     assert_eq!(cusps.len(), 1);
-    assert!(cusps[0].iter().zip(exact).all(|(z, exact)| (z - exact).abs() < 1e-8));
+    assert!(
+        cusps[0]
+            .iter()
+            .zip(exact)
+            .all(|(z, exact)| (z - exact).abs() < 1e-8)
+    );
     Ok(())
 }

@@ -25,9 +25,11 @@ impl<S: System> Branch<'_, S> {
         }
         let tolerance = self.system.tolerance();
         // A branch that sets out from a branch point has no other place for it.
-        let kind = match point.kind {
-            Kind::Start if self.unoriented => Kind::BranchPoint,
-            kind => kind,
+        let crossing = point.kind == Kind::Start && self.unoriented;
+        let kind = if crossing {
+            Kind::BranchPoint
+        } else {
+            point.kind
         };
         for _ in 0..REFINEMENTS {
             let mut vectors = self.take_vectors();
@@ -61,16 +63,22 @@ impl<S: System> Branch<'_, S> {
                 return point;
             }
             // The refined point is the better one; its own error is asked for next.
-            point = Point { z: refined, tangent, other, ..point };
+            point = Point {
+                z: refined,
+                tangent,
+                other,
+                ..point
+            };
             *self.system = fine;
             self.metric = metric;
             self.put_vectors(vectors);
-            if self.unoriented {
+            if crossing {
                 self.node.z.clone_from(&point.z);
             }
             if let Err(difficulty) = self.settle() {
                 let step = self.step;
                 self.stop = Some(Stop::StepTooSmall { step, difficulty });
+                self.queue.clear();
                 return point;
             }
         }
@@ -78,6 +86,7 @@ impl<S: System> Branch<'_, S> {
             let error = self.relative(&error, point.lambda());
             if error > tolerance {
                 self.stop = Some(Stop::Inaccurate { error, tolerance });
+                self.queue.clear();
             }
         }
         point
@@ -137,8 +146,7 @@ impl<S: System> Branch<'_, S> {
                     Ok(cusp.unwrap_or(t[n]))
                 };
                 let mut at = |system: &mut S, s: f64| -> Result<(Vec<f64>, f64), Difficulty> {
-                    let near: Vec<f64> =
-                        z.iter().zip(tangent).map(|(z, t)| z + s * t).collect();
+                    let near: Vec<f64> = z.iter().zip(tangent).map(|(z, t)| z + s * t).collect();
                     let plane = Condition::plane(metric, tangent, &near);
                     let found = to(system, near, &plane)?;
                     let value = value(system, &found)?;
@@ -155,7 +163,7 @@ impl<S: System> Branch<'_, S> {
     pub(crate) fn settle(&mut self) -> Result<(), Difficulty> {
         self.metric.regroup(self.system);
         self.metric.normalise(&mut self.home.tangent);
-        if self.unoriented {
+        if self.unoriented && self.history.arclengths.is_empty() {
             // A branch point, located already.
             self.metric.normalise(&mut self.node.tangent);
             self.column = column(self.system, &self.metric, &self.node.z)?;

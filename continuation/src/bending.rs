@@ -8,7 +8,10 @@ pub(crate) struct Rule {
 }
 
 /// Of second order: accurate to about 1e-7, enough for Newton's method.
-pub(crate) const ROUGH: Rule = Rule { step: 2e-4, weights: &[(1.0, 1.0)] };
+pub(crate) const ROUGH: Rule = Rule {
+    step: 2e-4,
+    weights: &[(1.0, 1.0)],
+};
 /// Of sixth order: accurate to about 1e-10.
 pub(crate) const FINE: Rule = Rule {
     step: 5e-3,

@@ -1,8 +1,8 @@
 //! A branch as an iterator over its points.
 
+use crate::branch_point::column;
 use crate::corrector::{Accuracy, Condition, Corrector};
 use crate::metric::Metric;
-use crate::branch_point::column;
 use crate::null_space::NullSpace;
 use crate::predictor::History;
 use crate::span::Node;
@@ -14,8 +14,6 @@ use std::collections::VecDeque;
 const SINGULAR: f64 = 1e-11;
 /// λ turns, or rests, where its rate along the unit tangent, with its range as unit, is below this.
 pub(crate) const TURNING: f64 = 1e-12;
-/// The first step onto another branch is shortened at most to this.
-const SHORTEST_SWITCH: f64 = 1e-6;
 /// The most corrections of a first point.
 const CORRECTIONS: usize = 50;
 
@@ -29,15 +27,6 @@ pub enum Direction {
     Increasing,
     /// λ decreases.
     Decreasing,
-}
-
-/// The two halves of the other branch at a branch point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Leg {
-    /// Along [`Point::other`].
-    Forward,
-    /// Against it.
-    Backward,
 }
 
 /// A curve of solutions of a [`System`], point by point.
@@ -105,70 +94,18 @@ impl<'a, S: System> Branch<'a, S> {
         if point.kind == Kind::BranchPoint {
             branch.unoriented = true;
             branch.metric.normalise(&mut branch.node.tangent);
-            branch.column = column(branch.system, &branch.metric, &point.z).map_err(Error::Start)?;
+            branch.column =
+                column(branch.system, &branch.metric, &point.z).map_err(Error::Start)?;
             branch.set_out(true);
         } else {
-            branch.correct_across(point.tangent.clone()).map_err(Error::Start)?;
+            branch
+                .correct_across(point.tangent.clone())
+                .map_err(Error::Start)?;
             branch.watch_branch_points().map_err(Error::Start)?;
             let ahead = branch.metric.dot(&branch.node.tangent, &point.tangent) >= 0.0;
             branch.set_out(ahead);
         }
         Ok(branch)
-    }
-
-    /// The other branch from a branch point. Its first point off the branch point is found before
-    /// the branch is returned, and verified to lie in the direction of the other branch.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new); [`Error::NoSecondBranch`] and [`Error::Switch`].
-    pub fn switch(
-        system: &'a mut S,
-        point: &Point,
-        leg: Leg,
-        options: &Options,
-    ) -> Result<Self, Error> {
-        let Some(other) = &point.other else {
-            return Err(Error::NoSecondBranch);
-        };
-        let mut onward = point.clone();
-        onward.tangent.clone_from(other);
-        if leg == Leg::Backward {
-            reverse(&mut onward.tangent);
-        }
-        onward.kind = Kind::BranchPoint;
-        let mut branch = Self::resume(system, &onward, options)?;
-        let direction = branch.node.tangent.clone();
-        let mut old = point.tangent.clone();
-        branch.metric.normalise(&mut old);
-        let between = branch.metric.dot(&old, &direction).abs().min(1.0).acos();
-        while branch.step >= SHORTEST_SWITCH {
-            let predicted: Vec<f64> = point
-                .z
-                .iter()
-                .zip(&direction)
-                .map(|(z, t)| z + branch.step * t)
-                .collect();
-            if let Some(angle) = branch.first_angle(&predicted, &direction)
-                && angle < 0.5 * between
-            {
-                return Ok(branch);
-            }
-            branch.step *= 0.5;
-        }
-        Err(Error::Switch { step: branch.step })
-    }
-
-    /// The angle between the direction and the way to the point of the curve near `predicted`.
-    fn first_angle(&mut self, predicted: &[f64], direction: &[f64]) -> Option<f64> {
-        let mut z = predicted.to_vec();
-        let plane = Condition::plane(&self.metric, direction, predicted);
-        let accuracy = Accuracy::Length(self.options.accuracy);
-        self.corrector
-            .correct(self.system, &self.metric, &mut z, &plane, accuracy, CORRECTIONS)
-            .ok()?;
-        let way: Vec<f64> = z.iter().zip(&self.node.z).map(|(z, a)| z - a).collect();
-        let cosine = self.metric.dot(&way, direction) / self.metric.norm(&way);
-        Some(cosine.min(1.0).acos())
     }
 
     /// A branch that stands at `z`, not yet corrected.
@@ -211,7 +148,9 @@ impl<'a, S: System> Branch<'a, S> {
                 self.node.z = z;
             }
             Err(difficulty) => {
-                let tangent = self.corrector.tangent(self.system, &self.metric, &self.node.z);
+                let tangent = self
+                    .corrector
+                    .tangent(self.system, &self.metric, &self.node.z);
                 let across = tangent.map(|tangent| self.correct_across(tangent));
                 if !matches!(across, Ok(Ok(()))) {
                     return Err(Error::Start(difficulty));
@@ -220,7 +159,10 @@ impl<'a, S: System> Branch<'a, S> {
         }
         self.metric.observe(&self.node.z);
         let (system, z) = (&mut *self.system, &self.node.z);
-        let tangent = self.corrector.tangent(system, &self.metric, z).map_err(Error::Start)?;
+        let tangent = self
+            .corrector
+            .tangent(system, &self.metric, z)
+            .map_err(Error::Start)?;
         self.metric.reach(&tangent);
         self.node.tangent = tangent;
         self.metric.normalise(&mut self.node.tangent);
@@ -259,7 +201,14 @@ impl<'a, S: System> Branch<'a, S> {
     fn correct_to(&mut self, z: &mut [f64], condition: &Condition) -> Result<(), Difficulty> {
         let accuracy = Accuracy::Rounding;
         self.corrector
-            .correct(self.system, &self.metric, z, condition, accuracy, CORRECTIONS)
+            .correct(
+                self.system,
+                &self.metric,
+                z,
+                condition,
+                accuracy,
+                CORRECTIONS,
+            )
             .map(|_| ())
     }
 
@@ -274,7 +223,10 @@ impl<'a, S: System> Branch<'a, S> {
         let start = self.point(&self.node, Kind::Start);
         let turning = self.rate(&self.node.tangent).abs() < TURNING;
         if turning && !self.unoriented {
-            self.queue.push_back(Point { kind: Kind::LimitPoint, ..start.clone() });
+            self.queue.push_back(Point {
+                kind: Kind::LimitPoint,
+                ..start.clone()
+            });
         }
         self.queue.push_front(start);
     }
@@ -327,32 +279,6 @@ impl<S: System> Iterator for Branch<'_, S> {
         let point = self.queue.pop_front()?;
         Some(self.assessed(point))
     }
-}
-
-/// Solves G(x, λ) = 0 at λ = `goal` by following the branch from `start` at another λ: a homotopy.
-///
-/// # Errors
-/// Those of [`Branch::new`]; [`Error::Homotopy`] with the last point if the branch ends elsewhere.
-pub fn homotopy<S: System>(
-    system: &mut S,
-    start: &[f64],
-    goal: f64,
-    options: &Options,
-) -> Result<Point, Error> {
-    let from = start.last().copied().unwrap_or(goal);
-    let direction = if goal >= from { Direction::Increasing } else { Direction::Decreasing };
-    let options = Options { targets: vec![goal], ..options.clone() };
-    let mut branch = Branch::new(system, start, direction, &options)?;
-    let mut last = branch.point(&branch.node, Kind::Start);
-    for point in branch.by_ref() {
-        last = point;
-        if last.lambda() == goal {
-            return Ok(last);
-        }
-    }
-    let stop = branch.into_stop().unwrap_or(Stop::Steps { steps: options.steps });
-    let lambda = last.lambda();
-    Err(Error::Homotopy { lambda, goal, stop, last: Box::new(last) })
 }
 
 /// A vector of unknowns must have the length that the system says.

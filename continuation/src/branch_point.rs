@@ -59,7 +59,9 @@ pub(crate) fn column<S: System>(
         let mean = response.iter().sum::<f64>() / n as f64;
         if mean > 0.0 && mean.is_finite() {
             let sizes = response.iter().enumerate();
-            return Ok(sizes.map(|(i, r)| (r + 0.1 * mean) * irregular(i + 1)).collect());
+            return Ok(sizes
+                .map(|(i, r)| (r + 0.1 * mean) * irregular(i + 1))
+                .collect());
         }
     }
     Err(Difficulty::Singular)
@@ -69,7 +71,12 @@ pub(crate) fn column<S: System>(
 pub(crate) fn irregular(i: usize) -> f64 {
     let x = (i as f64 + 1.0) * 0.618_033_988_749_894_9;
     let fraction = x - x.floor();
-    (0.5 + 0.5 * fraction) * if fraction * 7.0 % 2.0 < 1.0 { 1.0 } else { -1.0 }
+    (0.5 + 0.5 * fraction)
+        * if fraction * 7.0 % 2.0 < 1.0 {
+            1.0
+        } else {
+            -1.0
+        }
 }
 
 /// Finds the branch point near `z`.
@@ -89,7 +96,11 @@ pub(crate) fn branch_point<S: System>(
         let space = NullSpace::at(system, corrector, metric, &z, b)?;
         residual.fill(f64::NAN);
         system.residual(&z, &mut residual);
-        let right: Vec<f64> = residual.iter().zip(b).map(|(g, b)| -(g + eta * b)).collect();
+        let right: Vec<f64> = residual
+            .iter()
+            .zip(b)
+            .map(|(g, b)| -(g + eta * b))
+            .collect();
         let onto = space.shortest(system, metric, b, &right);
         let (hessian, change) = slopes(system, metric, &z, b, &space, &onto[..=n])?;
         let gradient = [change[0], space.last(1) + change[1]];
@@ -97,7 +108,7 @@ pub(crate) fn branch_point<S: System>(
         let along = space.combine(a);
         let length = metric.norm(&onto[..=n]) + a[0].hypot(a[1]);
         let settled = length > 0.25 * before && before <= ROUNDING || length == 0.0;
-        let lost = !(length <= 1.0) || count == STEPS;
+        let lost = length.is_nan() || length > 1.0 || count == STEPS;
         if lost {
             return Err(Difficulty::NoConvergence {
                 correction: length,
@@ -116,9 +127,12 @@ pub(crate) fn branch_point<S: System>(
     let Some((space, hessian)) = saddle else {
         return Err(Difficulty::Singular);
     };
-    let steepest = hessian.iter().flatten().fold(0.0, |m: f64, h| m.max(h.abs()));
+    let steepest = hessian
+        .iter()
+        .flatten()
+        .fold(0.0, |m: f64, h| m.max(h.abs()));
     let gap = (2.0 * eta.abs() / steepest).sqrt();
-    if !(gap <= MEETING) {
+    if gap.is_nan() || gap > MEETING {
         return Err(Difficulty::Imperfect { gap });
     }
     let tangents = null_directions(hessian).map(|directions| {
@@ -164,7 +178,9 @@ fn slopes<S: System>(
             let turned = space.shortest(system, metric, b, bend);
             turned.iter().map(|w| -w).collect()
         });
-        space.eta_rate(metric, space, &rates).ok_or(Difficulty::Singular)
+        space
+            .eta_rate(metric, space, &rates)
+            .ok_or(Difficulty::Singular)
     };
     let ([a, c], [b, d]) = (rate([&bends[0], &cross])?, rate([&cross, &bends[1]])?);
     let change = match &along_onto {
@@ -184,7 +200,7 @@ fn null_directions(d: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
     let (p, q, r) = (d[0][0], 0.5 * (d[0][1] + d[1][0]), d[1][1]);
     let discriminant = q * q - p * r;
     let size = p.abs().max(q.abs()).max(r.abs());
-    if !(discriminant > 1e-6 * size * size) {
+    if discriminant.is_nan() || discriminant <= 1e-6 * size * size {
         return None;
     }
     let s = q + discriminant.sqrt().copysign(q);

@@ -26,7 +26,7 @@ const PERSISTENT: f64 = 1e-8;
 /// is μ, and η is zero.
 ///
 /// Branch points persist in two parameters where a symmetry or a trivial branch keeps them. Where
-/// they do not, the trace ends with [`Stop::Adaptation`](crate::Stop::Adaptation).
+/// they do not, the trace ends with [`Difficulty::Adaptation`].
 #[derive(Clone)]
 pub struct BranchPointCurve<S> {
     /// The null spaces of \[J b\].
@@ -90,7 +90,10 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
         let (eta, mu) = (z[n + 1], z[n + 2]);
         self.surface.residual(&z[..=n], mu, &mut g[..n]);
         let column = self.surface.column().iter();
-        g[..n].iter_mut().zip(column).for_each(|(g, b)| *g += eta * b);
+        g[..n]
+            .iter_mut()
+            .zip(column)
+            .for_each(|(g, b)| *g += eta * b);
         let space = self.surface.look(&z[..=n], mu).cloned().ok();
         let phi = space.and_then(|space| space.eta(&self.surface.metric, &self.reference));
         g[n..].copy_from_slice(&phi.unwrap_or([f64::NAN; 2]));
@@ -98,14 +101,20 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
 
     fn linearise(&mut self, z: &[f64]) -> Result<(), Cause> {
         let n = z.len() - 3;
-        self.surface.linearise(&z[..=n], z[n + 2], &self.reference)?;
+        self.surface
+            .linearise(&z[..=n], z[n + 2], &self.reference)?;
         let [mut first, mut second] = self.surface.space().0.clone();
         first.push(0.0);
         second.push(0.0);
         // The third one is the way with μ, orthogonal to both.
         let rate = self.surface.second_derivative();
         let mut third: Vec<f64> = self.surface.shortest(&rate).iter().map(|v| -v).collect();
-        let norm = self.surface.metric.norm(&third[..=n]).hypot(third[n + 1]).hypot(1.0);
+        let norm = self
+            .surface
+            .metric
+            .norm(&third[..=n])
+            .hypot(third[n + 1])
+            .hypot(1.0);
         third.push(1.0);
         third.iter_mut().for_each(|v| *v /= norm);
         let [along_first, along_second] = self.surface.own_rates();
@@ -140,12 +149,18 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
             let unit: Vec<f64> = v[..=n].iter().map(|v| v / length).collect();
             let rates = self.surface.rates(&unit, 0.0, &ROUGH);
             let slope = self.slope(&rates).unwrap_or([f64::NAN; 2]);
-            right.iter_mut().zip(slope).for_each(|(r, slope)| *r -= length * slope);
+            right
+                .iter_mut()
+                .zip(slope)
+                .for_each(|(r, slope)| *r -= length * slope);
         }
         // The shortest a with D a = right: a = Dᵀ (D Dᵀ)⁻¹ right.
         let d = &self.slopes;
         let product = |i: usize, j: usize| (0..3).map(|k| d[i][k] * d[j][k]).sum::<f64>();
-        let gram = [[product(0, 0), product(0, 1)], [product(1, 0), product(1, 1)]];
+        let gram = [
+            [product(0, 0), product(0, 1)],
+            [product(1, 0), product(1, 1)],
+        ];
         let b = solve(gram, right).unwrap_or([f64::NAN; 2]);
         let a = [0, 1, 2].map(|k| d[0][k] * b[0] + d[1][k] * b[1]);
         let along = combine(&self.basis, a);
@@ -167,7 +182,7 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
 
     fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Cause> {
         let n = z.len() - 3;
-        if !(z[n + 1].abs() <= PERSISTENT) {
+        if z[n + 1].abs() > PERSISTENT {
             return Err("the branch point does not persist: its branches part".into());
         }
         let column = |system: &mut S, metric: &_, z: &[f64]| {

@@ -115,7 +115,11 @@ impl Corrector {
     ) -> Result<Correction, Difficulty> {
         let n = z.len() - 1;
         self.resize(z.len());
-        let mut report = Correction { first: 0.0, contraction: 0.0, drift: 0.0 };
+        let mut report = Correction {
+            first: 0.0,
+            contraction: 0.0,
+            drift: 0.0,
+        };
         let wanted = match accuracy {
             Accuracy::Length(length) => length,
             Accuracy::Rounding => 0.0,
@@ -172,7 +176,11 @@ impl Corrector {
             Some(length) if length <= ROUNDING && matches!(accuracy, Accuracy::Rounding) => {
                 Ok(report)
             }
-            length => Err(no_convergence(length.unwrap_or(f64::INFINITY), limit, wanted)),
+            length => Err(no_convergence(
+                length.unwrap_or(f64::INFINITY),
+                limit,
+                wanted,
+            )),
         }
     }
 

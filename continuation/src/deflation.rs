@@ -100,8 +100,14 @@ fn from<S: System>(
         if length <= CLOSE {
             let mut found = z.clone();
             let accuracy = Accuracy::Rounding;
-            let outcome =
-                corrector.correct(system, metric, &mut found, &condition, accuracy, CORRECTIONS);
+            let outcome = corrector.correct(
+                system,
+                metric,
+                &mut found,
+                &condition,
+                accuracy,
+                CORRECTIONS,
+            );
             if outcome.is_ok() && known.iter().all(|x| metric.distance(&found, x) > DISTINCT) {
                 return Ok(found);
             }
@@ -123,5 +129,8 @@ fn from<S: System>(
         }
         z[unknowns - 1] = lambda;
     }
-    Err(Error::Deflation { correction: length, steps: STEPS })
+    Err(Error::Deflation {
+        correction: length,
+        steps: STEPS,
+    })
 }

@@ -8,6 +8,8 @@ use std::sync::Arc;
 /// Residual: states x, all parameters p, n values G.
 type Residual = Arc<dyn Fn(&[f64], &[f64], &mut [f64]) + Send + Sync>;
 
+/// What must be said before there is a second parameter.
+const SECOND: &str = "the second parameter is named by with_second";
 /// Step of central differences of sixth order relative to 1 + |z|: ε^(1/7).
 const DIFFERENCE: f64 = 5.8e-3;
 /// The differences: (multiple of the step, weight).
@@ -16,8 +18,8 @@ const WEIGHTS: [(f64, f64); 3] = [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)];
 /// A system G(x, p) = 0 of n equations given by a closure, one of whose parameters is λ.
 ///
 /// The Jacobian is another closure, or found by central differences of sixth order, which are
-/// accurate to about 1e-13. It is factored with complete pivoting (faer), so that limit points and
-/// branch points need no care.
+/// accurate to about 1e-13 where G is smooth on the scale of one in every unknown. It is factored with
+/// complete pivoting (faer), so that limit points and branch points need no care.
 ///
 /// ```
 /// use continuation::{Branch, DenseSystem, Direction, Kind, Options};
@@ -96,7 +98,7 @@ impl DenseSystem {
         self
     }
 
-    /// Makes parameter number `second` the μ of [`TwoParameter`].
+    /// Makes parameter number `second` the μ of [`TwoParameter`], whose methods panic without it.
     ///
     /// # Panics
     /// If there is no parameter of that number.
@@ -194,13 +196,11 @@ impl System for DenseSystem {
 
 impl TwoParameter for DenseSystem {
     fn second(&self) -> f64 {
-        self.second.map_or(0.0, |second| self.parameters[second])
+        self.parameters[self.second.expect(SECOND)]
     }
 
     fn set_second(&mut self, value: f64) {
-        if let Some(second) = self.second {
-            self.parameters[second] = value;
-        }
+        self.parameters[self.second.expect(SECOND)] = value;
     }
 }
 
@@ -221,7 +221,11 @@ impl Factors {
         for i in 0..n {
             sign *= pivot(&lu, i).signum();
         }
-        Self { lu, row_scale, sign }
+        Self {
+            lu,
+            row_scale,
+            sign,
+        }
     }
 
     /// Solves U x + u `free` = y in the exchanged order and puts the result in its place.
@@ -265,7 +269,11 @@ fn pivot(lu: &FullPivLu<f64>, i: usize) -> f64 {
     let upper = lu.U();
     let least = f64::EPSILON * f64::EPSILON.max(upper[(0, 0)].abs());
     let pivot = upper[(i, i)];
-    if pivot.abs() < least { least.copysign(pivot) } else { pivot }
+    if pivot.abs() < least {
+        least.copysign(pivot)
+    } else {
+        pivot
+    }
 }
 
 /// +1 for an even permutation, −1 for an odd one.

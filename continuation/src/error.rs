@@ -86,7 +86,9 @@ pub enum Error {
         last: Box<crate::Point>,
     },
     /// Deflated Newton iteration found no further solution.
-    #[error("deflation: no further solution found: correction {correction:.1e} after {steps} steps")]
+    #[error(
+        "deflation: no further solution found: correction {correction:.1e} after {steps} steps"
+    )]
     Deflation {
         /// Length of the last correction.
         correction: f64,

@@ -94,14 +94,19 @@ impl<S: System> Branch<'_, S> {
     /// Limit points. At the branch points and cusps `found` on the step, and at a branch point at its
     /// beginning, the rate of λ may change its sign without a limit point.
     fn limit_points(&mut self, to: &Node, found: &[Found]) -> Result<Vec<Found>, Difficulty> {
-        let turned = found.iter().any(|found| self.rate(&found.at.tangent).abs() < COINCIDENT);
+        let turned = found
+            .iter()
+            .any(|found| self.rate(&found.at.tangent).abs() < COINCIDENT);
         let [before, after] = [&self.node, to].map(|node| self.rate(&node.tangent).abs());
         let at_rest = before.max(after) < TURNING;
         if turned || at_rest || self.unoriented && before < COINCIDENT {
             return Ok(Vec::new());
         }
         let limits = self.span(to).limit_points()?;
-        Ok(limits.into_iter().map(|at| Found::new(at, Kind::LimitPoint)).collect())
+        Ok(limits
+            .into_iter()
+            .map(|at| Found::new(at, Kind::LimitPoint))
+            .collect())
     }
 
     /// A zero of an event function. Where the function changes its sign through a pole, or is
@@ -115,11 +120,17 @@ impl<S: System> Branch<'_, S> {
         let event = &mut events[index];
         let mut value = |system: &mut S, z: &[f64], _: &[f64]| event(system, z);
         let outcome = self.span(to).zero(&mut value, values, RESOLVED);
-        let least = outcome.as_ref().map_or(0.0, |at| event(self.system, &at.z).abs());
+        let least = outcome
+            .as_ref()
+            .map_or(0.0, |at| event(self.system, &at.z).abs());
         self.events = events;
         let at = outcome?;
         let zero = least <= values[0].abs().max(values[1].abs());
-        Ok(if zero { vec![Found::new(at, Kind::Event(index))] } else { Vec::new() })
+        Ok(if zero {
+            vec![Found::new(at, Kind::Event(index))]
+        } else {
+            Vec::new()
+        })
     }
 
     /// Points with a target value of λ, on every piece of the step, between `corners`, where λ is
@@ -135,7 +146,10 @@ impl<S: System> Branch<'_, S> {
         for pair in corners.windows(2) {
             let [before, after] = [&pair[0], &pair[1]].map(|node| node.z[n] - target);
             if before * after < 0.0 || after == 0.0 {
-                let mut piece = Span { from: &pair[0], ..self.span(&pair[1]) };
+                let mut piece = Span {
+                    from: &pair[0],
+                    ..self.span(&pair[1])
+                };
                 let mut at = piece.at_lambda(target)?;
                 at.u = self.span(to).place(&at.z);
                 found.push(Found::new(at, Kind::Target));
@@ -166,7 +180,11 @@ impl<S: System> Branch<'_, S> {
         let met = span.across(&near, &home.tangent, &home.z).ok()?;
         let missed = span.metric.distance(&met, &home.z);
         let tolerance = span.system.tolerance();
-        let allowed = if tolerance.is_finite() { MET.max(10.0 * tolerance) } else { MET };
+        let allowed = if tolerance.is_finite() {
+            MET.max(10.0 * tolerance)
+        } else {
+            MET
+        };
         let (z, tangent) = (home.z, home.tangent);
         (missed <= allowed).then_some(Located { u, z, tangent })
     }
@@ -176,6 +194,10 @@ impl<S: System> Branch<'_, S> {
         let Found { at, kind, other } = found;
         let node = Node::new(at.z, at.tangent);
         let arclength = self.node.arclength + self.span(&node).length();
-        Point { arclength, other, ..self.point(&node, kind) }
+        Point {
+            arclength,
+            other,
+            ..self.point(&node, kind)
+        }
     }
 }

@@ -9,7 +9,9 @@
 //!                              └ T₁μ  T₂μ ┘
 //! ```
 //!
-//! With the derivatives dᵢ of ψ along Tᵢ its tangent is −d₂ T₁ + d₁ T₂. This is regular at every
+//! The derivatives of ψ follow from those of T, which solve linear systems with the second derivatives of
+//! G along T on their right-hand sides: a point takes one factorisation per Newton step, as for the
+//! branch itself. With the derivatives dᵢ of ψ along Tᵢ the tangent of the curve is −d₂ T₁ + d₁ T₂. This is regular at every
 //! simple limit point, at cusps, where the tangent has neither component, and where isolas are born,
 //! where \[Gₓ `G_λ`\] is singular.
 
@@ -67,7 +69,12 @@ impl<S: TwoParameter + Clone> LimitPointCurve<S> {
             .map_err(|difficulty| Error::NotSpecial { kind, difficulty })?;
         let reference = surface.space().clone();
         let direction = direction(&reference, [0.0; 2]);
-        Ok(Self { surface, reference, direction, slopes: [0.0; 2] })
+        Ok(Self {
+            surface,
+            reference,
+            direction,
+            slopes: [0.0; 2],
+        })
     }
 
     /// The unknowns (z, μ) of a limit point `z` found at the present μ of the system.
@@ -95,9 +102,17 @@ fn direction(plane: &NullSpace, before: [f64; 2]) -> [f64; 2] {
         [plane.0[i][n - 2], plane.0[i][n - 1]]
     });
     let [first, second] = parts.map(|[a, b]: [f64; 2]| a.hypot(b));
-    let (part, length) = if first > second { (parts[0], first) } else { (parts[1], second) };
+    let (part, length) = if first > second {
+        (parts[0], first)
+    } else {
+        (parts[1], second)
+    };
     let [a, b] = before;
-    let sign = if part[0] * a + part[1] * b < 0.0 { -1.0 } else { 1.0 };
+    let sign = if part[0] * a + part[1] * b < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
     part.map(|x| sign * x / length)
 }
 
@@ -159,8 +174,9 @@ impl<S: TwoParameter + Clone> System for LimitPointCurve<S> {
 
     fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Cause> {
         let n = z.len() - 1;
-        let (mut plane, changed) =
-            self.surface.adapt((&z[..n], z[n]), vectors, 1, |_, _, _| Ok(None))?;
+        let (mut plane, changed) = self
+            .surface
+            .adapt((&z[..n], z[n]), vectors, 1, |_, _, _| Ok(None))?;
         if !changed {
             plane.align(&self.surface.metric, &self.reference);
         }
@@ -180,7 +196,10 @@ impl<S: TwoParameter + Clone> System for LimitPointCurve<S> {
     }
 
     fn cusp_function(&self) -> Option<f64> {
-        let (along, [a, b]) = (self.tangent(), direction(self.surface.space(), self.direction));
+        let (along, [a, b]) = (
+            self.tangent(),
+            direction(self.surface.space(), self.direction),
+        );
         let n = along.len();
         let [d1, d2] = self.slopes;
         Some((along[n - 2] * a + along[n - 1] * b) / d1.hypot(d2))

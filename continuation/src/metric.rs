@@ -5,6 +5,9 @@ use crate::{Options, System};
 /// Groups smaller than this fraction of the largest have no size of their own yet.
 const NEGLIGIBLE: f64 = 1e-8;
 
+/// Tangents that reach further than this many times the largest size, or one, are vertical.
+const FARTHEST: f64 = 1e6;
+
 /// The weighted inner product ⟨a, b⟩ = Σ wᵢ aᵢ bᵢ.
 ///
 /// By default, with the size of a group the largest |xᵢ| met in it so far,
@@ -84,14 +87,17 @@ impl Metric {
             return;
         }
         let negligible = NEGLIGIBLE * self.largest();
+        let farthest = FARTHEST * self.largest().max(1.0);
         let empty: Vec<bool> = self.size.iter().map(|&size| size <= negligible).collect();
         for ((&group, &share), t) in self.group.iter().zip(&self.share).zip(t) {
             let reached = (t / rate).abs() * self.range;
-            if share > 0.0 && empty[group] && reached.is_finite() {
+            if share > 0.0 && empty[group] && reached <= farthest {
                 self.size[group] = self.size[group].max(reached);
             }
         }
-        let sizes: Vec<f64> = (0..self.size.len()).map(|group| self.size_of(group)).collect();
+        let sizes: Vec<f64> = (0..self.size.len())
+            .map(|group| self.size_of(group))
+            .collect();
         self.size = sizes;
         self.weigh();
     }
@@ -118,7 +124,11 @@ impl Metric {
         let n = self.weights.len() - 1;
         if self.given {
             let weight = self.weights[i];
-            return if weight > 0.0 { weight.sqrt().recip() } else { 0.0 };
+            return if weight > 0.0 {
+                weight.sqrt().recip()
+            } else {
+                0.0
+            };
         }
         if i == n {
             self.range

@@ -86,7 +86,10 @@ impl NullSpace {
     /// The products ⟨reference, basis⟩.
     fn alignment(&self, metric: &Metric, reference: &Self) -> [[f64; 2]; 2] {
         let product = |i: usize, j: usize| dot(metric, &reference.0[i], &self.0[j]);
-        [[product(0, 0), product(0, 1)], [product(1, 0), product(1, 1)]]
+        [
+            [product(0, 0), product(0, 1)],
+            [product(1, 0), product(1, 1)],
+        ]
     }
 
     /// The η component of a basis vector.
@@ -99,7 +102,10 @@ impl NullSpace {
         for _ in 0..2 {
             for basis in &self.0 {
                 let along = dot(metric, basis, vector);
-                vector.iter_mut().zip(basis).for_each(|(x, b)| *x -= along * b);
+                vector
+                    .iter_mut()
+                    .zip(basis)
+                    .for_each(|(x, b)| *x -= along * b);
             }
         }
     }
@@ -167,7 +173,11 @@ impl NullSpace {
     /// Σ aᵢ Tᵢ.
     pub(crate) fn combine(&self, a: [f64; 2]) -> Vec<f64> {
         let [first, second] = &self.0;
-        first.iter().zip(second).map(|(x, y)| a[0] * x + a[1] * y).collect()
+        first
+            .iter()
+            .zip(second)
+            .map(|(x, y)| a[0] * x + a[1] * y)
+            .collect()
     }
 }
 

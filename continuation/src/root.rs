@@ -66,9 +66,15 @@ mod tests {
     #[test]
     fn roots_are_found_to_rounding_in_few_evaluations() {
         let (x, count) = solve(|x| x * x - 2.0, 0.0, 2.0);
-        assert!((x - 2f64.sqrt()).abs() < 4.0 * f64::EPSILON && count < 12, "{x} {count}");
+        assert!(
+            (x - 2f64.sqrt()).abs() < 4.0 * f64::EPSILON && count < 12,
+            "{x} {count}"
+        );
         let (x, count) = solve(f64::sin, 3.0, 3.3);
-        assert!((x - std::f64::consts::PI).abs() < 1e-15 && count < 6, "{x} {count}");
+        assert!(
+            (x - std::f64::consts::PI).abs() < 1e-15 && count < 6,
+            "{x} {count}"
+        );
         let (x, count) = solve(|x| (x - 0.3).powi(3), -1.0, 1.0);
         assert!((x - 0.3).abs() < 1e-5 && count < 70, "{x} {count}");
         let (x, _) = solve(|x| if x < 0.7 { -1.0 } else { 1.0 }, 0.0, 1.0);

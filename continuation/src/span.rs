@@ -9,10 +9,6 @@ use crate::{Difficulty, System};
 
 /// Branch points are bracketed this closely before Newton's method takes over.
 const BRACKET: f64 = 1e-3;
-/// Where the rate of λ seems to fall below this share of that at both nodes, it is looked at ...
-const SUSPICIOUS: f64 = 0.25;
-/// ... so many times.
-const LOOKS: usize = 4;
 /// Zeros are located to this share of a step.
 pub(crate) const RESOLVED: f64 = 1e-13;
 /// The most corrections of a located point.
@@ -81,7 +77,7 @@ pub(crate) struct Span<'a, S> {
 
 impl<S: System> Span<'_, S> {
     /// From node to node.
-    fn secant(&self) -> Vec<f64> {
+    pub(crate) fn secant(&self) -> Vec<f64> {
         let ends = self.to.z.iter().zip(&self.from.z);
         ends.map(|(b, a)| b - a).collect()
     }
@@ -103,8 +99,14 @@ impl<S: System> Span<'_, S> {
         let pairs = near.z.iter().zip(&near.tangent);
         let mut z: Vec<f64> = pairs.map(|(z, t)| z + shift * t).collect();
         let accuracy = Accuracy::Rounding;
-        self.corrector
-            .correct(self.system, self.metric, &mut z, condition, accuracy, CORRECTIONS)?;
+        self.corrector.correct(
+            self.system,
+            self.metric,
+            &mut z,
+            condition,
+            accuracy,
+            CORRECTIONS,
+        )?;
         self.complete(z)
     }
 
@@ -118,8 +120,14 @@ impl<S: System> Span<'_, S> {
         let mut z = near.to_vec();
         let plane = Condition::plane(self.metric, normal, through);
         let accuracy = Accuracy::Rounding;
-        self.corrector
-            .correct(self.system, self.metric, &mut z, &plane, accuracy, CORRECTIONS)?;
+        self.corrector.correct(
+            self.system,
+            self.metric,
+            &mut z,
+            &plane,
+            accuracy,
+            CORRECTIONS,
+        )?;
         Ok(z)
     }
 
@@ -133,7 +141,7 @@ impl<S: System> Span<'_, S> {
         Ok(Located { u, z, tangent })
     }
 
-    fn ends(&self) -> [Located; 2] {
+    pub(crate) fn ends(&self) -> [Located; 2] {
         [(0.0, self.from), (1.0, self.to)].map(|(u, node)| Located {
             u,
             z: node.z.clone(),
@@ -160,7 +168,7 @@ impl<S: System> Span<'_, S> {
     }
 
     /// The point at u, in the plane across the secant, from a known one.
-    fn at(&mut self, u: f64, near: &Located) -> Result<Located, Difficulty> {
+    pub(crate) fn at(&mut self, u: f64, near: &Located) -> Result<Located, Difficulty> {
         let secant = self.secant();
         let base = self.from.z.iter().zip(&secant);
         let target: Vec<f64> = base.map(|(a, d)| a + u * d).collect();
@@ -169,68 +177,6 @@ impl<S: System> Span<'_, S> {
         let shift = (u - near.u) * unit / self.metric.dot(&secant, &near.tangent);
         let found = self.correct(near, shift, &plane)?;
         Ok(Located { u, ..found })
-    }
-
-    /// The limit points: one where the rate of λ changes its sign from node to node, two where it does
-    /// so in between.
-    pub(crate) fn limit_points(&mut self) -> Result<Vec<Located>, Difficulty> {
-        let n = self.from.z.len() - 1;
-        let [before, after] = [self.from, self.to].map(|node| node.tangent[n]);
-        let mut rate = |_: &mut S, _: &[f64], tangent: &[f64]| tangent[n];
-        if before * after < 0.0 {
-            return Ok(vec![self.zero(&mut rate, [before, after], RESOLVED)?]);
-        }
-        let Some(between) = self.turned_between()? else {
-            return Ok(Vec::new());
-        };
-        let middle = Node::new(between.z, between.tangent);
-        let mut found = Vec::new();
-        for [from, to] in [[self.from, &middle], [&middle, self.to]] {
-            let mut half = Span {
-                system: &mut *self.system,
-                corrector: &mut *self.corrector,
-                from,
-                to,
-                ..*self
-            };
-            let values = [from, to].map(|node| node.tangent[n]);
-            let mut at = half.zero(&mut rate, values, RESOLVED)?;
-            at.u = self.place(&at.z);
-            found.push(at);
-        }
-        Ok(found)
-    }
-
-    /// A point between nodes with the same sign of the rate of λ where it has the other one. It is
-    /// looked for where the cubic through both nodes with their tangents suggests that the rate
-    /// becomes small, then at the vertex of the parabola through the rates.
-    fn turned_between(&mut self) -> Result<Option<Located>, Difficulty> {
-        let n = self.from.z.len() - 1;
-        let length = self.metric.norm(&self.secant());
-        let mean = (self.to.z[n] - self.from.z[n]) / length;
-        let [before, after] = [self.from, self.to].map(|node| node.tangent[n]);
-        let [from, to] = self.ends();
-        let Some((mut u, least)) = cubic_vertex(before, after, mean) else {
-            return Ok(None);
-        };
-        if least / before > SUSPICIOUS * (after / before).min(1.0) {
-            return Ok(None);
-        }
-        let mut near = if u < 0.5 { from } else { to };
-        for _ in 0..LOOKS {
-            near = self.at(u, &near)?;
-            let rate = near.tangent[n];
-            if rate * before < 0.0 {
-                return Ok(Some(near));
-            }
-            // The vertex of the parabola through the three rates.
-            let (p, q) = ((rate - before) / u, (after - rate) / (1.0 - u));
-            u = 0.5 * (u - p / (q - p));
-            if !(u > 0.0 && u < 1.0) {
-                break;
-            }
-        }
-        Ok(None)
     }
 
     /// The point with a prescribed λ, which must be passed between the nodes.
@@ -253,8 +199,7 @@ impl<S: System> Span<'_, S> {
         let mut found = match attempt {
             Ok(found) if (-0.1..=1.1).contains(&found.u) => found,
             _ => {
-                let mut distance =
-                    |_: &mut S, z: &[f64], _: &[f64]| z[n] - lambda;
+                let mut distance = |_: &mut S, z: &[f64], _: &[f64]| z[n] - lambda;
                 let near = self.zero(&mut distance, [low - lambda, high - lambda], RESOLVED)?;
                 // At a limit point λ does not determine the point, and is met to rounding.
                 self.correct(&near, 0.0, &condition).unwrap_or(near)
@@ -276,7 +221,11 @@ impl<S: System> Span<'_, S> {
             let same = (metric.dot(&null, tangent) > 0.0) == along;
             let second = NullSpace::second(system, metric, tangent, column);
             let height = second.map_or(0.0, |second| second[second.len() - 1].abs());
-            if same { start * height } else { -start * height }
+            if same {
+                start * height
+            } else {
+                -start * height
+            }
         };
         let near = match self.zero(&mut height, eta, BRACKET) {
             Ok(near) => near.z,
@@ -327,10 +276,18 @@ impl<S: System> Span<'_, S> {
     pub(crate) fn length(&self) -> f64 {
         let secant = self.secant();
         let chord = self.metric.norm(&secant);
-        let rule = [(0.5 - 0.15f64.sqrt(), 5.0), (0.5, 8.0), (0.5 + 0.15f64.sqrt(), 5.0)];
+        let rule = [
+            (0.5 - 0.15f64.sqrt(), 5.0),
+            (0.5, 8.0),
+            (0.5 + 0.15f64.sqrt(), 5.0),
+        ];
         let speed = |u: f64| {
             // Derivatives of the Hermite basis.
-            let (d, a, b) = (6.0 * u * (1.0 - u), (1.0 - u) * (1.0 - 3.0 * u), u * (3.0 * u - 2.0));
+            let (d, a, b) = (
+                6.0 * u * (1.0 - u),
+                (1.0 - u) * (1.0 - 3.0 * u),
+                u * (3.0 * u - 2.0),
+            );
             let tangents = self.from.tangent.iter().zip(&self.to.tangent);
             let rate: Vec<f64> = secant
                 .iter()
@@ -339,7 +296,10 @@ impl<S: System> Span<'_, S> {
                 .collect();
             self.metric.norm(&rate)
         };
-        rule.iter().map(|&(u, weight)| weight * speed(u)).sum::<f64>() / 18.0
+        rule.iter()
+            .map(|&(u, weight)| weight * speed(u))
+            .sum::<f64>()
+            / 18.0
     }
 }
 
@@ -348,31 +308,4 @@ fn nearest(known: &[Located], u: f64) -> &Located {
     let gap = |point: &Located| (point.u - u).abs();
     let nearest = known.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)));
     nearest.unwrap_or(&known[0])
-}
-
-/// Where the rate of the cubic with rates `before` and `after` at its ends and this mean rate is
-/// stationary between them, and the rate there.
-fn cubic_vertex(before: f64, after: f64, mean: f64) -> Option<(f64, f64)> {
-    let (slope, curvature) = (6.0 * mean - 4.0 * before - 2.0 * after, before + after - 2.0 * mean);
-    let u = -slope / (6.0 * curvature);
-    let rate = before + u * (slope + 3.0 * curvature * u);
-    (u > 0.0 && u < 1.0).then_some((u, rate))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_rate_of_a_cubic_is_stationary_at_its_vertex() {
-        // (u − a)(u − b) is the rate.
-        let case = |a: f64, b: f64| {
-            cubic_vertex(a * b, (1.0 - a) * (1.0 - b), 1.0 / 3.0 - 0.5 * (a + b) + a * b)
-        };
-        let (u, rate) = case(0.4, 0.41).unwrap();
-        assert!((u - 0.405).abs() < 1e-12 && (rate + 2.5e-5).abs() < 1e-14);
-        assert_eq!(case(-0.4, -0.3), None);
-        assert_eq!(case(1.1, 1.2), None);
-        assert_eq!(cubic_vertex(1.0, 1.0, 1.0), None);
-    }
 }

@@ -6,8 +6,8 @@ use crate::labels::Found;
 use crate::null_space;
 use crate::predictor::History;
 use crate::span::{Node, Span};
-use std::f64::consts::PI;
 use crate::{Branch, Difficulty, Kind, Parameterisation, Predictor, Stop, System};
+use std::f64::consts::PI;
 
 /// Contraction of Newton's method at which the step length stays as it is.
 const CONTRACTION: f64 = 0.1;
@@ -139,14 +139,23 @@ impl<S: System> Branch<'_, S> {
         }
         node.second = self.second_vector(&node.tangent)?;
         let second = self.second_angle(&node, h)?;
-        node.events = self.events.iter_mut().map(|event| event(self.system, &node.z)).collect();
+        node.events = self
+            .events
+            .iter_mut()
+            .map(|event| event(self.system, &node.z))
+            .collect();
         let span = self.span(&node);
         node.arclength = span.from.arclength + span.length();
         let strict = h > CROSSING * self.options.largest_step;
         let found = self.specials(&node, strict)?;
         let turn = (angle / self.options.angle).max(second / SECOND);
         let growth = growth(&report, h, turn);
-        Ok(Taken { node, found, landed, growth })
+        Ok(Taken {
+            node,
+            found,
+            landed,
+            growth,
+        })
     }
 
     /// The corrected point a step h ahead, or on the bound of λ that it would cross.
@@ -235,7 +244,7 @@ impl<S: System> Branch<'_, S> {
         let ends = node.z.iter().zip(&self.node.z);
         let secant: Vec<f64> = ends.map(|(b, a)| b - a).collect();
         let limit = SHARPEST * self.options.angle;
-        if !(self.metric.dot(&secant, &self.node.tangent) > 0.0) {
+        if self.metric.dot(&secant, &self.node.tangent) <= 0.0 {
             return Err(Difficulty::Turn { angle: PI, limit });
         }
         node.along = self.metric.dot(&node.tangent, &secant) > 0.0;
@@ -253,7 +262,11 @@ impl<S: System> Branch<'_, S> {
         let n = node.z.len() - 1;
         let turned = node.tangent[n] * self.node.tangent[n] < 0.0;
         let stuck = turned && self.options.parameterisation == Parameterisation::Natural;
-        if angle <= limit && !stuck { Ok(angle) } else { Err(Difficulty::Turn { angle, limit }) }
+        if angle <= limit && !stuck {
+            Ok(angle)
+        } else {
+            Err(Difficulty::Turn { angle, limit })
+        }
     }
 
     /// The angle by which the second null vector turns on a step h: by too much, or with a height
@@ -272,7 +285,11 @@ impl<S: System> Branch<'_, S> {
         if reflected && h > TOUCHING * self.options.largest_step {
             angle = PI;
         }
-        if angle <= limit { Ok(angle) } else { Err(Difficulty::Turn { angle, limit }) }
+        if angle <= limit {
+            Ok(angle)
+        } else {
+            Err(Difficulty::Turn { angle, limit })
+        }
     }
 
     pub(crate) fn span<'b>(&'b mut self, to: &'b Node) -> Span<'b, S> {
@@ -289,7 +306,12 @@ impl<S: System> Branch<'_, S> {
     /// Moves on to the end of a step and queues its points; fails, with nothing changed, if the
     /// system cannot adapt its discretisation to the new point.
     fn accept(&mut self, taken: Taken) -> Result<(), Difficulty> {
-        let Taken { mut node, found, landed, growth } = taken;
+        let Taken {
+            mut node,
+            found,
+            landed,
+            growth,
+        } = taken;
         let closed = found.iter().any(|found| found.kind == Kind::Closed);
         let length = node.arclength - self.node.arclength;
         for found in found {
@@ -310,13 +332,14 @@ impl<S: System> Branch<'_, S> {
         }
         self.metric.observe(&node.z);
         self.metric.normalise(&mut node.tangent);
-        let trend = (!self.unoriented).then(|| (node.height() - self.node.height()) / length);
+        let mut trend = (!self.unoriented).then(|| (node.height() - self.node.height()) / length);
         let left = std::mem::replace(&mut self.node, node);
         let history = self.history.clone();
         self.history.push(left.z.clone(), left.arclength);
         for adaptation in 0..ADAPTATIONS {
             match self.adapt() {
-                Ok(true) => {}
+                // Heights on different meshes do not compare.
+                Ok(true) => trend = None,
                 Ok(false) => break,
                 Err(difficulty) if adaptation == 0 => {
                     (self.node, self.history) = (left, history);
@@ -343,5 +366,8 @@ fn growth(report: &Correction, h: f64, turn: f64) -> f64 {
     let contraction = (CONTRACTION / report.contraction.max(1e-9)).sqrt();
     let prediction = (PREDICTION * h / report.first.max(1e-300)).sqrt();
     let [least, most] = CHANGE;
-    contraction.min(prediction).min(1.0 / turn.max(1e-9)).clamp(least, most)
+    contraction
+        .min(prediction)
+        .min(1.0 / turn.max(1e-9))
+        .clamp(least, most)
 }

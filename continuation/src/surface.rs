@@ -178,16 +178,29 @@ impl<S: TwoParameter + Clone> Surface<S> {
         column: impl FnOnce(&mut S, &Metric, &[f64]) -> Result<Option<Vec<f64>>, Difficulty>,
     ) -> Result<(NullSpace, bool), Cause> {
         self.base.set_second(mu);
-        let changed = with_last(vectors, more, |short| self.base.adapt(z, short))?;
-        let here = if changed { &vectors[0][..vectors[0].len() - more] } else { z };
-        if changed {
-            self.probe = self.base.clone();
-            self.metric.regroup(&self.base);
-            self.probe.set_second(mu);
-            self.column = column(&mut self.probe, &self.metric, here)?;
+        let old = vectors.to_vec();
+        if !with_last(vectors, more, |short| self.base.adapt(z, short))? {
+            self.metric.observe(z);
+            return Ok((self.look(z, mu)?.clone(), false));
         }
+        let probe = std::mem::replace(&mut self.probe, self.base.clone());
+        let (metric, old_column) = (self.metric.clone(), self.column.take());
+        self.probe.set_second(mu);
+        self.metric.regroup(&self.base);
+        let here = &vectors[0][..vectors[0].len() - more];
         self.metric.observe(here);
-        Ok((self.look(here, mu)?.clone(), changed))
+        let space = column(&mut self.probe, &self.metric, here).and_then(|column| {
+            self.column = column;
+            self.look(here, mu).cloned()
+        });
+        if let Err(difficulty) = space {
+            // As if nothing had been changed.
+            (self.base, self.probe) = (probe.clone(), probe);
+            (self.metric, self.column) = (metric, old_column);
+            vectors.clone_from_slice(&old);
+            return Err(difficulty.into());
+        }
+        Ok((space?, true))
     }
 
     /// The refined base at the first of `vectors`, which have `more` entries behind those of z, μ the
@@ -214,7 +227,12 @@ fn place<S: TwoParameter>(
         None => second_derivative(system, z, mu),
     };
     let space = NullSpace::at(system, corrector, metric, z, &column)?;
-    Ok(Place { z: z.to_vec(), mu, column, space })
+    Ok(Place {
+        z: z.to_vec(),
+        mu,
+        column,
+        space,
+    })
 }
 
 /// `G_μ` by a central difference; leaves the system at μ.

@@ -45,7 +45,7 @@ pub trait System {
     }
 
     /// Called with every accepted point: the system may change its discretisation, whereupon it
-    /// re-expresses every one of `vectors` (points and tangents) and returns true. By default it
+    /// re-expresses every one of `vectors` (points and tangents, `z` the first) and returns true. By default it
     /// does nothing.
     ///
     /// # Errors
@@ -57,7 +57,7 @@ pub trait System {
     }
 
     /// The same system discretised so much finer that the difference between both is the
-    /// discretisation error; `vectors` are re-expressed on it. `None` (the default) where there is
+    /// discretisation error; `vectors` are re-expressed on it, a point the first. `None` (the default) where there is
     /// no such error or no such system.
     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self>
     where

@@ -41,6 +41,8 @@ const MAX_PIECES: usize = 40;
 const MAX_STEPS: usize = 600;
 /// Behind a limit point a branch is followed until the entry has come back by this share of its way.
 const WAY_BACK: f64 = 0.25;
+/// The most mesh intervals: a point that needs more is approached by a shorter step.
+const MAX_INTERVALS: usize = 4000;
 /// The longest step, where the range of the entry counts as one.
 const LARGEST_STEP: f64 = 0.1;
 
@@ -83,7 +85,11 @@ enum PieceEnd {
     /// With the branch.
     Branch(BranchEnd),
     /// At a state from which the next piece starts.
-    Next(Box<Solved>, Direction),
+    Next {
+        solved: Box<Solved>,
+        value: f64,
+        direction: Direction,
+    },
 }
 
 /// A solution of a member of the family as the guess for it.
@@ -169,10 +175,11 @@ impl<'d> Tracer<'d> {
                     end = Some(reason);
                     break;
                 }
-                PieceEnd::Next(next, onward) => {
-                    (solved, direction) = (*next, onward);
-                    value = self.points.last().map_or(value, |point| point.value);
-                }
+                PieceEnd::Next {
+                    solved: next,
+                    value: at,
+                    direction: onward,
+                } => (solved, value, direction) = (*next, at, onward),
             }
         }
         let end = end.unwrap_or_else(|| BranchEnd::NotConverged {
@@ -241,6 +248,7 @@ impl<'d> Tracer<'d> {
             tolerance: self.tolerance,
             scheme: Scheme::Gauss { stages },
             global_error: GlobalError::Skip,
+            max_intervals: MAX_INTERVALS,
             ..bvp::Options::default()
         };
         let first = family.first_entry();
@@ -284,20 +292,20 @@ impl<'d> Tracer<'d> {
             if here.driven_speed() < 0.0 && kind != Some(EventKind::GrossSlip(Pulley::Driven)) {
                 continue;
             }
-            if let Some(check) = violated(&state) {
-                let cause = format!("a state violates an invariant, {}", check.name);
-                last = Some(here.solution.stats().to_owned());
+            last = Some(here.solution.stats().to_owned());
+            // A step may have passed the place where a zone appears: its state is none, but a guess.
+            let passed = point.kind == Kind::Regular && Split::of(&here).is_some();
+            if passed && here.problem.is_split() {
                 self.count(last);
+                return self.next_piece(&point, here, &drive);
+            }
+            if let Some(check) = violated(&state) {
+                self.count(last);
+                let cause = format!("a state violates an invariant, {}", check.name);
                 return not_converged(cause);
             }
             let place = self.record(&point, kind, &state);
             progress(self.share(place), "tracing");
-            let restart = match point.kind {
-                Kind::Event(RATIO) => point.arclength > AHEAD,
-                Kind::Event(index) => index >= FIRST_ZONE,
-                Kind::Regular => here.problem.is_split() && Split::of(&here).is_some(),
-                _ => false,
-            };
             let ends_here = match kind {
                 Some(EventKind::GrossSlip(pulley)) => Some(BranchEnd::GrossSlip(pulley)),
                 Some(EventKind::LimitPoint) if self.until == Until::LimitPoint => {
@@ -305,30 +313,46 @@ impl<'d> Tracer<'d> {
                 }
                 _ => self.came_back(place).then_some(BranchEnd::Returned),
             };
-            last = Some(here.solution.stats().to_owned());
             if let Some(end) = ends_here {
                 self.count(last);
                 return PieceEnd::Branch(end);
             }
+            let restart = match point.kind {
+                Kind::Event(RATIO) => point.arclength > AHEAD,
+                Kind::Event(index) => index >= FIRST_ZONE,
+                _ => false,
+            };
             if restart {
                 self.count(last);
-                let rate = point.tangent[point.tangent.len() - 1];
-                let onward = if rate > 0.0 {
-                    Direction::Increasing
-                } else {
-                    Direction::Decreasing
-                };
-                let mut path = Path::new(&drive, self.tolerance);
-                let next = match path.keep_zones(here, Effort::Full) {
-                    Ok(next) => next,
-                    Err(stuck) => return not_converged(stuck.cause.to_string()),
-                };
-                self.before = self.points.last().map_or(0.0, |point| point.arclength);
-                return PieceEnd::Next(Box::new(next), onward);
+                return self.next_piece(&point, here, &drive);
             }
         }
         self.count(last);
         PieceEnd::Branch(self.end(branch.into_stop()))
+    }
+
+    /// The next piece, from a point whose state is cut anew into zones.
+    fn next_piece(&mut self, point: &Point, here: Solved, drive: &Drive) -> PieceEnd {
+        let rate = point.tangent[point.tangent.len() - 1];
+        let direction = if rate > 0.0 {
+            Direction::Increasing
+        } else {
+            Direction::Decreasing
+        };
+        let mut path = Path::new(drive, self.tolerance);
+        match path.keep_zones(here, Effort::Full) {
+            Ok(next) => {
+                self.before += point.arclength;
+                PieceEnd::Next {
+                    solved: Box::new(next),
+                    value: self.value(point.lambda()),
+                    direction,
+                }
+            }
+            Err(stuck) => PieceEnd::Branch(BranchEnd::NotConverged {
+                cause: stuck.cause.to_string(),
+            }),
+        }
     }
 
     /// Adds the event functions to a piece of the branch.

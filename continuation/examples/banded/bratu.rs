@@ -11,7 +11,7 @@ use continuation::{Cause, System};
 /// The Jacobian \[A g\], A tridiagonal and g = h² eᵘ, is factored by elimination with row exchanges.
 /// Row and column of the last pivot are left over: there either uₙ or λ is free, whichever has the
 /// smaller pivot, so that a singular A needs no care.
-pub struct Bratu {
+pub(crate) struct Bratu {
     /// The rows of U: pivot, two superdiagonals, column of λ.
     upper: Vec<[f64; 4]>,
     /// The multiplier of every elimination, and whether the rows were exchanged before it.
@@ -23,7 +23,7 @@ pub struct Bratu {
 
 impl Bratu {
     /// The system with so many interior points.
-    pub fn new(points: usize) -> Self {
+    pub(crate) fn new(points: usize) -> Self {
         Self {
             upper: vec![[0.0; 4]; points],
             lower: vec![(0.0, false); points - 1],
@@ -119,7 +119,11 @@ impl System for Bratu {
         let [pivot, _, _, column] = self.upper[self.right.len() - 1];
         // det [J; tᵀ] has the sign of det [J; eᵀ] times that of the free component, with e the unit
         // vector of the free unknown: λ, or uₙ with its column moved past that of λ.
-        let orientation = if pivot.abs() > column.abs() { pivot } else { -column };
+        let orientation = if pivot.abs() > column.abs() {
+            pivot
+        } else {
+            -column
+        };
         self.back_substitute(self.sign * orientation.signum(), t);
     }
 

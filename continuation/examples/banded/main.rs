@@ -10,16 +10,22 @@ const POINTS: usize = 999;
 
 fn main() -> Result<(), Error> {
     let mut system = Bratu::new(POINTS);
-    let options = Options { targets: vec![1.0], ..Options::within(0.0, 4.0) };
+    let options = Options {
+        targets: vec![1.0],
+        ..Options::within(0.0, 4.0)
+    };
     let start = [0.0; POINTS + 1];
-    let mut branch = Branch::new(&mut system, &start, Direction::Increasing, &options)?
+    let branch = Branch::new(&mut system, &start, Direction::Increasing, &options)?
         .event(|_, z| z[POINTS / 2] - 6.0);
 
     println!("{:>10} {:>18} {:>14}", "arclength", "lambda", "u(1/2)");
     let mut labelled = Vec::new();
-    while let Some(point) = branch.next() {
+    for point in branch {
         let (lambda, middle) = (point.lambda(), point.x()[POINTS / 2]);
-        println!("{:10.4} {lambda:18.12} {middle:14.9}  {:?}", point.arclength, point.kind);
+        println!(
+            "{:10.4} {lambda:18.12} {middle:14.9}  {:?}",
+            point.arclength, point.kind
+        );
         if point.kind != Kind::Regular {
             labelled.push((point.kind, lambda, middle));
         }

@@ -1,0 +1,109 @@
+//! Labelled points are compared with those of a refined system.
+
+use crate::{of, trace};
+use continuation::Direction::Increasing;
+use continuation::{Cause, Kind, Options, Stop, System};
+
+/// λ = 1 − x² + offset(level), finer and finer.
+#[derive(Clone)]
+struct Refining {
+    level: i32,
+    offset: fn(i32) -> f64,
+    tolerance: f64,
+    slope: f64,
+}
+
+impl Refining {
+    fn new(offset: fn(i32) -> f64, tolerance: f64) -> Self {
+        let (level, slope) = (0, 0.0);
+        Self {
+            level,
+            offset,
+            tolerance,
+            slope,
+        }
+    }
+}
+
+impl System for Refining {
+    fn unknowns(&self) -> usize {
+        2
+    }
+
+    fn residual(&mut self, z: &[f64], g: &mut [f64]) {
+        g[0] = z[1] - 1.0 - (self.offset)(self.level) + z[0] * z[0];
+    }
+
+    fn linearise(&mut self, z: &[f64]) -> Result<(), Cause> {
+        self.slope = 2.0 * z[0];
+        Ok(())
+    }
+
+    fn particular(&mut self, r: &[f64], v: &mut [f64]) {
+        v.copy_from_slice(&[0.0, r[0]]);
+    }
+
+    fn null_vector(&mut self, t: &mut [f64]) {
+        t.copy_from_slice(&[1.0, -self.slope]);
+    }
+
+    fn refined(&self, _: &mut [Vec<f64>]) -> Option<Self> {
+        Some(Self {
+            level: self.level + 1,
+            ..self.clone()
+        })
+    }
+
+    fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+}
+
+fn options() -> Options {
+    Options {
+        targets: vec![0.5],
+        ..Options::within(-1.0, 2.0)
+    }
+}
+
+#[test]
+fn a_system_is_refined_until_the_error_is_below_the_tolerance() {
+    let mut system = Refining::new(|level| 0.1 * 0.25f64.powi(level), 2e-3);
+    let (points, stop) = trace(&mut system, &[-1.0, 0.0], Increasing, &options());
+    assert!(matches!(stop, Stop::Bound { lambda: -1.0 }));
+    // Halfway to the next level it is 0.075 / 4^level: 1.2e-3 on the third.
+    assert_eq!(system.level, 3);
+    let limit = of(&points, Kind::LimitPoint)[0];
+    let exact = 1.0 + 0.1 / 64.0;
+    assert!((limit.lambda() - exact).abs() < 1e-12);
+    let error = limit.error.unwrap();
+    assert!((error.lambda - 0.075 / 64.0).abs() < 1e-12);
+    for point in points.iter().filter(|point| point.kind != Kind::Regular) {
+        let error = point.error.unwrap();
+        assert!(error.lambda <= 2e-3 && error.states <= 2e-3);
+    }
+    let targets = of(&points, Kind::Target);
+    assert_eq!(targets.len(), 2);
+    assert!(targets.iter().all(|target| target.lambda() == 0.5));
+}
+
+#[test]
+fn an_error_that_stays_above_the_tolerance_ends_the_branch() {
+    let mut system = Refining::new(|level| if level % 2 == 0 { 0.1 } else { -0.1 }, 1e-3);
+    let (points, stop) = trace(&mut system, &[-1.0, 0.0], Increasing, &options());
+    let Stop::Inaccurate { error, tolerance } = stop else {
+        panic!("{stop}")
+    };
+    assert!(error > 0.05 && tolerance == 1e-3);
+    assert_eq!(points.len(), 1);
+    assert!(points[0].error.unwrap().states > 0.05);
+}
+
+#[test]
+fn a_point_that_the_refined_system_has_not_is_not_trusted() {
+    let mut system = Refining::new(|level| if level == 0 { 0.0 } else { f64::NAN }, 1e-3);
+    let (points, stop) = trace(&mut system, &[-1.0, 0.0], Increasing, &options());
+    assert!(matches!(stop, Stop::Inaccurate { error, .. } if error == f64::INFINITY));
+    assert_eq!(points.len(), 1);
+    assert_eq!(points[0].error.unwrap().lambda, f64::INFINITY);
+}

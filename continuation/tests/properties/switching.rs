@@ -1,0 +1,118 @@
+//! From a branch to the one that crosses it.
+
+use crate::systems::{circle, pitchfork, transcritical};
+use crate::{assert_close, finish, of, trace};
+use continuation::Direction::Increasing;
+use continuation::{Branch, Error, Kind, Leg, Options, Point, Stop};
+
+fn options() -> Options {
+    Options::within(-1.0, 2.0)
+}
+
+fn branch_point(system: &mut continuation::DenseSystem, start: &[f64]) -> Point {
+    let (points, _) = trace(system, start, Increasing, &options());
+    of(&points, Kind::BranchPoint)[0].clone()
+}
+
+#[test]
+fn both_legs_of_a_pitchfork_are_followed_to_the_bound() {
+    let mut system = pitchfork(0.0);
+    let crossing = branch_point(&mut system, &[0.0, -1.0]);
+    let side = crossing.other.as_ref().unwrap()[0].signum();
+    for (leg, side) in [(Leg::Forward, side), (Leg::Backward, -side)] {
+        let branch = Branch::switch(&mut system, &crossing, leg, &options()).unwrap();
+        let (points, stop) = finish(branch);
+        assert_eq!(points[0].kind, Kind::Start);
+        for point in &points[1..] {
+            // λ = x², not the old branch x = 0
+            assert!(point.z[0] * side > 0.0);
+            assert!((point.lambda() - point.z[0] * point.z[0]).abs() < 1e-8);
+        }
+        assert_close(&points.last().unwrap().z, &[side * 2f64.sqrt(), 2.0], 1e-14);
+        assert!(matches!(stop, Stop::Bound { lambda: 2.0 }));
+        assert!(
+            points
+                .iter()
+                .all(|p| matches!(p.kind, Kind::Start | Kind::Regular | Kind::Bound))
+        );
+    }
+}
+
+#[test]
+fn both_legs_of_a_transcritical_point_are_followed() {
+    let mut system = transcritical();
+    let crossing = branch_point(&mut system, &[-0.3, -1.0]);
+    let mut ends = Vec::new();
+    for leg in [Leg::Forward, Leg::Backward] {
+        let branch = Branch::switch(&mut system, &crossing, leg, &options()).unwrap();
+        let (points, _) = finish(branch);
+        assert!(points.iter().all(|p| (p.z[0] + p.z[1] - 0.1).abs() < 1e-8));
+        ends.push(points.last().unwrap().lambda());
+    }
+    ends.sort_by(f64::total_cmp);
+    assert_eq!(ends, [-1.0, 2.0]);
+}
+
+#[test]
+fn a_limit_point_right_behind_a_branch_point_is_found() {
+    // x (λ − x − 20 x²) = 0: λ = x + 20 x² turns at x = −1/40, λ = −1/80.
+    let mut system = continuation::DenseSystem::new(1, &[0.0], 0, |x, p, g| {
+        g[0] = x[0] * (p[0] - x[0] - 20.0 * x[0] * x[0]);
+    });
+    let crossing = branch_point(&mut system, &[0.0, -1.0]);
+    let mut limits = Vec::new();
+    for leg in [Leg::Forward, Leg::Backward] {
+        let branch = Branch::switch(&mut system, &crossing, leg, &options()).unwrap();
+        let (points, stop) = finish(branch);
+        assert!(matches!(stop, Stop::Bound { lambda: 2.0 }));
+        limits.extend(of(&points, Kind::LimitPoint).into_iter().cloned());
+    }
+    assert_eq!(limits.len(), 1);
+    assert_close(&limits[0].z, &[-1.0 / 40.0, -1.0 / 80.0], 1e-10);
+}
+
+#[test]
+fn points_without_a_second_branch_are_refused() {
+    let (points, _) = trace(
+        &mut circle(),
+        &[1.0, 0.0],
+        Increasing,
+        &Options::within(-2.0, 2.0),
+    );
+    let limit = of(&points, Kind::LimitPoint)[0];
+    let error = Branch::switch(&mut circle(), limit, Leg::Forward, &options()).err();
+    assert!(matches!(error, Some(Error::NoSecondBranch)));
+}
+
+#[test]
+fn a_direction_without_a_branch_is_refused() {
+    // A branch point whose other direction is not one of the second branch: as good as none.
+    let mut system = pitchfork(0.0);
+    let mut crossing = branch_point(&mut system, &[0.0, -1.0]);
+    let [parallel, tangent] = [crossing.other.clone().unwrap(), crossing.tangent.clone()];
+    let between = |share: f64| -> Vec<f64> {
+        parallel
+            .iter()
+            .zip(&tangent)
+            .map(|(a, b)| (1.0 - share) * a + share * b)
+            .collect()
+    };
+    crossing.other = Some(between(0.5));
+    let error = Branch::switch(&mut system, &crossing, Leg::Forward, &options()).err();
+    assert!(matches!(error, Some(Error::Switch { .. })), "{error:?}");
+    // Slightly off it is found all the same.
+    crossing.other = Some(between(0.1));
+    let branch = Branch::switch(&mut system, &crossing, Leg::Forward, &options()).unwrap();
+    let (points, _) = finish(branch);
+    assert!((points.last().unwrap().z[0].abs() - 2f64.sqrt()).abs() < 1e-12);
+}
+
+#[test]
+fn a_branch_goes_straight_on_from_a_branch_point() {
+    let mut system = pitchfork(0.0);
+    let crossing = branch_point(&mut system, &[0.0, -1.0]);
+    let (points, _) = finish(Branch::resume(&mut system, &crossing, &options()).unwrap());
+    assert!(points.iter().all(|point| point.z[0].abs() < 1e-12));
+    assert_eq!(points.last().unwrap().lambda(), 2.0);
+    assert!(of(&points, Kind::BranchPoint).is_empty());
+}

@@ -1,0 +1,145 @@
+//! What a branch costs.
+
+use crate::bratu::Bratu;
+use crate::counting::{Counting, Counts};
+use crate::systems::tank;
+use crate::{assert_close, of, steps};
+use continuation::Direction::Increasing;
+use continuation::{Branch, Kind, Options, Point, System};
+
+/// The limit points of the differences with 9, 39, 99 and 399 interior points.
+const DIFFERENCES: [(usize, f64); 4] = [
+    (9, 3.495_493_294_28),
+    (39, 3.512_687_939_5),
+    (99, 3.513_647_903_97),
+    (399, 3.513_819_293_51),
+];
+/// That of the differential equation.
+const EXACT: f64 = 3.513_830_719_125_161;
+
+fn limit_point(points: usize) -> (Point, usize) {
+    let mut system = Bratu::new(points);
+    let start = vec![0.0; points + 1];
+    let branch = Branch::new(&mut system, &start, Increasing, &Options::within(0.0, 4.0)).unwrap();
+    let mut passed = Vec::new();
+    for point in branch {
+        let arrived = point.kind == Kind::LimitPoint;
+        passed.push(point);
+        if arrived {
+            break;
+        }
+    }
+    let steps = steps(&passed) + 1;
+    (passed.pop().unwrap(), steps)
+}
+
+#[test]
+fn the_limit_points_of_the_differences_are_found() {
+    for (points, lambda) in DIFFERENCES {
+        assert_close(&[limit_point(points).0.lambda()], &[lambda], 1e-11);
+    }
+}
+
+#[test]
+fn many_points_take_no_more_steps_and_lose_no_digits() {
+    let (point, steps) = limit_point(999);
+    assert!(steps <= 15, "{steps} steps");
+    // The error of the differences is a series in h²: three of its terms from the meshes above.
+    let square = |points: usize| ((points + 1) as f64).powi(-2);
+    let nodes: Vec<(f64, f64)> = DIFFERENCES[1..]
+        .iter()
+        .map(|&(points, lambda)| (square(points), (lambda - EXACT) / square(points)))
+        .collect();
+    let h = square(999);
+    let interpolated: f64 = (0..nodes.len())
+        .map(|i| {
+            let others = (0..nodes.len()).filter(|&j| j != i);
+            let basis = others.map(|j| (h - nodes[j].0) / (nodes[i].0 - nodes[j].0));
+            nodes[i].1 * basis.product::<f64>()
+        })
+        .sum();
+    assert_close(&[point.lambda()], &[EXACT + h * interpolated], 1e-10);
+}
+
+/// Counts per step over a stretch without labelled points.
+fn work<S: System>(system: S, start: &[f64], options: &Options) -> (Counts, usize) {
+    let mut system = Counting::new(system);
+    let mut branch = Branch::new(&mut system, start, Increasing, options).unwrap();
+    branch.next();
+    let before = branch.system().counts;
+    let points: Vec<Point> = branch.by_ref().collect();
+    assert!(
+        points
+            .iter()
+            .all(|p| matches!(p.kind, Kind::Regular | Kind::Bound))
+    );
+    let after = branch.system().counts;
+    let counts = Counts {
+        residuals: after.residuals - before.residuals,
+        linearisations: after.linearisations - before.linearisations,
+        solutions: after.solutions - before.solutions,
+        ..after
+    };
+    (counts, steps(&points))
+}
+
+#[test]
+fn a_step_takes_about_one_linearisation() {
+    let points = 999;
+    let start = vec![0.0; points + 1];
+    let (counts, steps) = work(Bratu::new(points), &start, &Options::within(0.0, 3.4));
+    println!("bratu: {steps} steps, {counts:?}");
+    assert!(
+        counts.linearisations <= 2 * steps,
+        "{counts:?} in {steps} steps"
+    );
+    assert!(counts.residuals <= 4 * steps, "{counts:?} in {steps} steps");
+    let (counts, steps) = work(tank(14.0), &[0.0; 3], &Options::within(0.0, 0.5));
+    println!("tank: {steps} steps, {counts:?}");
+    assert!(
+        counts.linearisations <= 2 * steps,
+        "{counts:?} in {steps} steps"
+    );
+    assert!(counts.residuals <= 4 * steps, "{counts:?} in {steps} steps");
+}
+
+#[test]
+fn a_limit_point_takes_a_few_linearisations() {
+    let passed = |high: f64| {
+        let mut system = Counting::new(tank(18.0));
+        let branch = Branch::new(
+            &mut system,
+            &[0.0; 3],
+            Increasing,
+            &Options::within(0.0, high),
+        );
+        let points: Vec<Point> = branch.unwrap().collect();
+        (
+            of(&points, Kind::LimitPoint).len(),
+            steps(&points),
+            system.counts,
+        )
+    };
+    let (limits, steps, counts) = passed(0.3);
+    println!("tank: {limits} limit points, {steps} steps, {counts:?}");
+    assert_eq!(limits, 2);
+    assert!(counts.linearisations <= 2 * steps + 15 * limits);
+}
+
+#[test]
+fn a_long_branch_keeps_as_many_vectors_as_a_short_one() {
+    let kept = |steps: usize| {
+        let mut system = Counting::new(tank(14.0));
+        let (largest_step, bounds) = (1e-3, Options::within(0.0, 0.5));
+        let options = Options {
+            steps,
+            largest_step,
+            ..bounds
+        };
+        let branch = Branch::new(&mut system, &[0.0; 3], Increasing, &options).unwrap();
+        assert_eq!(branch.count(), steps + 1);
+        system.counts.vectors
+    };
+    assert_eq!(kept(10), kept(1000));
+    assert!(kept(10) <= 8);
+}
