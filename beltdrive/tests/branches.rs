@@ -1,0 +1,217 @@
+//! Branches of steady states and the limits of drives, against converged values.
+
+use beltdrive::input::Key;
+use beltdrive::{
+    Branch, BranchEnd, BranchEvent, Drive, EventKind, FrictionLaw, LimitReason, Pulley, RangeEnd,
+    SolveError, SolveOptions, SpanTension, examples, input, limits, solve, trace,
+};
+
+const BRISTLE: FrictionLaw = FrictionLaw::Bristle { stiffness: 1620.0 };
+const EPP: FrictionLaw = FrictionLaw::Epp { stiffness: 8.1e6 };
+
+/// The drive of Kim (2009), table 3, with slack tractive tension 100 N.
+fn kim(law: FrictionLaw) -> Drive {
+    let example = examples::find("kim2009").unwrap();
+    let drive = input::parse(example.name, example.text, &[]).unwrap();
+    Drive { law, ..drive }
+}
+
+fn key(drive: &Drive, path: &str) -> Key {
+    Key::all(drive).find(|key| key.path() == path).unwrap()
+}
+
+fn traced(drive: &Drive, path: &str, range: [f64; 2]) -> Branch {
+    let key = key(drive, path);
+    trace(drive, &key, range, &SolveOptions::default(), &mut |_, _| {}).unwrap()
+}
+
+fn event(branch: &Branch, kind: EventKind) -> &BranchEvent {
+    let mut events = branch.events.iter();
+    let found = events.find(|event| event.kind == kind);
+    found.unwrap_or_else(|| panic!("{kind:?} among {:?}", branch.events))
+}
+
+fn close(found: f64, expected: f64, relative: f64) {
+    let deviation = (found / expected - 1.0).abs();
+    assert!(
+        deviation <= relative,
+        "{found} for {expected}: {deviation:.1e}"
+    );
+}
+
+const TIGHT: &str = "load.tight_tractive_tension";
+
+#[test]
+fn a_coulomb_branch_goes_through_90_degrees_around_the_limit_point() {
+    let branch = traced(&kim(FrictionLaw::Coulomb), TIGHT, [310.0, 9000.0]);
+    let overhang = event(&branch, EventKind::Overhang(Pulley::Driver));
+    close(overhang.point.value, 7523.082013, 1e-8);
+    close(
+        overhang.point.state.driver.inclination[1].to_degrees(),
+        90.0,
+        1e-9,
+    );
+    let fold = event(&branch, EventKind::LimitPoint);
+    close(fold.point.value, 8221.01476, 1e-8);
+    close(fold.point.state.driven.angular_speed, 35.481_22, 1e-6);
+    close(
+        fold.point.state.driver.wrap_angle.to_degrees(),
+        316.8958,
+        1e-6,
+    );
+    close(
+        fold.point.state.driver.inclination[1].to_degrees(),
+        126.4294,
+        1e-6,
+    );
+    assert!(fold.value_error.unwrap() < 1e-4);
+    // Down the other side.
+    assert_eq!(branch.end, BranchEnd::Returned);
+    assert!(branch.points.last().unwrap().value < 7000.0);
+    assert!(branch.points.is_sorted_by_key(|point| point.arclength));
+    let largest = branch
+        .points
+        .iter()
+        .map(|point| point.value)
+        .fold(0.0, f64::max);
+    assert!(largest <= fold.point.value * (1.0 + 1e-9));
+}
+
+#[test]
+fn states_on_a_branch_are_those_of_a_solve() {
+    let drive = kim(BRISTLE);
+    let branch = traced(&drive, TIGHT, [102.0, 3000.0]);
+    assert_eq!(branch.end, BranchEnd::Target);
+    assert_eq!(branch.points.last().unwrap().value, 3000.0);
+    for point in branch.points.iter().step_by(5) {
+        let mut drive = drive.clone();
+        key(&drive, TIGHT).set(&mut drive, point.value);
+        let state = solve(&drive, &SolveOptions::default()).unwrap();
+        close(
+            point.state.driven.angular_speed,
+            state.driven.angular_speed,
+            2e-6,
+        );
+        close(point.state.driver.wrap_angle, state.driver.wrap_angle, 2e-6);
+        close(point.state.tight_tension, state.tight_tension, 2e-6);
+        assert!((point.state.efficiency - state.efficiency).abs() < 2e-6);
+    }
+}
+
+#[test]
+fn the_bristle_branch_has_its_own_limit() {
+    let found = limits(
+        &kim(BRISTLE),
+        &key(&kim(BRISTLE), TIGHT),
+        &SolveOptions::default(),
+        &mut |_, _| {},
+    );
+    let found = found.unwrap();
+    close(found.largest.value, 8330.214_368, 1e-9);
+    assert_eq!(found.largest.reason, RangeEnd::Limit(LimitReason::Overhang));
+    assert_eq!(
+        (found.smallest.value, found.smallest.reason),
+        (100.0, RangeEnd::NoLoad)
+    );
+    assert!(
+        found
+            .branch
+            .points
+            .is_sorted_by_key(|point| point.arclength)
+    );
+    assert_eq!(found.branch.points[0].value, 100.0);
+}
+
+#[test]
+fn the_kind_of_limit_changes_with_friction() {
+    for (coefficient, limit, reason) in [
+        (0.2, 777.164_87, LimitReason::DrivenSlips),
+        (0.3, 2233.702_20, LimitReason::DrivenSlips),
+        (0.5, 7224.969_9, LimitReason::Overhang),
+    ] {
+        let mut drive = kim(FrictionLaw::Coulomb);
+        drive.friction_coefficient = coefficient;
+        let tight = key(&drive, TIGHT);
+        let found = limits(&drive, &tight, &SolveOptions::default(), &mut |_, _| {}).unwrap();
+        close(found.largest.value, limit, 1e-8);
+        assert_eq!(
+            found.largest.reason,
+            RangeEnd::Limit(reason),
+            "μ = {coefficient}"
+        );
+        // No state of the branch turns backwards.
+        let speeds = found
+            .branch
+            .points
+            .iter()
+            .map(|p| p.state.driven.angular_speed);
+        assert!(speeds.fold(f64::INFINITY, f64::min) > -1e-6);
+        // The search that refuses a load beyond the limit is another one.
+        tight.set(&mut drive, 1.05 * limit);
+        let refused = solve(&drive, &SolveOptions::default());
+        let Err(SolveError::NoSteadyState {
+            limit: other,
+            reason: why,
+            ..
+        }) = refused
+        else {
+            panic!("a load beyond the limit");
+        };
+        close(other, limit, 1e-6);
+        assert_eq!(why, reason);
+    }
+}
+
+#[test]
+fn gross_slip_is_located_and_ends_the_branch() {
+    let mut drive = kim(EPP);
+    drive.load.slack = SpanTension::Belt(200.0);
+    drive.load.tight = SpanTension::Belt(600.0);
+    let branch = traced(&drive, "load.tight_tension", [600.0, 2000.0]);
+    assert_eq!(branch.end, BranchEnd::GrossSlip(Pulley::Driven));
+    let stop = event(&branch, EventKind::GrossSlip(Pulley::Driven));
+    close(stop.point.value, 917.0273, 1e-7);
+    assert!(stop.point.state.driven.angular_speed.abs() < 1e-9);
+    assert!(
+        branch
+            .points
+            .iter()
+            .all(|p| p.state.driven.angular_speed > -1e-9)
+    );
+}
+
+#[test]
+fn epp_friction_has_nearly_the_limit_of_coulomb_friction_at_half_its_speed() {
+    let drive = kim(EPP);
+    let found = limits(
+        &drive,
+        &key(&drive, TIGHT),
+        &SolveOptions::default(),
+        &mut |_, _| {},
+    );
+    let largest = found.unwrap().largest;
+    close(largest.value, 8221.0148, 1e-8);
+    close(largest.state.driven.angular_speed, 16.5703, 1e-5);
+    assert_eq!(largest.reason, RangeEnd::Limit(LimitReason::Overhang));
+}
+
+#[test]
+fn other_entries_are_traced_too() {
+    let drive = kim(FrictionLaw::Coulomb);
+    let branch = traced(&drive, "friction.coefficient", [0.4, 0.1]);
+    assert_eq!(branch.end, BranchEnd::GrossSlip(Pulley::Driven));
+    close(branch.points.last().unwrap().value, 0.189_901_28, 1e-7);
+    let branch = traced(&drive, "belt.radial_stiffness", [900e3, 300e3]);
+    assert_eq!(branch.end, BranchEnd::Target);
+    let branch = traced(&drive, "groove.half_angle", [drive.half_angle, 0.28]);
+    assert_eq!(branch.points.last().unwrap().value, 0.28);
+}
+
+#[test]
+fn a_belt_that_sinks_beyond_its_height_is_an_event() {
+    let mut drive = kim(BRISTLE);
+    drive.belt.height = Some(0.01);
+    let branch = traced(&drive, TIGHT, [700.0, 3000.0]);
+    let sunk = event(&branch, EventKind::BeltHeight(Pulley::Driven));
+    close(sunk.point.state.driven.max_penetration, 0.01, 1e-3);
+}
