@@ -107,7 +107,7 @@ fn the_bristle_branch_has_its_own_limit() {
         &mut |_, _| {},
     );
     let found = found.unwrap();
-    close(found.largest.value, 8330.214_368, 1e-9);
+    close(found.largest.value, 8_330.214_368, 1e-9);
     assert_eq!(found.largest.reason, RangeEnd::Limit(LimitReason::Overhang));
     assert_eq!(
         (found.smallest.value, found.smallest.reason),
@@ -126,8 +126,8 @@ fn the_bristle_branch_has_its_own_limit() {
 fn the_kind_of_limit_changes_with_friction() {
     for (coefficient, limit, reason) in [
         (0.2, 777.164_87, LimitReason::DrivenSlips),
-        (0.3, 2233.702_20, LimitReason::DrivenSlips),
-        (0.5, 7224.969_9, LimitReason::Overhang),
+        (0.3, 2_233.702_20, LimitReason::DrivenSlips),
+        (0.5, 7_224.969_9, LimitReason::Overhang),
     ] {
         let mut drive = kim(FrictionLaw::Coulomb);
         drive.friction_coefficient = coefficient;

@@ -183,7 +183,7 @@ impl Equations for DriveFamily {
 
     fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
         self.with(p, false, |members, p| {
-            Problem::rhs(&members.here, segment, s, y, p, dy)
+            Problem::rhs(&members.here, segment, s, y, p, dy);
         });
     }
 
@@ -215,7 +215,7 @@ impl Equations for DriveFamily {
 
     fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
         self.with(p, false, |members, p| {
-            Problem::conditions(&members.here, at, p, r)
+            Problem::conditions(&members.here, at, p, r);
         });
     }
 

@@ -23,11 +23,13 @@ mod limit;
 mod limit_curve;
 mod limits;
 mod path;
+mod piece;
 mod scaling;
 mod solve;
 mod state;
 mod trace;
 mod tracer;
+mod watched;
 mod zones;
 
 pub(crate) use closure::{EndAngles, Layout};

@@ -143,8 +143,16 @@ impl Family<'_> {
         g.iter_mut().for_each(|g| *g = -*g);
         self.particular(g, delta);
         let relative = |(z, d): (&f64, &f64)| (d / (1.0 + z.abs())).abs();
-        let largest = z.iter().zip(delta.iter()).map(relative).fold(0.0, max_or_nan);
-        if largest.is_nan() { f64::INFINITY } else { largest }
+        let largest = z
+            .iter()
+            .zip(delta.iter())
+            .map(relative)
+            .fold(0.0, max_or_nan);
+        if largest.is_nan() {
+            f64::INFINITY
+        } else {
+            largest
+        }
     }
 
     /// The same family on the mesh with every interval halved, for an estimate of the error: the

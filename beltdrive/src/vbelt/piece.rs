@@ -1,0 +1,223 @@
+//! One piece of a branch: as long as the friction zones stay the same.
+
+use super::carried::Carried;
+use super::curve::Curve;
+use super::family::{DriveFamily, Entry};
+use super::laws::{GREAT_STEP, with_epsilon};
+use super::path::{Effort, Path, Solved};
+use super::solve::violated;
+use super::state::describe;
+use super::tracer::{Tracer, Until};
+use super::watched::{FIRST_ZONE, LOW_RATIO, RATIO};
+use super::zones::Split;
+use crate::{BranchEnd, Drive, EventKind, FrictionLaw, Pulley};
+use bvp::{Family, GlobalError, Scheme};
+use continuation::{Branch, Direction, Kind, Options, Point};
+
+/// ε where the belt slips everywhere, and ...
+const EPSILON: f64 = 1e-7;
+/// ... where the tight tension is less than a small multiple of the slack one.
+const LOW_RATIO_EPSILON: f64 = 1e-5;
+/// A share of the range that is no way.
+const AHEAD: f64 = 1e-6;
+/// The most steps of a piece.
+const MAX_STEPS: usize = 600;
+/// The most mesh intervals: a point that needs more is approached by a shorter step.
+const MAX_INTERVALS: usize = 4000;
+/// The longest step, where the range of the entry counts as one.
+const LARGEST_STEP: f64 = 0.1;
+
+/// Accuracy of the points of a branch, as a share of the tolerance.
+const ACCURACY: f64 = 1e-3;
+
+/// How a piece ends.
+pub(super) enum PieceEnd {
+    /// With the branch.
+    Branch(BranchEnd),
+    /// At a state from which the next piece starts.
+    Next {
+        solved: Box<Solved>,
+        value: f64,
+        direction: Direction,
+    },
+}
+
+/// A solution of a member of the family as the guess for it.
+struct Start<'a> {
+    solution: Carried<'a>,
+    value: f64,
+}
+
+impl bvp::Guess for Start<'_> {
+    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
+        self.solution.state(segment, s, y);
+    }
+
+    fn parameters(&self, p: &mut [f64]) {
+        let last = p.len() - 1;
+        self.solution.parameters(&mut p[..last]);
+        p[last] = self.value;
+    }
+
+    fn mesh(&self) -> Option<Vec<Vec<f64>>> {
+        self.solution.mesh()
+    }
+}
+
+impl Tracer<'_> {
+    /// ε at a drive.
+    fn epsilon(drive: &Drive) -> f64 {
+        let ratio = drive.load.tight.value() / drive.load.slack.value();
+        match drive.law {
+            FrictionLaw::Bristle { .. } => 0.0,
+            _ if ratio < LOW_RATIO => LOW_RATIO_EPSILON,
+            _ => EPSILON,
+        }
+    }
+
+    /// Follows the branch as long as its friction zones stay the same.
+    pub(super) fn piece(
+        &mut self,
+        solved: &Solved,
+        value: f64,
+        direction: Direction,
+        progress: &mut dyn FnMut(f64, &str),
+    ) -> PieceEnd {
+        let not_converged = |cause: String| PieceEnd::Branch(BranchEnd::NotConverged { cause });
+        let unit = self.unit();
+        let drive = self.drive_at(value);
+        // A piece may begin where ε changes: what counts is what lies ahead.
+        let ahead = match direction {
+            Direction::Increasing => AHEAD,
+            Direction::Decreasing => -AHEAD,
+        };
+        let epsilon = Self::epsilon(&self.drive_at(value + ahead * unit));
+        let mut solved = solved.clone();
+        if epsilon > 0.0 && solved.problem.epsilon() != epsilon {
+            let range = [solved.problem.epsilon().ln(), epsilon.ln()];
+            let mut path = Path::new(&drive, self.tolerance);
+            match path.follow(solved, range, GREAT_STEP, Effort::Full, with_epsilon) {
+                Ok(normalised) => solved = normalised,
+                Err(stuck) => return not_converged(stuck.cause.to_string()),
+            }
+        }
+        self.convergence.slip_normalisation = self.convergence.slip_normalisation.max(epsilon);
+        let entry = Entry {
+            key: self.key,
+            unit,
+        };
+        let family = DriveFamily::new(self.drive, &solved, vec![entry]);
+        let finer = DriveFamily::new(self.drive, &solved, vec![entry]).with_epsilon(0.25 * epsilon);
+        // Bristles make smooth profiles; layers of ε ask for a higher order.
+        let stages = if epsilon > 0.0 { 6 } else { 5 };
+        let options = bvp::Options {
+            tolerance: self.tolerance,
+            scheme: Scheme::Gauss { stages },
+            global_error: GlobalError::Skip,
+            max_intervals: MAX_INTERVALS,
+            ..bvp::Options::default()
+        };
+        let first = family.first_entry();
+        let guess = Start {
+            solution: Carried(&solved),
+            value: value / unit,
+        };
+        let (discretised, z) = match Family::new(&family, first, &[], &guess, &options) {
+            Ok(start) => start,
+            Err(error) => return not_converged(error.to_string()),
+        };
+        let mut curve = Curve {
+            family: discretised,
+            finer: Some(&finer),
+            second: first,
+        };
+        let options = Options {
+            largest_step: LARGEST_STEP,
+            steps: MAX_STEPS,
+            accuracy: ACCURACY * self.tolerance,
+            ..Options::within(self.range[0] / unit, self.range[1] / unit)
+        };
+        let branch = match Branch::new(&mut curve, &z, direction, &options) {
+            Ok(branch) => branch,
+            Err(error) => return not_converged(error.to_string()),
+        };
+        let mut branch = self.with_events(branch, &solved, first);
+        let mut last = None;
+        while let Some(point) = branch.next() {
+            let solution = branch.system().family.solution(&point.z);
+            let scaled = point.lambda();
+            let here = Solved {
+                problem: family.member(&[scaled]),
+                solution,
+            };
+            let drive = family.drive(&[scaled]);
+            self.convergence.continuation_steps += 1;
+            let state = describe(&Path::new(&drive, self.tolerance), &here);
+            let kind = self.kind(&point, &here);
+            // A state at which the driven pulley stands is the end of all drive states.
+            if here.driven_speed() < 0.0 && kind != Some(EventKind::GrossSlip(Pulley::Driven)) {
+                continue;
+            }
+            last = Some(here.solution.stats().to_owned());
+            // A step may have passed the place where a zone appears: its state is none, but a guess.
+            let passed = point.kind == Kind::Regular && Split::of(&here).is_some();
+            if passed && here.problem.is_split() {
+                self.count(last);
+                return self.next_piece(&point, here, &drive);
+            }
+            if let Some(check) = violated(&state) {
+                self.count(last);
+                let cause = format!("a state violates an invariant, {}", check.name);
+                return not_converged(cause);
+            }
+            let place = self.record(&point, kind, &state);
+            progress(self.share(place), "tracing");
+            let ends_here = match kind {
+                Some(EventKind::GrossSlip(pulley)) => Some(BranchEnd::GrossSlip(pulley)),
+                Some(EventKind::LimitPoint) if self.until == Until::LimitPoint => {
+                    Some(BranchEnd::Target)
+                }
+                _ => self.came_back(place).then_some(BranchEnd::Returned),
+            };
+            if let Some(end) = ends_here {
+                self.count(last);
+                return PieceEnd::Branch(end);
+            }
+            let restart = match point.kind {
+                Kind::Event(RATIO) => point.arclength > AHEAD,
+                Kind::Event(index) => index >= FIRST_ZONE,
+                _ => false,
+            };
+            if restart {
+                self.count(last);
+                return self.next_piece(&point, here, &drive);
+            }
+        }
+        self.count(last);
+        PieceEnd::Branch(self.end(branch.into_stop()))
+    }
+
+    /// The next piece, from a point whose state is cut anew into zones.
+    fn next_piece(&mut self, point: &Point, here: Solved, drive: &Drive) -> PieceEnd {
+        let rate = point.tangent[point.tangent.len() - 1];
+        let direction = if rate > 0.0 {
+            Direction::Increasing
+        } else {
+            Direction::Decreasing
+        };
+        let mut path = Path::new(drive, self.tolerance);
+        match path.keep_zones(here, Effort::Full) {
+            Ok(next) => {
+                self.before += point.arclength;
+                PieceEnd::Next {
+                    solved: Box::new(next),
+                    value: self.value(point.lambda()),
+                    direction,
+                }
+            }
+            Err(stuck) => PieceEnd::Branch(BranchEnd::NotConverged {
+                cause: stuck.cause.to_string(),
+            }),
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What is watched for along a branch.
+
+use super::curve::Curve;
+use super::path::Solved;
+use super::tracer::Tracer;
+use super::{DRIVEN, DRIVER, DriveProblem, INCLINATION, PENETRATION, Regime};
+use crate::{EventKind, FrictionLaw, Pulley, ZoneKind};
+use continuation::{Branch, Kind, Point, System};
+use std::f64::consts::FRAC_PI_2;
+
+/// ε changes where the tight tension is this multiple of the slack one.
+pub(super) const LOW_RATIO: f64 = 3.0;
+
+/// Event functions of every piece, by their number; those of the zones follow.
+const OVERHANG: [usize; 2] = [0, 1];
+const DRIVEN_STOPS: usize = 2;
+pub(super) const RATIO: usize = 3;
+const BELT_HEIGHT: [usize; 2] = [4, 5];
+pub(super) const FIRST_ZONE: usize = 6;
+
+impl Tracer<'_> {
+    /// Adds the event functions to a piece of the branch.
+    pub(super) fn with_events<'a>(
+        &self,
+        branch: Branch<'a, Curve<'a>>,
+        solved: &Solved,
+        constants: usize,
+    ) -> Branch<'a, Curve<'a>> {
+        let problem = &solved.problem;
+        let exits = [DRIVEN, DRIVER].map(|pulley| problem.zones(pulley).end - 1);
+        let parameter = move |curve: &Curve<'_>, z: &[f64], index: usize| {
+            z[curve.unknowns() - 1 - constants + index]
+        };
+        let overhang = |exit: usize| {
+            move |curve: &Curve<'_>, z: &[f64]| curve.family.end(z, exit)[INCLINATION] - FRAC_PI_2
+        };
+        let (drive, key, unit) = (self.drive.clone(), self.key, self.unit());
+        let ratio = move |_: &Curve<'_>, z: &[f64]| {
+            let mut drive = drive.clone();
+            key.set(&mut drive, z[z.len() - 1] * unit);
+            match drive.law {
+                FrictionLaw::Bristle { .. } => 1.0,
+                _ => drive.load.tight.value() / (LOW_RATIO * drive.load.slack.value()) - 1.0,
+            }
+        };
+        let height = self.drive.belt.height;
+        let radius = problem.scales().radius;
+        let sunk = |pulley: usize| {
+            let zones = problem.zones(pulley);
+            move |curve: &Curve<'_>, z: &[f64]| {
+                let Some(height) = height else {
+                    return -1.0;
+                };
+                let solution = curve.family.solution(z);
+                let depths = zones.clone().flat_map(|segment| {
+                    let nodes = 0..solution.mesh(segment).len();
+                    let depth = |node| solution.node(segment, node)[PENETRATION];
+                    nodes.map(depth).collect::<Vec<_>>()
+                });
+                depths.fold(0.0, f64::max) * radius[pulley] / height - 1.0
+            }
+        };
+        let mut branch = branch
+            .event(overhang(exits[DRIVEN]))
+            .event(overhang(exits[DRIVER]))
+            .event(move |curve, z| parameter(curve, z, DriveProblem::DRIVEN_SPEED))
+            .event(ratio)
+            .event(sunk(DRIVEN))
+            .event(sunk(DRIVER));
+        if problem.is_split() {
+            for segment in 0..problem.zones(DRIVER).end {
+                let index = DriveProblem::length_index(segment);
+                branch = branch.event(move |curve, z| parameter(curve, z, index));
+            }
+        }
+        branch
+    }
+
+    /// What happens at a point.
+    pub(super) fn kind(&self, point: &Point, here: &Solved) -> Option<EventKind> {
+        let pulleys = [Pulley::Driven, Pulley::Driver];
+        match point.kind {
+            Kind::Start if self.points.is_empty() => Some(EventKind::Start),
+            Kind::LimitPoint => Some(EventKind::LimitPoint),
+            Kind::BranchPoint => Some(EventKind::BranchPoint),
+            Kind::Event(DRIVEN_STOPS) => Some(EventKind::GrossSlip(Pulley::Driven)),
+            Kind::Event(index) if OVERHANG.contains(&index) => {
+                Some(EventKind::Overhang(pulleys[index - OVERHANG[0]]))
+            }
+            Kind::Event(index) if BELT_HEIGHT.contains(&index) => {
+                Some(EventKind::BeltHeight(pulleys[index - BELT_HEIGHT[0]]))
+            }
+            Kind::Event(index) if index >= FIRST_ZONE => {
+                let segment = index - FIRST_ZONE;
+                Some(EventKind::ZoneVanishes {
+                    pulley: pulleys[here.problem.pulley(segment)],
+                    kind: match here.problem.regime(segment) {
+                        Regime::Elastic => ZoneKind::Elastic,
+                        Regime::Slip | Regime::Either => ZoneKind::Slip,
+                    },
+                })
+            }
+            _ => None,
+        }
+    }
+}
