@@ -19,9 +19,9 @@ use std::time::Instant;
 /// not carry it.
 const EASIER: [f64; 6] = [0.8, 0.6, 0.4, 0.25, 0.15, 0.08];
 /// An upper end is sought up to this multiple of the value in the drive, and from there again.
-const STRETCH: f64 = 8.0;
+const STRETCH: f64 = 64.0;
 /// The most such stretches.
-const STRETCHES: usize = 6;
+const STRETCHES: usize = 3;
 /// A lower end is sought down to this share of the value.
 const SMALLEST_SHARE: f64 = 1e-3;
 /// Where the tight tension is below this multiple of the slack one, a branch under no load is left

@@ -8,16 +8,15 @@ use super::path::{Effort, Path, Solved};
 use super::solve::violated;
 use super::state::describe;
 use super::tracer::{Tracer, Until};
-use super::watched::{FIRST_ZONE, LOW_RATIO, RATIO};
+use super::watched::{FIRST_ZONE, RATIO, RATIOS};
 use super::zones::Split;
 use crate::{BranchEnd, Drive, EventKind, FrictionLaw, Pulley};
 use bvp::{Family, GlobalError, Scheme};
 use continuation::{Branch, Direction, Kind, Options, Point};
 
-/// ε where the belt slips everywhere, and ...
-const EPSILON: f64 = 1e-7;
-/// ... where the tight tension is less than a small multiple of the slack one.
-const LOW_RATIO_EPSILON: f64 = 1e-5;
+/// ε where the tight tension is less than the first of [`RATIOS`] times the slack one, less than the
+/// second, and beyond.
+const EPSILONS: [f64; 3] = [1e-5, 1e-6, 1e-7];
 /// A share of the range that is no way.
 const AHEAD: f64 = 1e-6;
 /// The most steps of a piece.
@@ -70,8 +69,7 @@ impl Tracer<'_> {
         let ratio = drive.load.tight.value() / drive.load.slack.value();
         match drive.law {
             FrictionLaw::Bristle { .. } => 0.0,
-            _ if ratio < LOW_RATIO => LOW_RATIO_EPSILON,
-            _ => EPSILON,
+            _ => EPSILONS[RATIOS.iter().filter(|&&change| ratio >= change).count()],
         }
     }
 

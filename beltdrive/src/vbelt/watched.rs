@@ -8,8 +8,8 @@ use crate::{EventKind, FrictionLaw, Pulley, ZoneKind};
 use continuation::{Branch, Kind, Point, System};
 use std::f64::consts::FRAC_PI_2;
 
-/// ε changes where the tight tension is this multiple of the slack one.
-pub(super) const LOW_RATIO: f64 = 3.0;
+/// ε changes where the tight tension is one of these multiples of the slack one.
+pub(super) const RATIOS: [f64; 2] = [3.0, 10.0];
 
 /// Event functions of every piece, by their number; those of the zones follow.
 const OVERHANG: [usize; 2] = [0, 1];
@@ -40,7 +40,10 @@ impl Tracer<'_> {
             key.set(&mut drive, z[z.len() - 1] * unit);
             match drive.law {
                 FrictionLaw::Bristle { .. } => 1.0,
-                _ => drive.load.tight.value() / (LOW_RATIO * drive.load.slack.value()) - 1.0,
+                _ => {
+                    let ratio = drive.load.tight.value() / drive.load.slack.value();
+                    RATIOS.iter().map(|change| ratio / change - 1.0).product()
+                }
             }
         };
         let height = self.drive.belt.height;
