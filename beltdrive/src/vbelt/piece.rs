@@ -4,7 +4,7 @@ use super::carried::Carried;
 use super::curve::Curve;
 use super::family::{DriveFamily, Entry};
 use super::laws::{GREAT_STEP, with_epsilon};
-use super::path::{Effort, Path, Solved};
+use super::path::{Effort, Path, Solved, Stuck};
 use super::solve::violated;
 use super::state::describe;
 use super::tracer::{Tracer, Until};
@@ -73,6 +73,22 @@ impl Tracer<'_> {
         }
     }
 
+    /// The state with another ε.
+    fn normalised(&self, solved: Solved, drive: &Drive, epsilon: f64) -> Result<Solved, Stuck> {
+        let before = solved.problem.epsilon();
+        if epsilon == 0.0 || before == epsilon {
+            return Ok(solved);
+        }
+        let range = [before.ln(), epsilon.ln()];
+        Path::new(drive, self.tolerance).follow(
+            solved,
+            range,
+            GREAT_STEP,
+            Effort::Full,
+            with_epsilon,
+        )
+    }
+
     /// Follows the branch as long as its friction zones stay the same.
     pub(super) fn piece(
         &mut self,
@@ -90,15 +106,10 @@ impl Tracer<'_> {
             Direction::Decreasing => -AHEAD,
         };
         let epsilon = Self::epsilon(&self.drive_at(value + ahead * unit));
-        let mut solved = solved.clone();
-        if epsilon > 0.0 && solved.problem.epsilon() != epsilon {
-            let range = [solved.problem.epsilon().ln(), epsilon.ln()];
-            let mut path = Path::new(&drive, self.tolerance);
-            match path.follow(solved, range, GREAT_STEP, Effort::Full, with_epsilon) {
-                Ok(normalised) => solved = normalised,
-                Err(stuck) => return not_converged(stuck.cause.to_string()),
-            }
-        }
+        let solved = match self.normalised(solved.clone(), &drive, epsilon) {
+            Ok(solved) => solved,
+            Err(stuck) => return not_converged(stuck.cause.to_string()),
+        };
         self.convergence.slip_normalisation = self.convergence.slip_normalisation.max(epsilon);
         let entry = Entry {
             key: self.key,
@@ -126,7 +137,8 @@ impl Tracer<'_> {
         };
         let mut curve = Curve {
             family: discretised,
-            finer: Some(&finer),
+            finer: (epsilon > 0.0).then_some(&finer),
+            constants: first,
             second: first,
         };
         let options = Options {
@@ -143,56 +155,60 @@ impl Tracer<'_> {
         let mut last = None;
         while let Some(point) = branch.next() {
             let solution = branch.system().family.solution(&point.z);
-            let scaled = point.lambda();
+            last = Some(solution.stats().to_owned());
             let here = Solved {
-                problem: family.member(&[scaled]),
+                problem: family.member(&[point.lambda()]),
                 solution,
             };
-            let drive = family.drive(&[scaled]);
-            self.convergence.continuation_steps += 1;
-            let state = describe(&Path::new(&drive, self.tolerance), &here);
-            let kind = self.kind(&point, &here);
-            // A state at which the driven pulley stands is the end of all drive states.
-            if here.driven_speed() < 0.0 && kind != Some(EventKind::GrossSlip(Pulley::Driven)) {
-                continue;
-            }
-            last = Some(here.solution.stats().to_owned());
-            // A step may have passed the place where a zone appears: its state is none, but a guess.
-            let passed = point.kind == Kind::Regular && Split::of(&here).is_some();
-            if passed && here.problem.is_split() {
+            let effect = branch.system().normalisation_effect(&point.z);
+            let outcome = self.take(&point, here, effect);
+            progress(self.share(self.value(point.lambda())), "tracing");
+            if let Some(end) = outcome {
                 self.count(last);
-                return self.next_piece(&point, here, &drive);
-            }
-            if let Some(check) = violated(&state) {
-                self.count(last);
-                let cause = format!("a state violates an invariant, {}", check.name);
-                return not_converged(cause);
-            }
-            let place = self.record(&point, kind, &state);
-            progress(self.share(place), "tracing");
-            let ends_here = match kind {
-                Some(EventKind::GrossSlip(pulley)) => Some(BranchEnd::GrossSlip(pulley)),
-                Some(EventKind::LimitPoint) if self.until == Until::LimitPoint => {
-                    Some(BranchEnd::Target)
-                }
-                _ => self.came_back(place).then_some(BranchEnd::Returned),
-            };
-            if let Some(end) = ends_here {
-                self.count(last);
-                return PieceEnd::Branch(end);
-            }
-            let restart = match point.kind {
-                Kind::Event(RATIO) => point.arclength > AHEAD,
-                Kind::Event(index) => index >= FIRST_ZONE,
-                _ => false,
-            };
-            if restart {
-                self.count(last);
-                return self.next_piece(&point, here, &drive);
+                return end;
             }
         }
         self.count(last);
         PieceEnd::Branch(self.end(branch.into_stop()))
+    }
+
+    /// Takes in a point of the branch with its solution and the relative effect of ε on it. Returns
+    /// an end if the piece ends there.
+    fn take(&mut self, point: &Point, here: Solved, effect: Option<f64>) -> Option<PieceEnd> {
+        let drive = self.drive_at(self.value(point.lambda()));
+        self.convergence.continuation_steps += 1;
+        let state = describe(&Path::new(&drive, self.tolerance), &here);
+        let kind = self.kind(point, &here);
+        // Beyond a state at which the driven pulley stands there are no drive states.
+        if here.driven_speed() < 0.0 && kind != Some(EventKind::GrossSlip(Pulley::Driven)) {
+            return None;
+        }
+        // A step may have passed the place where a zone appears: its state is none, but a guess.
+        let regular = point.kind == Kind::Regular;
+        if regular && here.problem.is_split() && Split::of(&here).is_some() {
+            return Some(self.next_piece(point, here, &drive));
+        }
+        if let Some(check) = violated(&state) {
+            let cause = format!("a state violates an invariant, {}", check.name);
+            return Some(PieceEnd::Branch(BranchEnd::NotConverged { cause }));
+        }
+        let place = self.record(point, kind, &state, effect);
+        let end = match kind {
+            Some(EventKind::GrossSlip(pulley)) => Some(BranchEnd::GrossSlip(pulley)),
+            Some(EventKind::LimitPoint) if self.until == Until::LimitPoint => {
+                Some(BranchEnd::Target)
+            }
+            _ => self.came_back(place).then_some(BranchEnd::Returned),
+        };
+        let restart = match point.kind {
+            Kind::Event(RATIO) => point.arclength > AHEAD,
+            Kind::Event(index) => index >= FIRST_ZONE,
+            _ => false,
+        };
+        match end {
+            Some(end) => Some(PieceEnd::Branch(end)),
+            None => restart.then(|| self.next_piece(point, here, &drive)),
+        }
     }
 
     /// The next piece, from a point whose state is cut anew into zones.

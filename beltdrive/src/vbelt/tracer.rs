@@ -133,17 +133,19 @@ impl<'d> Tracer<'d> {
         end
     }
 
-    /// Records a point and what happens there; returns its value.
+    /// Records a point and what happens there, with the relative effect of ε on it; returns its
+    /// value. Labelled points know their error better.
     pub(super) fn record(
         &mut self,
         point: &Point,
         kind: Option<EventKind>,
         state: &SteadyState,
+        effect: Option<f64>,
     ) -> f64 {
         let value = self.value(point.lambda());
         // Where the comparison did not converge, nothing is known.
         let error = point.error.filter(|error| error.states.is_finite());
-        let relative = error.map(|error| {
+        let located = error.map(|error| {
             let own = if value == 0.0 {
                 0.0
             } else {
@@ -151,6 +153,7 @@ impl<'d> Tracer<'d> {
             };
             error.states.max(own)
         });
+        let relative = located.or(effect);
         let traced = TracePoint {
             value,
             arclength: self.before + point.arclength,
