@@ -34,6 +34,31 @@
 //! assert!(state.convergence.error_estimate < 1e-6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Branches and limits
+//!
+//! [`trace`] follows the steady states over any numeric entry of the drive file, an
+//! [`input::Key`], around limit points, and locates what happens on the way ([`EventKind`]).
+//! [`limits`] gives both ends of the range of a load and why it ends there, [`limit_curve`] the
+//! limit of one entry over a second one. With less friction the drive above does not carry 3 kN:
+//!
+//! ```
+//! use beltdrive::input::{self, Key};
+//! use beltdrive::{EventKind, Pulley, SolveOptions, examples, trace};
+//!
+//! let example = examples::find("kim2009").expect("a shipped example");
+//! let friction = ["friction.coefficient = 0.3".to_owned()];
+//! let drive = input::parse(example.name, example.text, &friction)?;
+//! let load = Key::tight_tension(&drive);
+//! let range = [1500.0, 3000.0];
+//! let branch = trace(&drive, &load, range, &SolveOptions::default(), &mut |_, _| {})?;
+//!
+//! let last = branch.events.last().expect("a start and an end");
+//! println!("{} N: {}", last.point.value, branch.end); // the driven pulley slips grossly
+//! assert_eq!(last.kind, EventKind::GrossSlip(Pulley::Driven));
+//! assert!((last.point.value - 2233.7022).abs() < 1e-3);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod branch;
 mod drive;

@@ -10,6 +10,8 @@ use crate::{Branch, Difficulty, DiscretisationError, Kind, Point, Stop, System};
 const REFINEMENTS: usize = 4;
 /// The most corrections of a point on the refined system.
 const CORRECTIONS: usize = 30;
+/// A tangent from this near a point is that of the point.
+const DRIFT: f64 = 1e-6;
 /// First step of the secant method, in the arclength norm.
 const SECANT: f64 = 1e-4;
 /// The most steps of the secant method.
@@ -171,11 +173,15 @@ impl<S: System> Branch<'_, S> {
         }
         let mut z = self.node.z.clone();
         let plane = Condition::plane(&self.metric, &self.node.tangent, &z);
-        let accuracy = Accuracy::Rounding;
+        let accuracy = Accuracy::Length(self.options.accuracy);
         let (system, metric) = (&mut *self.system, &self.metric);
-        self.corrector
-            .correct(system, metric, &mut z, &plane, accuracy, CORRECTIONS)?;
-        let mut tangent = self.corrector.tangent(system, metric, &z)?;
+        let report =
+            self.corrector
+                .correct(system, metric, &mut z, &plane, accuracy, CORRECTIONS)?;
+        let mut tangent = self.corrector.null().to_vec();
+        if report.drift > DRIFT || !metric.normalise(&mut tangent) {
+            tangent = self.corrector.tangent(system, metric, &z)?;
+        }
         self.node.along = metric.dot(&tangent, &self.node.tangent) > 0.0;
         if !self.node.along {
             reverse(&mut tangent);

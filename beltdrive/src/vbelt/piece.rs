@@ -24,7 +24,7 @@ const MAX_STEPS: usize = 600;
 /// The most mesh intervals: a point that needs more is approached by a shorter step.
 const MAX_INTERVALS: usize = 4000;
 /// The longest step, where the range of the entry counts as one.
-const LARGEST_STEP: f64 = 0.1;
+const LARGEST_STEP: f64 = 0.15;
 
 /// Accuracy of the points of a branch, as a share of the tolerance.
 const ACCURACY: f64 = 1e-3;
