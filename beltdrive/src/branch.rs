@@ -106,7 +106,9 @@ impl fmt::Display for BranchEnd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Target => f.write_str("the parameter reached the value asked for"),
-            Self::Returned => f.write_str("behind a limit point the parameter came back"),
+            Self::Returned => f.write_str(
+                "behind a limit point the parameter has come back by a quarter of its way",
+            ),
             Self::GrossSlip(pulley) => write!(f, "the {} slips grossly", pulley.name()),
             Self::NoLoad => {
                 f.write_str("the spans have the same tension: the drive transmits no torque")

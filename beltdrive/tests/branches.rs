@@ -183,6 +183,18 @@ fn gross_slip_is_located_and_ends_the_branch() {
 }
 
 #[test]
+fn a_short_stretch_in_which_the_driven_pulley_stops_is_not_stepped_over() {
+    // The driven speed is negative between 7629.55 N and 7733.86 N only.
+    let mut drive = kim(FrictionLaw::Coulomb);
+    drive.friction_coefficient = 0.3865;
+    let tight = key(&drive, TIGHT);
+    let found = limits(&drive, &tight, &SolveOptions::default(), &mut |_, _| {}).unwrap();
+    close(found.largest.value, 7_629.546, 1e-6);
+    let slips = RangeEnd::Limit(LimitReason::DrivenSlips);
+    assert_eq!(found.largest.reason, slips);
+}
+
+#[test]
 fn epp_friction_has_nearly_the_limit_of_coulomb_friction_at_half_its_speed() {
     let drive = kim(EPP);
     let found = limits(

@@ -11,7 +11,8 @@ Example:
   beltdrive trace kim2009.toml --parameter load.tight_tractive_tension --from '200 N' --to '9 kN'
 
 The branch starts at A and goes on through limit points, where the parameter turns back, until it
-reaches B, is back at A, or a pulley slips grossly. --csv writes one row per state.
+reaches B, has come back by a quarter of its way, or the driven pulley stands still. --csv writes one
+row per state.
 
 A design chart, the largest tight tension for every coefficient of friction from 0.2 to 0.6:
   beltdrive trace kim2009.toml --parameter load.tight_tractive_tension \

@@ -88,8 +88,7 @@ fn chart(canvas: &Canvas<'_>, curve: &LimitCurve) -> Drawn {
     Ok(())
 }
 
-/// The parts of the curve with one kind of limit each; every part begins where the one before
-/// ends.
+/// The parts of the curve with one kind of limit each. Between them the limit may jump.
 fn pieces(curve: &LimitCurve) -> Vec<(LimitReason, &[LimitCurvePoint])> {
     let mut start = 0;
     let parts = curve.points.chunk_by(|one, next| one.reason == next.reason);
@@ -97,7 +96,7 @@ fn pieces(curve: &LimitCurve) -> Vec<(LimitReason, &[LimitCurvePoint])> {
         .map(|part| {
             let from = start;
             start += part.len();
-            (part[0].reason, &curve.points[from.saturating_sub(1)..start])
+            (part[0].reason, &curve.points[from..start])
         })
         .collect()
 }
@@ -112,7 +111,7 @@ mod tests {
         let mut curve = sample_branch::curve();
         let parts = pieces(&curve);
         assert_eq!(parts.len(), 2);
-        assert_eq!(parts[0].1.last(), parts[1].1.first());
+        assert_eq!(parts[0].1.len() + parts[1].1.len(), curve.points.len());
         assert_eq!(parts[1].0, LimitReason::Overhang);
         assert_eq!(legend(&curve).len(), 2);
         curve.cusps = vec![curve.points[3].clone()];

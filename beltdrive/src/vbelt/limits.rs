@@ -204,6 +204,7 @@ fn no_load(drive: &Drive, tolerance: f64) -> Result<Limit, SolveError> {
     let scaled = value / path.scales.force;
     let solved = match path.at_load(scaled) {
         Ok(solved) => solved,
+        // Stuck on the way to a smaller ε.
         Err(stuck) => match stuck.last {
             Some(last) => *last,
             None => {
@@ -214,18 +215,18 @@ fn no_load(drive: &Drive, tolerance: f64) -> Result<Limit, SolveError> {
         },
     };
     let state = describe(&path, &solved);
-    let relative = path
-        .epsilon_effect
-        .max(solved.solution.error_estimate().unwrap_or(0.0));
+    // Without an estimate of its own the state is only as good as the effect of its ε is known.
+    let estimate = solved.solution.error_estimate();
+    let relative = estimate.map(|estimate| estimate.max(path.epsilon_effect));
     let state = StateSummary {
-        error_estimate: Some(relative),
+        error_estimate: relative,
         ..StateSummary::from(&state)
     };
     Ok(Limit {
         value,
         value_error: Some(0.0),
         reason: RangeEnd::NoLoad,
-        errors: Some(errors(&state, drive, relative)),
+        errors: relative.map(|relative| errors(&state, drive, relative)),
         state,
     })
 }

@@ -1,5 +1,6 @@
 //! One piece of a branch: as long as the friction zones stay the same.
 
+use super::DriveProblem;
 use super::carried::Carried;
 use super::curve::Curve;
 use super::family::{DriveFamily, Entry};
@@ -20,12 +21,20 @@ const EPSILONS: [f64; 3] = [1e-5, 1e-6, 1e-7];
 /// A share of the range that is no way.
 const AHEAD: f64 = 1e-6;
 /// The most steps of a piece.
-const MAX_STEPS: usize = 600;
+const MAX_STEPS: usize = 2000;
 /// The most mesh intervals: a point that needs more is approached by a shorter step.
 const MAX_INTERVALS: usize = 4000;
 /// The longest step, where the range of the entry counts as one.
 const LARGEST_STEP: f64 = 0.15;
 
+/// The first step of a piece.
+const FIRST_STEP: f64 = 0.05;
+/// Where the driven speed may have fallen below this share of that of the driver within a step, ...
+const MARGIN: f64 = 0.05;
+/// ... the step is taken again with steps and margin divided by this, ...
+const REFINEMENT: f64 = 4.0;
+/// ... at most so often.
+const MAX_REFINEMENTS: i32 = 4;
 /// Accuracy of the points of a branch, as a share of the tolerance.
 const ACCURACY: f64 = 1e-3;
 
@@ -142,7 +151,8 @@ impl Tracer<'_> {
             second: first,
         };
         let options = Options {
-            largest_step: LARGEST_STEP,
+            largest_step: LARGEST_STEP / REFINEMENT.powi(self.refinements),
+            first_step: FIRST_STEP / REFINEMENT.powi(self.refinements),
             steps: MAX_STEPS,
             accuracy: ACCURACY * self.tolerance,
             ..Options::within(self.range[0] / unit, self.range[1] / unit)
@@ -153,6 +163,11 @@ impl Tracer<'_> {
         };
         let mut branch = self.with_events(branch, &solved, first);
         let mut last = None;
+        let mut before: Option<(Point, Solved)> = None;
+        let driven_speed = |point: &Point| {
+            let index = point.z.len() - 1 - first + DriveProblem::DRIVEN_SPEED;
+            [point.z[index], point.tangent[index], point.arclength]
+        };
         while let Some(point) = branch.next() {
             let solution = branch.system().family.solution(&point.z);
             last = Some(solution.stats().to_owned());
@@ -160,13 +175,29 @@ impl Tracer<'_> {
                 problem: family.member(&[point.lambda()]),
                 solution,
             };
+            if let Some((passed, solved)) = &before
+                && self.refinements < MAX_REFINEMENTS
+                && lowest_between(driven_speed(passed), driven_speed(&point))
+                    < MARGIN / REFINEMENT.powi(self.refinements)
+            {
+                // The driven pulley may have stood still in between: once more, in shorter steps.
+                self.count(last);
+                self.refinements += 1;
+                self.before += passed.arclength;
+                return PieceEnd::Next {
+                    solved: Box::new(solved.clone()),
+                    value: self.value(passed.lambda()),
+                    direction: onward(passed),
+                };
+            }
             let effect = branch.system().normalisation_effect(&point.z);
-            let outcome = self.take(&point, here, effect);
+            let outcome = self.take(&point, here.clone(), effect);
             progress(self.share(self.value(point.lambda())), "tracing");
             if let Some(end) = outcome {
                 self.count(last);
                 return end;
             }
+            before = Some((point, here));
         }
         self.count(last);
         PieceEnd::Branch(self.end(branch.into_stop()))
@@ -213,12 +244,7 @@ impl Tracer<'_> {
 
     /// The next piece, from a point whose state is cut anew into zones.
     fn next_piece(&mut self, point: &Point, here: Solved, drive: &Drive) -> PieceEnd {
-        let rate = point.tangent[point.tangent.len() - 1];
-        let direction = if rate > 0.0 {
-            Direction::Increasing
-        } else {
-            Direction::Decreasing
-        };
+        let direction = onward(point);
         let mut path = Path::new(drive, self.tolerance);
         match path.keep_zones(here, Effort::Full) {
             Ok(next) => {
@@ -233,5 +259,45 @@ impl Tracer<'_> {
                 cause: stuck.cause.to_string(),
             }),
         }
+    }
+}
+
+/// The sense in which the entry changes at a point.
+fn onward(point: &Point) -> Direction {
+    if point.tangent[point.tangent.len() - 1] > 0.0 {
+        Direction::Increasing
+    } else {
+        Direction::Decreasing
+    }
+}
+
+/// The lowest value between two points of the cubic with the values, rates and arclengths there,
+/// if it is lower than at both; else infinity.
+fn lowest_between([a, da, s]: [f64; 3], [b, db, t]: [f64; 3]) -> f64 {
+    let length = t - s;
+    if !(da < 0.0 && db > 0.0 && length > 0.0) {
+        return f64::INFINITY;
+    }
+    // a + a' u + c₂ u² + c₃ u³ with u from 0 to the length.
+    let slope = (b - a) / length;
+    let c3 = (da + db - 2.0 * slope) / (length * length);
+    let c2 = (slope - da) / length - c3 * length;
+    let root = (c2 * c2 - 3.0 * c3 * da).max(0.0).sqrt();
+    let u = (-da / (c2 + root)).clamp(0.0, length);
+    a + u * (da + u * (c2 + u * c3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_lowest_value_of_a_cubic_is_found() {
+        let cubic = |u: f64| 1.0 - 2.0 * u + u.powi(3);
+        let rate = |u: f64| -2.0 + 3.0 * u * u;
+        let at = |u: f64| [cubic(u), rate(u), 5.0 + u];
+        let lowest = cubic((2.0f64 / 3.0).sqrt());
+        assert!((lowest_between(at(0.1), at(1.5)) - lowest).abs() < 1e-12);
+        assert_eq!(lowest_between(at(0.1), at(0.5)), f64::INFINITY);
     }
 }

@@ -46,6 +46,8 @@ pub(super) struct Tracer<'d> {
     pub(super) convergence: TraceConvergence,
     /// Arclength of the pieces before.
     pub(super) before: f64,
+    /// How often the steps were shortened because the driven pulley may have stood still.
+    pub(super) refinements: i32,
 }
 
 impl<'d> Tracer<'d> {
@@ -70,6 +72,7 @@ impl<'d> Tracer<'d> {
                 ..TraceConvergence::default()
             },
             before: 0.0,
+            refinements: 0,
         }
     }
 
@@ -209,8 +212,14 @@ impl<'d> Tracer<'d> {
         let first = self.points.first().map(|point| point.value);
         match stop {
             Some(Stop::Bound { .. }) => {
-                let slack = self.drive.load.slack.value();
-                let no_load = self.key == Key::tight_tension(self.drive) && value == Some(slack);
+                let is_load = self.key == Key::tight_tension(self.drive);
+                let is_slack = self.key.path().starts_with("load.slack");
+                let other = match self.drive.load {
+                    load if is_load => Some(load.slack.value()),
+                    load if is_slack => Some(load.tight.value()),
+                    _ => None,
+                };
+                let no_load = other.is_some() && value == other;
                 if no_load {
                     BranchEnd::NoLoad
                 } else if value == first {
