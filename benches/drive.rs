@@ -1,7 +1,10 @@
 //! How long does the steady state of a drive take, cold from nothing but the drive file, and warm
-//! from that of a neighbouring load?
+//! from that of a neighbouring load? How long a branch of them, and both limits of the load?
 
-use beltdrive::{Drive, SolveOptions, examples, input, solve, solve_from};
+use beltdrive::input::Key;
+use beltdrive::{
+    Drive, EventKind, RangeEnd, SolveOptions, examples, input, limits, solve, solve_from, trace,
+};
 use criterion::{BenchmarkId, Criterion};
 use std::hint::black_box;
 
@@ -24,6 +27,13 @@ const WARM: [(&str, f64); 5] = [
     ("epp", 700.0),
     ("bristle", 700.0),
 ];
+
+/// Friction law and smallest tight tension in N of a branch: 1.02 times the slack tension with
+/// bristles; three times with Coulomb friction.
+const BRANCHES: [(&str, f64); 2] = [("bristle", 102.0), ("coulomb", 310.0)];
+/// Where a branch would end, in N, beyond its limit point.
+const BEYOND: f64 = 9000.0;
+
 const OPTIONS: SolveOptions = SolveOptions { tolerance: 1e-6 };
 
 /// The drive of the thesis with a friction law and a load.
@@ -63,9 +73,51 @@ fn warm(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// From little load around the limit point; behind it the branch comes back by a quarter of its way.
+fn branch(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("drive, branch");
+    group.sample_size(10);
+    for (law, from) in BRANCHES {
+        let drive = drive(law, 700.0);
+        let key = Key::tight_tension(&drive);
+        group.bench_function(BenchmarkId::new(law, format!("from {from} N")), |b| {
+            b.iter(|| {
+                let range = [from, BEYOND];
+                let branch = trace(black_box(&drive), &key, range, &OPTIONS, &mut |_, _| {});
+                let branch = branch.expect("a load that the drive carries");
+                let mut events = branch.events.iter();
+                assert!(events.any(|event| event.kind == EventKind::LimitPoint));
+                branch
+            });
+        });
+    }
+    group.finish();
+}
+
+/// The smallest and the largest load.
+fn both_limits(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("drive, limits");
+    group.sample_size(10);
+    for (law, _) in BRANCHES {
+        let drive = drive(law, 700.0);
+        let key = Key::tight_tension(&drive);
+        group.bench_function(BenchmarkId::new(law, "tight tension"), |b| {
+            b.iter(|| {
+                let limits = limits(black_box(&drive), &key, &OPTIONS, &mut |_, _| {});
+                let limits = limits.expect("a load that the drive carries");
+                assert!(matches!(limits.largest.reason, RangeEnd::Limit(_)));
+                limits
+            });
+        });
+    }
+    group.finish();
+}
+
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     cold(&mut criterion);
     warm(&mut criterion);
+    branch(&mut criterion);
+    both_limits(&mut criterion);
     criterion.final_summary();
 }

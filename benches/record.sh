@@ -2,6 +2,9 @@
 # Runs all benches and prints their medians as Markdown, for RESULTS.md. Arguments go to criterion:
 #
 #     sh benches/record.sh --warm-up-time 0.5 --measurement-time 2
+#
+# "continuation" takes five minutes of it and prints, among criterion's messages, the number of steps
+# and of factorisations of every curve.
 set -eu
 cd "$(dirname "$0")/.."
 criterion="${CARGO_TARGET_DIR:-target}/criterion"
