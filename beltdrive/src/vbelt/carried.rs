@@ -32,3 +32,25 @@ impl bvp::Guess for Carried<'_> {
         Some(segments.map(|i| solution.mesh(i).to_vec()).collect())
     }
 }
+
+/// A solution as the guess for the member of a family with these values of its entries.
+pub(super) struct Member<'a> {
+    pub(super) solution: Carried<'a>,
+    pub(super) values: &'a [f64],
+}
+
+impl bvp::Guess for Member<'_> {
+    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
+        self.solution.state(segment, s, y);
+    }
+
+    fn parameters(&self, p: &mut [f64]) {
+        let (constants, entries) = p.split_at_mut(p.len() - self.values.len());
+        self.solution.parameters(constants);
+        entries.copy_from_slice(self.values);
+    }
+
+    fn mesh(&self) -> Option<Vec<Vec<f64>>> {
+        self.solution.mesh()
+    }
+}

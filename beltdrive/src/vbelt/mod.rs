@@ -11,11 +11,13 @@
 //! P. R. Dahl, Aerospace Corp. TOR-0158 (1968) for the bristles.
 
 mod carried;
+mod chart;
 mod closure;
 mod contact;
 mod curve;
 mod drive_problem;
 mod family;
+mod followed;
 mod groove;
 mod guess;
 mod laws;

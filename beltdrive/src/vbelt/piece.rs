@@ -1,7 +1,7 @@
 //! One piece of a branch: as long as the friction zones stay the same.
 
 use super::DriveProblem;
-use super::carried::Carried;
+use super::carried::{Carried, Member};
 use super::curve::Curve;
 use super::family::{DriveFamily, Entry};
 use super::laws::{GREAT_STEP, with_epsilon};
@@ -50,25 +50,27 @@ pub(super) enum PieceEnd {
     },
 }
 
-/// A solution of a member of the family as the guess for it.
-struct Start<'a> {
-    solution: Carried<'a>,
-    value: f64,
+/// How the members of a family with this ε are discretised.
+pub(super) fn discretisation(tolerance: f64, epsilon: f64) -> bvp::Options {
+    // Bristles make smooth profiles; layers of ε ask for a higher order.
+    let stages = if epsilon > 0.0 { 6 } else { 5 };
+    bvp::Options {
+        tolerance,
+        scheme: Scheme::Gauss { stages },
+        global_error: GlobalError::Skip,
+        max_intervals: MAX_INTERVALS,
+        ..bvp::Options::default()
+    }
 }
 
-impl bvp::Guess for Start<'_> {
-    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
-        self.solution.state(segment, s, y);
-    }
-
-    fn parameters(&self, p: &mut [f64]) {
-        let last = p.len() - 1;
-        self.solution.parameters(&mut p[..last]);
-        p[last] = self.value;
-    }
-
-    fn mesh(&self) -> Option<Vec<Vec<f64>>> {
-        self.solution.mesh()
+/// How a branch is followed between scaled values of its entry.
+pub(super) fn steps(tolerance: f64, [low, high]: [f64; 2]) -> Options {
+    Options {
+        largest_step: LARGEST_STEP,
+        first_step: FIRST_STEP,
+        steps: MAX_STEPS,
+        accuracy: ACCURACY * tolerance,
+        ..Options::within(low, high)
     }
 }
 
@@ -126,19 +128,11 @@ impl Tracer<'_> {
         };
         let family = DriveFamily::new(self.drive, &solved, vec![entry]);
         let finer = DriveFamily::new(self.drive, &solved, vec![entry]).with_epsilon(0.25 * epsilon);
-        // Bristles make smooth profiles; layers of ε ask for a higher order.
-        let stages = if epsilon > 0.0 { 6 } else { 5 };
-        let options = bvp::Options {
-            tolerance: self.tolerance,
-            scheme: Scheme::Gauss { stages },
-            global_error: GlobalError::Skip,
-            max_intervals: MAX_INTERVALS,
-            ..bvp::Options::default()
-        };
+        let options = discretisation(self.tolerance, epsilon);
         let first = family.first_entry();
-        let guess = Start {
+        let guess = Member {
             solution: Carried(&solved),
-            value: value / unit,
+            values: &[value / unit],
         };
         let (discretised, z) = match Family::new(&family, first, &[], &guess, &options) {
             Ok(start) => start,
@@ -153,9 +147,7 @@ impl Tracer<'_> {
         let options = Options {
             largest_step: LARGEST_STEP / REFINEMENT.powi(self.refinements),
             first_step: FIRST_STEP / REFINEMENT.powi(self.refinements),
-            steps: MAX_STEPS,
-            accuracy: ACCURACY * self.tolerance,
-            ..Options::within(self.range[0] / unit, self.range[1] / unit)
+            ..steps(self.tolerance, self.range.map(|end| end / unit))
         };
         let branch = match Branch::new(&mut curve, &z, direction, &options) {
             Ok(branch) => branch,
@@ -224,6 +216,9 @@ impl Tracer<'_> {
             return Some(PieceEnd::Branch(BranchEnd::NotConverged { cause }));
         }
         let place = self.record(point, kind, &state, effect);
+        if kind != Some(EventKind::LimitPoint) {
+            self.near = Some((place, here.clone()));
+        }
         let end = match kind {
             Some(EventKind::GrossSlip(pulley)) => Some(BranchEnd::GrossSlip(pulley)),
             Some(EventKind::LimitPoint) if self.until == Until::LimitPoint => {

@@ -48,6 +48,8 @@ pub(super) struct Tracer<'d> {
     pub(super) before: f64,
     /// How often the steps were shortened because the driven pulley may have stood still.
     pub(super) refinements: i32,
+    /// The last state that is no limit point, and the value of the entry there.
+    pub(super) near: Option<(f64, Solved)>,
 }
 
 impl<'d> Tracer<'d> {
@@ -73,6 +75,7 @@ impl<'d> Tracer<'d> {
             },
             before: 0.0,
             refinements: 0,
+            near: None,
         }
     }
 
