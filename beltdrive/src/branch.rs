@@ -128,8 +128,6 @@ pub struct TraceConvergence {
     pub slip_normalisation: f64,
     /// Steps along the branch, rejected ones included.
     pub continuation_steps: usize,
-    /// Newton steps in all.
-    pub newton_iterations: usize,
     /// Evaluations of the right-hand side (with or without its derivatives).
     pub rhs_evaluations: usize,
     /// Factorisations of the Newton matrix.

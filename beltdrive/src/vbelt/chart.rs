@@ -114,7 +114,6 @@ impl<'d> Chart<'d> {
         let found = upwards(&first, key, tolerance, solved, high, &mut |_, _| {});
         let cost = &found.tracer.convergence;
         self.convergence.continuation_steps += cost.continuation_steps;
-        self.convergence.newton_iterations += cost.newton_iterations;
         self.convergence.rhs_evaluations += cost.rhs_evaluations;
         self.convergence.factorisations += cost.factorisations;
         let epsilon = &mut self.convergence.slip_normalisation;
@@ -243,7 +242,6 @@ impl<'d> Chart<'d> {
 
     /// Adds the cost of a followed limit.
     pub(super) fn count(&mut self, stats: &bvp::Stats) {
-        self.convergence.newton_iterations += stats.newton_steps;
         self.convergence.rhs_evaluations += stats.rhs_evaluations;
         self.convergence.factorisations += stats.factorisations;
     }

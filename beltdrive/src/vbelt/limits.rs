@@ -81,7 +81,6 @@ pub fn limits(
     events.append(&mut up.tracer.events);
     events.retain(|event| !matches!(event.kind, EventKind::Start | EventKind::End));
     let mut convergence = up.tracer.convergence;
-    convergence.newton_iterations += down.convergence.newton_iterations;
     convergence.rhs_evaluations += down.convergence.rhs_evaluations;
     convergence.factorisations += down.convergence.factorisations;
     convergence.continuation_steps += down.convergence.continuation_steps;

@@ -48,7 +48,6 @@ pub fn trace(
     };
     let end = tracer.run(solved, from, direction, progress);
     let mut convergence = tracer.convergence;
-    convergence.newton_iterations += path.stats.newton_steps;
     convergence.rhs_evaluations += path.stats.rhs_evaluations;
     convergence.factorisations += path.stats.factorisations;
     convergence.seconds = start.elapsed().as_secs_f64();

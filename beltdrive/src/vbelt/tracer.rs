@@ -204,7 +204,6 @@ impl<'d> Tracer<'d> {
     /// Adds the cost of a piece.
     pub(super) fn count(&mut self, stats: Option<bvp::Stats>) {
         let stats = stats.unwrap_or_default();
-        self.convergence.newton_iterations += stats.newton_steps;
         self.convergence.rhs_evaluations += stats.rhs_evaluations;
         self.convergence.factorisations += stats.factorisations;
     }

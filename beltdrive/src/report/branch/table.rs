@@ -136,10 +136,10 @@ fn events(branch: &Branch) -> Vec<String> {
 /// What tracing took.
 pub(in crate::report) fn convergence(convergence: &TraceConvergence) -> Vec<String> {
     vec![format!(
-        "relative tolerance {}, {} steps, {} Newton steps, {:.1} s",
+        "relative tolerance {}, {} steps, {} factorisations, {:.1} s",
         small(convergence.tolerance),
         convergence.continuation_steps,
-        convergence.newton_iterations,
+        convergence.factorisations,
         convergence.seconds
     )]
 }
