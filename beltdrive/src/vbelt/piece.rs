@@ -20,8 +20,9 @@ use continuation::{Branch, Direction, Kind, Options, Point};
 const EPSILONS: [f64; 3] = [1e-5, 1e-6, 1e-7];
 /// A share of the range that is no way.
 const AHEAD: f64 = 1e-6;
-/// The most steps of a piece.
-const MAX_STEPS: usize = 2000;
+/// The most steps of a piece, and of one in shorter steps.
+const MAX_STEPS: usize = 600;
+const MAX_SHORT_STEPS: usize = 2000;
 /// The most mesh intervals: a point that needs more is approached by a shorter step.
 const MAX_INTERVALS: usize = 4000;
 /// The longest step, where the range of the entry counts as one.
@@ -147,6 +148,11 @@ impl Tracer<'_> {
         let options = Options {
             largest_step: LARGEST_STEP / REFINEMENT.powi(self.refinements),
             first_step: FIRST_STEP / REFINEMENT.powi(self.refinements),
+            steps: if self.refinements > 0 {
+                MAX_SHORT_STEPS
+            } else {
+                MAX_STEPS
+            },
             ..steps(self.tolerance, self.range.map(|end| end / unit))
         };
         let branch = match Branch::new(&mut curve, &z, direction, &options) {
