@@ -59,13 +59,6 @@ pub enum EventKind {
     Overhang(Pulley),
     /// The pulley slips grossly; the driven pulley then stands still.
     GrossSlip(Pulley),
-    /// A friction zone appears on a pulley.
-    ZoneAppears {
-        /// Where.
-        pulley: Pulley,
-        /// The kind of the zone.
-        kind: ZoneKind,
-    },
     /// A friction zone vanishes from a pulley.
     ZoneVanishes {
         /// Where.

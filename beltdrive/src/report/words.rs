@@ -19,7 +19,6 @@ pub(super) fn event_kind(kind: EventKind) -> &'static str {
         EventKind::BranchPoint => "branch point",
         EventKind::Overhang(_) => "overhang",
         EventKind::GrossSlip(_) => "gross slip",
-        EventKind::ZoneAppears { .. } => "zone appears",
         EventKind::ZoneVanishes { .. } => "zone vanishes",
         EventKind::BeltHeight(_) => "belt height",
         EventKind::End => "end",
@@ -32,7 +31,6 @@ pub(super) fn event_pulley(kind: EventKind) -> Option<Pulley> {
         EventKind::Overhang(pulley)
         | EventKind::GrossSlip(pulley)
         | EventKind::BeltHeight(pulley)
-        | EventKind::ZoneAppears { pulley, .. }
         | EventKind::ZoneVanishes { pulley, .. } => Some(pulley),
         EventKind::Start | EventKind::LimitPoint | EventKind::BranchPoint | EventKind::End => None,
     }
@@ -41,18 +39,17 @@ pub(super) fn event_pulley(kind: EventKind) -> Option<Pulley> {
 /// The kind of the friction zone an event is about, if it is about one.
 pub(super) fn event_zone(kind: EventKind) -> Option<ZoneKind> {
     match kind {
-        EventKind::ZoneAppears { kind, .. } | EventKind::ZoneVanishes { kind, .. } => Some(kind),
+        EventKind::ZoneVanishes { kind, .. } => Some(kind),
         _ => None,
     }
 }
 
 /// An event in at most 21 letters, for a column.
 pub(super) fn event_label(kind: EventKind) -> String {
-    let sign =
-        |sign: &str, pulley: Pulley, kind| format!("{sign}{}, {}", zone(kind), pulley_word(pulley));
     match kind {
-        EventKind::ZoneAppears { pulley, kind } => sign("+", pulley, kind),
-        EventKind::ZoneVanishes { pulley, kind } => sign("−", pulley, kind),
+        EventKind::ZoneVanishes { pulley, kind } => {
+            format!("−{}, {}", zone(kind), pulley_word(pulley))
+        }
         EventKind::Overhang(pulley) => format!("90°, {}", pulley_word(pulley)),
         _ => match event_pulley(kind) {
             Some(pulley) => format!("{}, {}", event_kind(kind), pulley_word(pulley)),
@@ -75,10 +72,6 @@ pub(crate) fn event(kind: EventKind, key: Key) -> String {
         }
         EventKind::GrossSlip(Pulley::Driven) => LimitReason::DrivenSlips.to_string(),
         EventKind::GrossSlip(Pulley::Driver) => LimitReason::DriverSlips.to_string(),
-        EventKind::ZoneAppears { pulley, kind } => {
-            let kind = zone(kind);
-            format!("a zone of {kind} friction appears on the {}", pulley.name())
-        }
         EventKind::ZoneVanishes { pulley, kind } => {
             let kind = zone(kind);
             format!(
@@ -178,7 +171,6 @@ mod tests {
                 EventKind::Overhang(pulley),
                 EventKind::GrossSlip(pulley),
                 EventKind::BeltHeight(pulley),
-                EventKind::ZoneAppears { pulley, kind },
                 EventKind::ZoneVanishes { pulley, kind },
             ]
         });
@@ -203,7 +195,7 @@ mod tests {
         }
         words.sort_unstable();
         words.dedup();
-        assert_eq!(words.len(), 14);
+        assert_eq!(words.len(), 12);
     }
 
     #[test]
