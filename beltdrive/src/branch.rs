@@ -119,7 +119,7 @@ pub struct TraceConvergence {
     pub tolerance: f64,
     /// Normalisation ε of the slip direction along the branch (0 for the bristle law).
     pub slip_normalisation: f64,
-    /// Steps along the branch, rejected ones included.
+    /// States found along the branch, those of events included.
     pub continuation_steps: usize,
     /// Evaluations of the right-hand side (with or without its derivatives).
     pub rhs_evaluations: usize,
@@ -127,6 +127,22 @@ pub struct TraceConvergence {
     pub factorisations: usize,
     /// Wall-clock seconds.
     pub seconds: f64,
+}
+
+impl TraceConvergence {
+    /// Adds the cost of boundary value problems.
+    pub(crate) fn count(&mut self, stats: &bvp::Stats) {
+        self.rhs_evaluations += stats.rhs_evaluations;
+        self.factorisations += stats.factorisations;
+    }
+
+    /// Adds what another trace took, but for its time.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.slip_normalisation = self.slip_normalisation.max(other.slip_normalisation);
+        self.continuation_steps += other.continuation_steps;
+        self.rhs_evaluations += other.rhs_evaluations;
+        self.factorisations += other.factorisations;
+    }
 }
 
 impl Branch {

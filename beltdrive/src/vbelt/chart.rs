@@ -6,7 +6,7 @@
 //! located.
 
 use super::followed::{Course, Followed, Located};
-use super::limits::{domain, first_state, limit, upwards};
+use super::limits::{domain, first_state, upwards};
 use super::solve::checked;
 use super::{SolveError, SolveOptions};
 use crate::input::Key;
@@ -112,19 +112,14 @@ impl<'d> Chart<'d> {
         let [_, high] = domain(&first, &self.key);
         let (key, tolerance) = (&self.key, self.tolerance);
         let found = upwards(&first, key, tolerance, solved, high, &mut |_, _| {});
-        let cost = &found.tracer.convergence;
-        self.convergence.continuation_steps += cost.continuation_steps;
-        self.convergence.rhs_evaluations += cost.rhs_evaluations;
-        self.convergence.factorisations += cost.factorisations;
-        let epsilon = &mut self.convergence.slip_normalisation;
-        *epsilon = epsilon.max(cost.slip_normalisation);
+        self.convergence.add(&found.tracer.convergence);
         let Limit {
             value: largest,
             value_error,
             reason,
             state,
             ..
-        } = limit(&found);
+        } = found.limit();
         match (reason, found.tracer.near) {
             (RangeEnd::Limit(reason), Some(near)) => Ok(Located {
                 point: LimitCurvePoint {
@@ -238,11 +233,5 @@ impl<'d> Chart<'d> {
     fn append(&mut self, followed: Followed) {
         self.points.extend(followed.points);
         self.cusps.extend(followed.cusps);
-    }
-
-    /// Adds the cost of a followed limit.
-    pub(super) fn count(&mut self, stats: &bvp::Stats) {
-        self.convergence.rhs_evaluations += stats.rhs_evaluations;
-        self.convergence.factorisations += stats.factorisations;
     }
 }

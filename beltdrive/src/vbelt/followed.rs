@@ -289,7 +289,7 @@ impl<'a> Walk<'a, '_, '_> {
         if let Some(Stop::Bound { .. }) = branch.stop() {
             self.followed.course = Course::Reached;
         }
-        self.chart.count(&stats);
+        self.chart.convergence.count(&stats);
     }
 
     /// The state and the limit at a point; none if the state violates an invariant.

@@ -50,6 +50,17 @@ pub enum LimitReason {
     Overhang,
 }
 
+impl LimitReason {
+    /// What a limit point means, from the inclination where the belt leaves the driver, rad.
+    pub(super) fn of_limit_point(exit_inclination: f64) -> Self {
+        if exit_inclination > FRAC_PI_2 {
+            Self::Overhang
+        } else {
+            Self::DriverSlips
+        }
+    }
+}
+
 impl std::fmt::Display for LimitReason {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
@@ -252,11 +263,7 @@ impl Path<'_> {
                 break;
             }
         }
-        let reason = if top.exit(DRIVER)[INCLINATION] > FRAC_PI_2 {
-            LimitReason::Overhang
-        } else {
-            LimitReason::DriverSlips
-        };
+        let reason = LimitReason::of_limit_point(top.exit(DRIVER)[INCLINATION]);
         Ok(Found::Beyond(Box::new(Limit { reason, state: top })))
     }
 }

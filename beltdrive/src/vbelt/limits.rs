@@ -2,9 +2,10 @@
 
 use super::limit::LimitReason;
 use super::path::{Path, Solved};
-use super::solve::{carried, checked};
+use super::solve::{carried, checked, find};
 use super::state::describe;
 use super::tracer::{Tracer, Until, errors};
+use super::watched::RATIOS;
 use super::{SolveError, SolveOptions};
 use crate::input::Key;
 use crate::{
@@ -12,7 +13,7 @@ use crate::{
     TracePoint,
 };
 use continuation::Direction;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 use std::time::Instant;
 
 /// How far a load is lowered, in logarithms of its ratio to the slack tension, where the drive does
@@ -24,9 +25,6 @@ const STRETCH: f64 = 64.0;
 const STRETCHES: usize = 3;
 /// A lower end is sought down to this share of the value.
 const SMALLEST_SHARE: f64 = 1e-3;
-/// Where the tight tension is below this multiple of the slack one, a branch under no load is left
-/// to the state without load.
-const LOW_RATIO: f64 = 3.0;
 
 /// Finds the smallest and the largest value of an entry — by default of the tight tension — that the
 /// drive carries, why the range ends there, and the branch between.
@@ -50,24 +48,27 @@ pub fn limits(
     let [low, high] = domain(&drive, key);
 
     let mut up = upwards(&drive, key, tolerance, solved.clone(), high, progress);
-    let largest = limit(&up);
+    let largest = up.limit();
     let is_load = *key == Key::tight_tension(&drive);
     let bottom = if is_load && !matches!(drive.law, crate::FrictionLaw::Bristle { .. }) {
-        (LOW_RATIO * drive.load.slack.value()).min(value)
+        // Below that the branch is left to the state without load.
+        (RATIOS[0] * drive.load.slack.value()).min(value)
     } else {
         low
     };
-    let mut down = Tracer::new(&drive, *key, [bottom, value], tolerance, Until::LimitPoint);
-    let down_end = if bottom < value {
-        down.run(solved, value, Direction::Decreasing, progress)
+    let mut tracer = Tracer::new(&drive, *key, [bottom, value], tolerance, Until::LimitPoint);
+    let end = if bottom < value {
+        tracer.run(solved, value, Direction::Decreasing, progress)
     } else {
         BranchEnd::Target
     };
+    let down = Traced { tracer, end };
     let smallest = if is_load && bottom > low {
         no_load(&drive, tolerance)?
     } else {
-        limit_of(&down, &down_end)
+        down.limit()
     };
+    let mut down = down.tracer;
 
     // From the smallest value to the largest.
     let turn = |point: &mut TracePoint| point.arclength = -point.arclength;
@@ -81,9 +82,7 @@ pub fn limits(
     events.append(&mut up.tracer.events);
     events.retain(|event| !matches!(event.kind, EventKind::Start | EventKind::End));
     let mut convergence = up.tracer.convergence;
-    convergence.rhs_evaluations += down.convergence.rhs_evaluations;
-    convergence.factorisations += down.convergence.factorisations;
-    convergence.continuation_steps += down.convergence.continuation_steps;
+    convergence.add(&down.convergence);
     convergence.seconds = start.elapsed().as_secs_f64();
     Ok(Limits {
         branch: Branch {
@@ -100,7 +99,7 @@ pub fn limits(
 }
 
 /// A finished trace and how it ended.
-pub(super) struct Upwards<'d> {
+pub(super) struct Traced<'d> {
     pub(super) tracer: Tracer<'d>,
     pub(super) end: BranchEnd,
 }
@@ -113,19 +112,19 @@ pub(super) fn first_state(
 ) -> Result<(Drive, Solved), SolveError> {
     let tight = Key::tight_tension(drive);
     let mut first = drive.clone();
-    let mut failure = None;
     let ratio = tight.get(drive) / drive.load.slack.value();
-    for share in [1.0].into_iter().chain(EASIER) {
+    let mut attempt = |share: f64| {
         tight.set(&mut first, drive.load.slack.value() * ratio.powf(share));
-        let mut path = Path::new(&first, tolerance);
-        let found = path.find(first.load.tight.value() / path.scales.force);
-        match carried(&path, found) {
-            Ok(solved) => return Ok((first, solved)),
-            Err(error) if *key != tight => return Err(error),
-            Err(error) => failure = Some(error),
+        let (path, found) = find(&first, tolerance);
+        carried(&path, found).map(|solved| (first.clone(), solved))
+    };
+    let mut outcome = attempt(1.0);
+    for share in EASIER {
+        if outcome.is_err() && *key == tight {
+            outcome = attempt(share);
         }
     }
-    failure.map_or_else(|| Err(SolveError::Tolerance { tolerance }), Err)
+    outcome
 }
 
 /// Follows the branch towards larger values until it ends.
@@ -136,60 +135,48 @@ pub(super) fn upwards<'d>(
     solved: Solved,
     high: f64,
     progress: &mut dyn FnMut(f64, &str),
-) -> Upwards<'d> {
+) -> Traced<'d> {
     let value = key.get(drive);
     let mut top = value;
-    let mut outcome = None;
-    for _ in 0..STRETCHES {
-        top = (top * STRETCH).min(high);
+    let mut stretches = 0;
+    loop {
+        (top, stretches) = ((top * STRETCH).min(high), stretches + 1);
         let mut tracer = Tracer::new(drive, *key, [value, top], tolerance, Until::LimitPoint);
         let end = tracer.run(solved.clone(), value, Direction::Increasing, progress);
         let reached = tracer.points.last().is_some_and(|point| point.value == top);
-        let finished = !reached || top == high;
-        outcome = Some(Upwards { tracer, end });
-        if finished {
-            break;
+        if !reached || top == high || stretches == STRETCHES {
+            return Traced { tracer, end };
         }
     }
-    outcome.unwrap_or_else(|| Upwards {
-        tracer: Tracer::new(drive, *key, [value, high], tolerance, Until::LimitPoint),
-        end: BranchEnd::Target,
-    })
 }
 
-/// The end of a trace as a limit.
-pub(super) fn limit(found: &Upwards<'_>) -> Limit {
-    limit_of(&found.tracer, &found.end)
-}
-
-fn limit_of(tracer: &Tracer<'_>, end: &BranchEnd) -> Limit {
-    let last = tracer.events.last();
-    let reason = match last {
-        Some(event) if matches!(event.kind, EventKind::GrossSlip(_)) => {
-            RangeEnd::Limit(LimitReason::DrivenSlips)
+impl Traced<'_> {
+    /// Its end as a limit.
+    pub(super) fn limit(&self) -> Limit {
+        let last = self.tracer.events.last();
+        let reason = match last {
+            Some(event) if matches!(event.kind, EventKind::GrossSlip(_)) => {
+                RangeEnd::Limit(LimitReason::DrivenSlips)
+            }
+            Some(event) if event.kind == EventKind::LimitPoint => {
+                let exit = event.point.state.driver.inclination[1];
+                RangeEnd::Limit(LimitReason::of_limit_point(exit))
+            }
+            _ if self.end == BranchEnd::NoLoad => RangeEnd::NoLoad,
+            _ => RangeEnd::NotFound,
+        };
+        let event = last.filter(|_| matches!(reason, RangeEnd::Limit(_)));
+        let at_event = event.map(|event| &event.point);
+        let point = at_event
+            .or(self.tracer.points.last())
+            .expect("a trace has a first point");
+        Limit {
+            value: point.value,
+            value_error: event.and_then(|event| event.value_error),
+            reason,
+            state: point.state.clone(),
+            errors: event.and_then(|event| event.errors),
         }
-        Some(event) if event.kind == EventKind::LimitPoint => {
-            let steep = event.point.state.driver.inclination[1] > FRAC_PI_2;
-            RangeEnd::Limit(if steep {
-                LimitReason::Overhang
-            } else {
-                LimitReason::DriverSlips
-            })
-        }
-        _ if *end == BranchEnd::NoLoad => RangeEnd::NoLoad,
-        _ => RangeEnd::NotFound,
-    };
-    let event = last.filter(|_| matches!(reason, RangeEnd::Limit(_)));
-    let at_event = event.map(|event| &event.point);
-    let point = at_event
-        .or(tracer.points.last())
-        .expect("a trace has a first point");
-    Limit {
-        value: point.value,
-        value_error: event.and_then(|event| event.value_error),
-        reason,
-        state: point.state.clone(),
-        errors: event.and_then(|event| event.errors),
     }
 }
 

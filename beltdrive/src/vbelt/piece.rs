@@ -160,7 +160,7 @@ impl Tracer<'_> {
             Err(error) => return not_converged(error.to_string()),
         };
         let mut branch = self.with_events(branch, &solved, first);
-        let mut last = None;
+        let mut last = bvp::Stats::default();
         let mut before: Option<(Point, Solved)> = None;
         let driven_speed = |point: &Point| {
             let index = point.z.len() - 1 - first + DriveProblem::DRIVEN_SPEED;
@@ -168,7 +168,7 @@ impl Tracer<'_> {
         };
         while let Some(point) = branch.next() {
             let solution = branch.system().family.solution(&point.z);
-            last = Some(solution.stats().to_owned());
+            last = *solution.stats();
             let here = Solved {
                 problem: family.member(&[point.lambda()]),
                 solution,
@@ -179,7 +179,7 @@ impl Tracer<'_> {
                     < MARGIN / REFINEMENT.powi(self.refinements)
             {
                 // The driven pulley may have stood still in between: once more, in shorter steps.
-                self.count(last);
+                self.convergence.count(&last);
                 self.refinements += 1;
                 self.before += passed.arclength;
                 return PieceEnd::Next {
@@ -189,33 +189,33 @@ impl Tracer<'_> {
                 };
             }
             let effect = branch.system().normalisation_effect(&point.z);
-            let outcome = self.take(&point, here.clone(), effect);
+            let outcome = self.take(&point, &here, effect);
             progress(self.share(self.value(point.lambda())), "tracing");
             if let Some(end) = outcome {
-                self.count(last);
+                self.convergence.count(&last);
                 return end;
             }
             before = Some((point, here));
         }
-        self.count(last);
+        self.convergence.count(&last);
         PieceEnd::Branch(self.end(branch.into_stop()))
     }
 
     /// Takes in a point of the branch with its solution and the relative effect of ε on it. Returns
     /// an end if the piece ends there.
-    fn take(&mut self, point: &Point, here: Solved, effect: Option<f64>) -> Option<PieceEnd> {
+    fn take(&mut self, point: &Point, here: &Solved, effect: Option<f64>) -> Option<PieceEnd> {
         let drive = self.drive_at(self.value(point.lambda()));
         self.convergence.continuation_steps += 1;
-        let state = describe(&Path::new(&drive, self.tolerance), &here);
-        let kind = self.kind(point, &here);
+        let state = describe(&Path::new(&drive, self.tolerance), here);
+        let kind = self.kind(point, here);
         // Beyond a state at which the driven pulley stands there are no drive states.
         if here.driven_speed() < 0.0 && kind != Some(EventKind::GrossSlip(Pulley::Driven)) {
             return None;
         }
         // A step may have passed the place where a zone appears: its state is none, but a guess.
         let regular = point.kind == Kind::Regular;
-        if regular && here.problem.is_split() && Split::of(&here).is_some() {
-            return Some(self.next_piece(point, here, &drive));
+        if regular && here.problem.is_split() && Split::of(here).is_some() {
+            return Some(self.next_piece(point, here.clone(), &drive));
         }
         if let Some(check) = violated(&state) {
             let cause = format!("a state violates an invariant, {}", check.name);
@@ -239,7 +239,7 @@ impl Tracer<'_> {
         };
         match end {
             Some(end) => Some(PieceEnd::Branch(end)),
-            None => restart.then(|| self.next_piece(point, here, &drive)),
+            None => restart.then(|| self.next_piece(point, here.clone(), &drive)),
         }
     }
 

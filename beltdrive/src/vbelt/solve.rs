@@ -92,10 +92,15 @@ fn reached(tight: Option<f64>) -> String {
 /// invariant fails, [`SolveError::Tolerance`].
 pub fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
-    let mut path = Path::new(drive, checked(options)?);
-    let asked = drive.load.tight.value() / path.scales.force;
-    let found = path.find(asked);
+    let (path, found) = find(drive, checked(options)?);
     conclude(path, found, start)
+}
+
+/// Searches the state of a drive at its load.
+pub(super) fn find(drive: &Drive, tolerance: f64) -> (Path<'_>, Result<Found, Stuck>) {
+    let mut path = Path::new(drive, tolerance);
+    let found = path.find(drive.load.tight.value() / path.scales.force);
+    (path, found)
 }
 
 /// Finds the steady state of a drive that differs little from one that is solved, much faster than

@@ -1,7 +1,6 @@
 //! The public face of traces: a drive and a range of one entry in, a branch out.
 
-use super::path::Path;
-use super::solve::{carried, checked};
+use super::solve::{carried, checked, find};
 use super::tracer::{Tracer, Until};
 use super::{SolveError, SolveOptions};
 use crate::input::Key;
@@ -38,8 +37,7 @@ pub fn trace(
     let mut tracer = Tracer::new(drive, *key, ascending, tolerance, Until::RangeEnds);
     progress(0.0, "solving the first state");
     let first = tracer.drive_at(from);
-    let mut path = Path::new(&first, tolerance);
-    let found = path.find(first.load.tight.value() / path.scales.force);
+    let (path, found) = find(&first, tolerance);
     let solved = carried(&path, found)?;
     let direction = if to > from {
         Direction::Increasing
@@ -48,8 +46,7 @@ pub fn trace(
     };
     let end = tracer.run(solved, from, direction, progress);
     let mut convergence = tracer.convergence;
-    convergence.rhs_evaluations += path.stats.rhs_evaluations;
-    convergence.factorisations += path.stats.factorisations;
+    convergence.count(&path.stats);
     convergence.seconds = start.elapsed().as_secs_f64();
     Ok(Branch {
         key: *key,

@@ -201,13 +201,6 @@ impl<'d> Tracer<'d> {
         ((value - from).abs() / whole).min(1.0)
     }
 
-    /// Adds the cost of a piece.
-    pub(super) fn count(&mut self, stats: Option<bvp::Stats>) {
-        let stats = stats.unwrap_or_default();
-        self.convergence.rhs_evaluations += stats.rhs_evaluations;
-        self.convergence.factorisations += stats.factorisations;
-    }
-
     /// Why the branch ends, from the reason of the tracer.
     pub(super) fn end(&self, stop: Option<Stop>) -> BranchEnd {
         let value = self.points.last().map(|point| point.value);
