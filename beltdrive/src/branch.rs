@@ -1,7 +1,10 @@
 //! A branch of steady states over one entry of the drive file.
 
 use crate::input::Key;
-use crate::{Drive, Pulley, StateErrors, StateSummary, ZoneKind};
+use crate::{
+    BeltKind, Drive, Pulley, SolveError, SolveOptions, StateErrors, StateSummary, ZoneKind, flat,
+    solve, vbelt,
+};
 use std::fmt;
 
 /// The steady states that belong together over one entry of the drive file, the parameter.
@@ -59,6 +62,13 @@ pub enum EventKind {
     Overhang(Pulley),
     /// The pulley slips grossly; the driven pulley then stands still.
     GrossSlip(Pulley),
+    /// A friction zone appears on a pulley.
+    ZoneAppears {
+        /// Where.
+        pulley: Pulley,
+        /// The kind of the zone.
+        kind: ZoneKind,
+    },
     /// A friction zone vanishes from a pulley.
     ZoneVanishes {
         /// Where.
@@ -142,6 +152,35 @@ impl TraceConvergence {
         self.continuation_steps += other.continuation_steps;
         self.rhs_evaluations += other.rhs_evaluations;
         self.factorisations += other.factorisations;
+    }
+}
+
+/// Traces the branch of steady states of a drive over one entry of the drive file, from the value
+/// `range[0]` to `range[1]` (SI), around limit points where there are any.
+///
+/// The branch ends where it reaches the end of the range, where it has come back by a quarter of
+/// its way behind a limit point, or where the driven pulley stands still: beyond that no state is a drive
+/// state. What happens on the way — limit points, an inclination of 90°, friction zones that vanish —
+/// is located and carries an error estimate. `progress` is called with the share of the range that is
+/// done and what is being done.
+///
+/// # Errors
+/// Those of [`solve`](crate::solve) at the beginning of the range. A branch that cannot be followed
+/// to its end is no error; its end says so.
+///
+/// # Panics
+/// If the entry is none of this drive.
+pub fn trace(
+    drive: &Drive,
+    key: &Key,
+    range: [f64; 2],
+    options: &SolveOptions,
+    progress: &mut dyn FnMut(f64, &str),
+) -> Result<Branch, SolveError> {
+    solve::check(drive, options)?;
+    match drive.belt.kind {
+        BeltKind::V(_) => vbelt::trace(drive, key, range, options, progress),
+        BeltKind::Flat { .. } => flat::trace(drive, key, range, options),
     }
 }
 

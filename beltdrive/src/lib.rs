@@ -63,25 +63,25 @@
 mod branch;
 mod drive;
 pub mod examples;
+mod flat;
 pub mod input;
 mod limit_curve;
 mod limits;
 pub mod plot;
 pub mod report;
+mod solve;
 mod state_summary;
 mod steady_state;
 mod vbelt;
 
-pub use branch::{Branch, BranchEnd, BranchEvent, EventKind, TraceConvergence, TracePoint};
-pub use drive::{Belt, Drive, FrictionLaw, Load, SpanTension};
-pub use limit_curve::{LimitCurve, LimitCurvePoint};
-pub use limits::{Limit, Limits, RangeEnd};
+pub use branch::{Branch, BranchEnd, BranchEvent, EventKind, TraceConvergence, TracePoint, trace};
+pub use drive::{Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SpanTension, VBelt};
+pub use limit_curve::{LimitCurve, LimitCurvePoint, limit_curve};
+pub use limits::{Limit, LimitReason, Limits, RangeEnd, limits};
+pub use solve::{SolveError, SolveOptions, solve, solve_from};
 pub use state_summary::{PulleyErrors, PulleySummary, StateErrors, StateSummary};
 pub use steady_state::{
-    Check, Convergence, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind,
-};
-pub use vbelt::{
-    LimitReason, SolveError, SolveOptions, limit_curve, limits, solve, solve_from, trace,
+    Check, Convergence, Entry, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind,
 };
 
 /// The examples of the README are tests.

@@ -1,6 +1,11 @@
 //! Both ends of the range of a parameter over which a drive has steady states.
 
-use crate::{Branch, LimitReason, StateErrors, StateSummary};
+use crate::input::Key;
+use crate::{
+    BeltKind, Branch, Drive, Pulley, SolveError, SolveOptions, StateErrors, StateSummary, flat,
+    solve, vbelt,
+};
+use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
 /// The smallest and the largest value of a parameter that a drive carries.
@@ -41,6 +46,27 @@ pub enum RangeEnd {
     NotFound,
 }
 
+/// Finds the smallest and the largest value of an entry — by default of the tight tension — that the
+/// drive carries, why the range ends there, and the branch between.
+///
+/// # Errors
+/// Those of [`solve`](crate::solve), if no state is found from which to search.
+///
+/// # Panics
+/// If the entry is none of this drive.
+pub fn limits(
+    drive: &Drive,
+    key: &Key,
+    options: &SolveOptions,
+    progress: &mut dyn FnMut(f64, &str),
+) -> Result<Limits, SolveError> {
+    solve::check(drive, options)?;
+    match drive.belt.kind {
+        BeltKind::V(_) => vbelt::limits(drive, key, options, progress),
+        BeltKind::Flat { .. } => flat::limits(drive, key, options),
+    }
+}
+
 impl fmt::Display for RangeEnd {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -50,5 +76,43 @@ impl fmt::Display for RangeEnd {
             }
             Self::NotFound => f.write_str("no limit was found up to here"),
         }
+    }
+}
+
+/// What ends the load range of a drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LimitReason {
+    /// The driven pulley slips grossly: its speed has fallen to zero.
+    DrivenSlips,
+    /// The driver slips grossly: a limit point at small inclination.
+    DriverSlips,
+    /// Friction is exhausted over the whole arc of contact of the pulley of a flat belt: the ratio of
+    /// the tensions has reached its capstan limit.
+    Capstan(Pulley),
+    /// The belt overhangs at the exit of the driver: a limit point beyond 90° of inclination.
+    Overhang,
+}
+
+impl LimitReason {
+    /// What a limit point means, from the inclination where the belt leaves the driver, rad.
+    pub(crate) fn of_limit_point(exit_inclination: f64) -> Self {
+        if exit_inclination > FRAC_PI_2 {
+            Self::Overhang
+        } else {
+            Self::DriverSlips
+        }
+    }
+}
+
+impl fmt::Display for LimitReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::DrivenSlips => "the driven pulley slips grossly and stops",
+            Self::DriverSlips => "the driver slips grossly",
+            Self::Capstan(Pulley::Driven) => "the belt slips grossly on the driven pulley",
+            Self::Capstan(Pulley::Driver) => "the belt slips grossly on the driver",
+            Self::Overhang => "the belt overhangs at the exit of the driver",
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! The scalars of a steady state, which tables of many states show, and their errors.
 
-use crate::{PulleyState, SteadyState, Zone};
+use crate::{Entry, PulleyState, SteadyState, Zone};
 
 /// A steady state without its profiles. SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +51,8 @@ pub struct PulleySummary {
     pub inclination: [f64; 2],
     /// Friction zones in the order in which the belt passes them.
     pub zones: Vec<Zone>,
+    /// How the belt enters the pulley; of flat belts.
+    pub entry: Option<Entry>,
 }
 
 /// Estimated absolute errors of the scalars of a state, in their units.
@@ -128,6 +130,7 @@ impl From<&PulleyState> for PulleySummary {
             max_penetration: pulley.max_penetration,
             inclination: pulley.inclination,
             zones: pulley.zones.clone(),
+            entry: pulley.entry,
         }
     }
 }

@@ -59,8 +59,26 @@ pub struct PulleyState {
     pub inclination: [f64; 2],
     /// Friction zones in the order in which the belt passes them.
     pub zones: Vec<Zone>,
+    /// How the belt enters the pulley; of flat belts.
+    pub entry: Option<Entry>,
     /// The belt along the pulley, from entry to exit.
     pub profile: Profile,
+}
+
+/// How a flat belt enters a pulley.
+///
+/// The rim of the pulley has the speed that the belt would have at the tension `T_o`; where the belt
+/// enters, it is stretched against that by the strain u′(0) = (T(0) − `T_o`)/EA.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    /// Tension `T_o` at which the belt would run as fast as the rim, N.
+    pub reference_tension: f64,
+    /// Strain u′(0) of the belt against the rim; positive on the driven pulley, negative on the
+    /// driver.
+    pub strain: f64,
+    /// Friction stiffness below which friction stays elastic over the whole arc at this load, N/m²;
+    /// only for EPP friction, and only if there is one.
+    pub smallest_stiffness: Option<f64>,
 }
 
 /// What the belt does over a part of the wrap.
@@ -69,8 +87,17 @@ pub struct PulleyState {
 pub enum ZoneKind {
     /// Friction below its limit: the belt sticks through its bristles.
     Elastic,
-    /// Friction at its limit μ p: the belt slides.
+    /// Friction at its limit: the belt slides.
     Slip,
+    /// No friction: the belt sticks and its tension is constant (flat belts, Coulomb friction).
+    Adhesion,
+    /// Friction below its limit that grows with the slip velocity (flat belts, creep-rate friction).
+    Creep,
+}
+
+impl ZoneKind {
+    /// Every kind.
+    pub(crate) const ALL: [Self; 4] = [Self::Elastic, Self::Adhesion, Self::Creep, Self::Slip];
 }
 
 /// A part of the wrap where friction is of one kind.
@@ -104,9 +131,9 @@ pub struct Profile {
     /// Sliding angle γ, rad: direction of the slip velocity from the outward radius towards the
     /// motion of the pulley.
     pub sliding_angle: Vec<f64>,
-    /// Normal force p per length on each groove face, N/m.
+    /// Normal force per length, N/m: p on each groove face of a V-belt, n of a flat belt.
     pub normal_force: Vec<f64>,
-    /// Friction force f per length on each groove face, N/m.
+    /// Friction force f per length, N/m: on each groove face of a V-belt, on all of a flat belt.
     pub friction_force: Vec<f64>,
 }
 

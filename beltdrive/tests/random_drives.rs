@@ -1,7 +1,9 @@
 //! Many random drives within the range of ordinary V-belt drives: every one is solved, or refused
 //! with the reason why no steady state carries its load.
 
-use beltdrive::{Belt, Drive, FrictionLaw, Load, SolveError, SolveOptions, SpanTension, solve};
+use beltdrive::{
+    Belt, BeltKind, Drive, FrictionLaw, Load, SolveError, SolveOptions, SpanTension, VBelt, solve,
+};
 use std::f64::consts::PI;
 
 /// A reproducible sequence of numbers in \[0, 1): the minimal standard generator of Park & Miller.
@@ -40,10 +42,12 @@ fn drive(random: &mut Random, law: FrictionLaw) -> Drive {
             belt: Belt {
                 mass_per_length: random.scale(0.05, 0.6),
                 axial_stiffness: random.scale(30e3, 300e3),
-                radial_stiffness,
-                height: None,
+                kind: BeltKind::V(VBelt {
+                    radial_stiffness,
+                    half_angle,
+                    height: None,
+                }),
             },
-            half_angle,
             friction_coefficient: random.between(0.15, 0.8),
             law,
             driver_radius,

@@ -1,7 +1,7 @@
 //! From checked values to a drive: what must be there, and relations between the values.
 
 use super::{diagnostic::Finding, schema, values::Values};
-use crate::{Belt, Drive, FrictionLaw, Load, SpanTension};
+use crate::{Belt, BeltKind, Drive, FrictionLaw, Load, SpanTension, VBelt};
 
 /// The drive the values state.
 pub(super) fn drive(values: &Values<'_>) -> Result<Drive, Finding> {
@@ -12,10 +12,12 @@ pub(super) fn drive(values: &Values<'_>) -> Result<Drive, Finding> {
         belt: Belt {
             mass_per_length: values.required_number("belt.mass_per_length")?,
             axial_stiffness: values.required_number("belt.axial_stiffness")?,
-            radial_stiffness: values.required_number("belt.radial_stiffness")?,
-            height: values.number("belt.height"),
+            kind: BeltKind::V(VBelt {
+                radial_stiffness: values.required_number("belt.radial_stiffness")?,
+                half_angle: values.required_number("groove.half_angle")?,
+                height: values.number("belt.height"),
+            }),
         },
-        half_angle: values.required_number("groove.half_angle")?,
         law: law(values)?,
         friction_coefficient: values.required_number("friction.coefficient")?,
         driver_radius: values.required_number("pulleys.driver.radius")?,

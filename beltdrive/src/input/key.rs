@@ -1,7 +1,7 @@
 //! The numeric entries of a drive file that a branch can be traced over.
 
 use super::{dimension::Dimension, schema};
-use crate::{Drive, FrictionLaw, SpanTension};
+use crate::{BeltKind, Drive, FrictionLaw, SpanTension, VBelt};
 
 /// A numeric entry of the drive file on which the steady state depends.
 #[derive(Clone, Copy, Debug)]
@@ -35,12 +35,12 @@ const ENTRIES: [Traceable; 15] = [
     Traceable {
         path: "belt.radial_stiffness",
         name: "radial stiffness",
-        slot: |drive| Some(&mut drive.belt.radial_stiffness),
+        slot: |drive| v_belt(drive).map(|belt| &mut belt.radial_stiffness),
     },
     Traceable {
         path: "groove.half_angle",
         name: "half groove angle",
-        slot: |drive| Some(&mut drive.half_angle),
+        slot: |drive| v_belt(drive).map(|belt| &mut belt.half_angle),
     },
     Traceable {
         path: "friction.coefficient",
@@ -105,17 +105,24 @@ const ENTRIES: [Traceable; 15] = [
     },
 ];
 
+fn v_belt(drive: &mut Drive) -> Option<&mut VBelt> {
+    match &mut drive.belt.kind {
+        BeltKind::V(belt) => Some(belt),
+        BeltKind::Flat { .. } => None,
+    }
+}
+
 fn tractive(tension: &mut SpanTension) -> Option<&mut f64> {
     match tension {
         SpanTension::Tractive(value) => Some(value),
-        SpanTension::Belt(_) => None,
+        _ => None,
     }
 }
 
 fn belt(tension: &mut SpanTension) -> Option<&mut f64> {
     match tension {
         SpanTension::Belt(value) => Some(value),
-        SpanTension::Tractive(_) => None,
+        _ => None,
     }
 }
 

@@ -45,10 +45,10 @@ use values::Values;
 ///
 /// ```
 /// let text = beltdrive::examples::find("kim2009")?.text;
-/// let overrides = ["friction.law=epp".to_owned(), "groove.half_angle=17 deg".to_owned()];
+/// let overrides = ["friction.law=epp".to_owned(), "friction.coefficient = 0.35".to_owned()];
 /// let drive = beltdrive::input::parse("kim2009.toml", text, &overrides)?;
 /// assert_eq!(drive.law.name(), "epp");
-/// assert_eq!(drive.half_angle, 17_f64.to_radians());
+/// assert_eq!(drive.friction_coefficient, 0.35);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///

@@ -4,7 +4,7 @@ use super::axis::{Axis, Scale};
 use super::panel::Panel;
 use super::style::{self, Canvas, Drawn, Header, Legend, Stroke, px};
 use crate::report::{value, words};
-use crate::{LimitCurve, LimitCurvePoint, LimitReason};
+use crate::{LimitCurve, LimitCurvePoint, LimitReason, Pulley};
 use plotters::prelude::*;
 use std::iter;
 
@@ -34,8 +34,8 @@ pub(super) fn figure(curve: &LimitCurve) -> String {
 fn color(reason: LimitReason) -> RGBColor {
     match reason {
         LimitReason::Overhang => style::VERMILION,
-        LimitReason::DriverSlips => style::WINE,
-        LimitReason::DrivenSlips => style::BLUE,
+        LimitReason::DriverSlips | LimitReason::Capstan(Pulley::Driver) => style::WINE,
+        LimitReason::DrivenSlips | LimitReason::Capstan(Pulley::Driven) => style::BLUE,
     }
 }
 

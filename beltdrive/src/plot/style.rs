@@ -26,6 +26,7 @@ pub(super) const WINE: RGBColor = RGBColor(0x88, 0x22, 0x55);
 pub(super) const VERMILION: RGBColor = RGBColor(0xD5, 0x5E, 0x00);
 /// A third curve.
 pub(super) const BLUE: RGBColor = RGBColor(0x00, 0x72, 0xB2);
+const GREEN: RGBColor = RGBColor(0x00, 0x9E, 0x73);
 const ORANGE: RGBColor = RGBColor(0xE6, 0x9F, 0x00);
 
 /// Sizes of text, px.
@@ -131,6 +132,8 @@ pub(super) fn zone(kind: ZoneKind) -> (&'static str, RGBColor) {
     match kind {
         ZoneKind::Elastic => ("elastic zone", BLUE),
         ZoneKind::Slip => ("slip zone", ORANGE),
+        ZoneKind::Adhesion => ("adhesion zone", GREEN),
+        ZoneKind::Creep => ("creep zone", WINE),
     }
 }
 
@@ -141,9 +144,7 @@ pub(super) fn kinds(state: &SteadyState) -> impl Iterator<Item = ZoneKind> {
             .iter()
             .any(|pulley| pulley.zones.iter().any(|zone| zone.kind == *kind))
     };
-    [ZoneKind::Elastic, ZoneKind::Slip]
-        .into_iter()
-        .filter(occurs)
+    ZoneKind::ALL.into_iter().filter(occurs)
 }
 
 /// The background colour of a zone.

@@ -30,7 +30,7 @@ pub use table::table;
 
 use crate::input::Key;
 use crate::{Drive, FrictionLaw, Warning};
-use precision::six_digits;
+pub(crate) use precision::six_digits;
 
 /// The title of a drive on one line, or what it is when it has no title.
 pub(crate) fn heading(drive: &Drive) -> String {
@@ -65,6 +65,10 @@ pub(crate) fn law(drive: &Drive, varied: &[Key]) -> String {
         FrictionLaw::Bristle { stiffness } => format!(
             "bristle friction, {coefficient}, {}",
             value("κ", "friction.bristle_stiffness", stiffness, " 1/m")
+        ),
+        FrictionLaw::CreepRate { velocity } => format!(
+            "creep-rate friction, {coefficient}, {}",
+            value("v_s", "friction.velocity", velocity, " m/s")
         ),
     }
 }

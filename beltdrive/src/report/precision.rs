@@ -71,7 +71,7 @@ fn rounded(value: f64, decimals: f64) -> String {
 }
 
 /// A number from a drive file, at most six digits, none of them a trailing zero.
-pub(super) fn six_digits(value: f64) -> String {
+pub(crate) fn six_digits(value: f64) -> String {
     let value: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     if (1e-3..1e6).contains(&value.abs()) || value == 0.0 {
         format!("{value}")

@@ -1,8 +1,8 @@
 //! Made-up but plausible states with exact plane geometry, for the tests of reports and figures.
 
 use crate::{
-    Belt, Check, Convergence, Drive, FrictionLaw, Load, Profile, Pulley, PulleyState, SpanTension,
-    SteadyState, Warning, Zone, ZoneKind,
+    Belt, BeltKind, Check, Convergence, Drive, FrictionLaw, Load, Profile, Pulley, PulleyState,
+    SpanTension, SteadyState, VBelt, Warning, Zone, ZoneKind,
 };
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -149,10 +149,12 @@ fn drive(slack: f64, tight: f64) -> Drive {
         belt: Belt {
             mass_per_length: 0.108,
             axial_stiffness: 120e3,
-            radial_stiffness: 900e3,
-            height: None,
+            kind: BeltKind::V(VBelt {
+                radial_stiffness: 900e3,
+                half_angle: PI / 10.0,
+                height: None,
+            }),
         },
-        half_angle: PI / 10.0,
         friction_coefficient: 0.4,
         law: FrictionLaw::Epp { stiffness: 8.1e6 },
         driver_radius: RADIUS,
@@ -168,7 +170,8 @@ fn drive(slack: f64, tight: f64) -> Drive {
 
 /// Radial stiffness of the belt in its groove, N/m².
 fn stiffness(drive: &Drive) -> f64 {
-    drive.belt.radial_stiffness * drive.half_angle.tan()
+    let belt = drive.belt.v();
+    belt.radial_stiffness * belt.half_angle.tan()
 }
 
 /// Length of a span between the belt's inclination at an exit and at the next entry, and the
@@ -206,10 +209,10 @@ fn profile(drive: &Drive, wrap: f64, [from, to]: [f64; 2], rate: f64, overhang: 
             .push((from - to).signum() * FRAC_PI_2 * (1.0 + entry - exit));
         profile
             .normal_force
-            .push(0.5 * drive.belt.radial_stiffness * penetration);
+            .push(0.5 * drive.belt.v().radial_stiffness * penetration);
         profile
             .friction_force
-            .push(0.2 * drive.belt.radial_stiffness * penetration);
+            .push(0.2 * drive.belt.v().radial_stiffness * penetration);
     }
     profile
 }

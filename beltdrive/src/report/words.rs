@@ -8,6 +8,8 @@ pub(crate) fn zone(kind: ZoneKind) -> &'static str {
     match kind {
         ZoneKind::Elastic => "elastic",
         ZoneKind::Slip => "slip",
+        ZoneKind::Adhesion => "adhesion",
+        ZoneKind::Creep => "creep",
     }
 }
 
@@ -19,6 +21,7 @@ pub(super) fn event_kind(kind: EventKind) -> &'static str {
         EventKind::BranchPoint => "branch point",
         EventKind::Overhang(_) => "overhang",
         EventKind::GrossSlip(_) => "gross slip",
+        EventKind::ZoneAppears { .. } => "zone appears",
         EventKind::ZoneVanishes { .. } => "zone vanishes",
         EventKind::BeltHeight(_) => "belt height",
         EventKind::End => "end",
@@ -31,6 +34,7 @@ pub(super) fn event_pulley(kind: EventKind) -> Option<Pulley> {
         EventKind::Overhang(pulley)
         | EventKind::GrossSlip(pulley)
         | EventKind::BeltHeight(pulley)
+        | EventKind::ZoneAppears { pulley, .. }
         | EventKind::ZoneVanishes { pulley, .. } => Some(pulley),
         EventKind::Start | EventKind::LimitPoint | EventKind::BranchPoint | EventKind::End => None,
     }
@@ -39,7 +43,7 @@ pub(super) fn event_pulley(kind: EventKind) -> Option<Pulley> {
 /// The kind of the friction zone an event is about, if it is about one.
 pub(super) fn event_zone(kind: EventKind) -> Option<ZoneKind> {
     match kind {
-        EventKind::ZoneVanishes { kind, .. } => Some(kind),
+        EventKind::ZoneAppears { kind, .. } | EventKind::ZoneVanishes { kind, .. } => Some(kind),
         _ => None,
     }
 }
@@ -47,6 +51,9 @@ pub(super) fn event_zone(kind: EventKind) -> Option<ZoneKind> {
 /// An event in at most 21 letters, for a column.
 pub(super) fn event_label(kind: EventKind) -> String {
     match kind {
+        EventKind::ZoneAppears { pulley, kind } => {
+            format!("+{}, {}", zone(kind), pulley_word(pulley))
+        }
         EventKind::ZoneVanishes { pulley, kind } => {
             format!("−{}, {}", zone(kind), pulley_word(pulley))
         }
@@ -72,6 +79,10 @@ pub(crate) fn event(kind: EventKind, key: Key) -> String {
         }
         EventKind::GrossSlip(Pulley::Driven) => LimitReason::DrivenSlips.to_string(),
         EventKind::GrossSlip(Pulley::Driver) => LimitReason::DriverSlips.to_string(),
+        EventKind::ZoneAppears { pulley, kind } => {
+            let kind = zone(kind);
+            format!("a zone of {kind} friction appears on the {}", pulley.name())
+        }
         EventKind::ZoneVanishes { pulley, kind } => {
             let kind = zone(kind);
             format!(
@@ -103,7 +114,7 @@ pub(super) fn end_kind(end: &BranchEnd) -> &'static str {
 pub(super) fn limit_kind(reason: LimitReason) -> &'static str {
     match reason {
         LimitReason::DriverSlips | LimitReason::Overhang => "fold",
-        LimitReason::DrivenSlips => "gross slip",
+        LimitReason::DrivenSlips | LimitReason::Capstan(_) => "gross slip",
     }
 }
 
@@ -112,6 +123,7 @@ pub(super) fn limit_pulley(reason: LimitReason) -> Pulley {
     match reason {
         LimitReason::DriverSlips | LimitReason::Overhang => Pulley::Driver,
         LimitReason::DrivenSlips => Pulley::Driven,
+        LimitReason::Capstan(pulley) => pulley,
     }
 }
 
@@ -120,7 +132,8 @@ pub(crate) fn limit_label(reason: LimitReason) -> &'static str {
     match reason {
         LimitReason::Overhang => "fold: driver overhangs",
         LimitReason::DriverSlips => "fold: driver slips",
-        LimitReason::DrivenSlips => "driven pulley slips",
+        LimitReason::DrivenSlips | LimitReason::Capstan(Pulley::Driven) => "driven pulley slips",
+        LimitReason::Capstan(Pulley::Driver) => "driver slips",
     }
 }
 
@@ -171,6 +184,7 @@ mod tests {
                 EventKind::Overhang(pulley),
                 EventKind::GrossSlip(pulley),
                 EventKind::BeltHeight(pulley),
+                EventKind::ZoneAppears { pulley, kind },
                 EventKind::ZoneVanishes { pulley, kind },
             ]
         });
@@ -195,7 +209,7 @@ mod tests {
         }
         words.sort_unstable();
         words.dedup();
-        assert_eq!(words.len(), 12);
+        assert_eq!(words.len(), 14);
     }
 
     #[test]

@@ -7,10 +7,10 @@
 
 use super::followed::{Course, Followed, Located};
 use super::limits::{domain, first_state, upwards};
-use super::solve::checked;
-use super::{SolveError, SolveOptions};
 use crate::input::Key;
-use crate::{BranchEnd, Drive, Limit, LimitCurvePoint, RangeEnd, TraceConvergence};
+use crate::{
+    BranchEnd, Drive, Limit, LimitCurvePoint, RangeEnd, SolveError, SolveOptions, TraceConvergence,
+};
 
 /// Number of equal steps over the range of the second entry; limits are known at their ends.
 const STEPS: usize = 20;
@@ -48,7 +48,7 @@ impl<'d> Chart<'d> {
             key,
             second,
             range,
-            tolerance: checked(options)?,
+            tolerance: options.tolerance,
             points: Vec::new(),
             cusps: Vec::new(),
             convergence: TraceConvergence {

@@ -62,8 +62,8 @@ impl DriveProblem {
     /// The problem of `drive` in the units `scales`, with one segment on each pulley and the slip
     /// direction normalised by `epsilon` (which bristles do not use). EPP friction is not blended.
     pub(crate) fn new(drive: &Drive, scales: Scales, epsilon: f64) -> Self {
-        let (sin_beta, cos_beta) = drive.half_angle.sin_cos();
-        let radial = scales.radial_stiffness(drive.belt.radial_stiffness);
+        let (sin_beta, cos_beta) = drive.belt.v().half_angle.sin_cos();
+        let radial = scales.radial_stiffness(drive.belt.v().radial_stiffness);
         let grooves = [DRIVEN, DRIVER].map(|pulley| {
             let law = match drive.law {
                 FrictionLaw::Coulomb => Law::Coulomb,
@@ -75,6 +75,7 @@ impl DriveProblem {
                 FrictionLaw::Bristle { stiffness } => Law::Bristle {
                     stiffness: stiffness * scales.radius[pulley],
                 },
+                FrictionLaw::CreepRate { .. } => panic!("a law for V-belts was expected"),
             };
             Groove {
                 strand: scales.strand(),
@@ -122,10 +123,7 @@ impl DriveProblem {
     /// The same drive with another prescribed tight tension, scaled.
     pub(crate) fn with_tight_tension(mut self, value: f64) -> Self {
         self.instead = None;
-        self.tight = match self.tight {
-            SpanTension::Tractive(_) => SpanTension::Tractive(value),
-            SpanTension::Belt(_) => SpanTension::Belt(value),
-        };
+        self.tight = self.tight.with_value(value);
         self
     }
 
@@ -275,22 +273,17 @@ impl DriveProblem {
         } else {
             (self.slack, T::from_f64(self.slack.value()))
         };
-        let found = match kind {
-            SpanTension::Tractive(_) => y[TENSION],
-            SpanTension::Belt(_) => self.grooves[pulley]
-                .strand
-                .tension(y[TENSION], Self::flow(p)),
-        };
-        found - value
+        if let SpanTension::Tractive(_) = kind {
+            return y[TENSION] - value;
+        }
+        let strand = self.grooves[pulley].strand;
+        strand.tension(y[TENSION], Self::flow(p)) - value
     }
 }
 
 /// A prescribed tension in units of `force`.
 fn scaled(tension: SpanTension, force: f64) -> SpanTension {
-    match tension {
-        SpanTension::Tractive(value) => SpanTension::Tractive(value / force),
-        SpanTension::Belt(value) => SpanTension::Belt(value / force),
-    }
+    tension.with_value(tension.value() / force)
 }
 
 impl Problem for DriveProblem {

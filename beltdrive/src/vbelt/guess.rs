@@ -42,12 +42,12 @@ impl<'a> Guess<'a> {
         // The belt meets the driver at its circumferential speed, 1.
         let tension = match tight {
             SpanTension::Tractive(force) => strand.tension(force, 1.0),
-            SpanTension::Belt(tension) => tension,
+            tension => tension.value(),
         };
         let flow = 1.0 / strand.speed(tension, 1.0);
         let [slack, tight] = [slack, tight].map(|span| match span {
             SpanTension::Tractive(force) => force,
-            SpanTension::Belt(tension) => strand.tractive(tension, flow),
+            tension => strand.tractive(tension.value(), flow),
         });
         let tensions = [[slack, tight], [tight, slack]];
         let ends = [DRIVEN, DRIVER].map(|pulley| {

@@ -13,7 +13,7 @@
 use super::carried::Carried;
 use super::path::{Effort, Path, Solved, Stuck};
 use super::{DRIVER, DriveProblem, INCLINATION, Instead};
-use std::f64::consts::FRAC_PI_2;
+use crate::LimitReason;
 
 /// Smaller loads from which the load is approached: shares of the way from slack to tight tension,
 /// in logarithms.
@@ -37,39 +37,6 @@ const SLOW: f64 = 0.5;
 const SIDE_STEP: f64 = 1e-4;
 /// Relative accuracy of a limit.
 const LIMIT_ACCURACY: f64 = 1e-7;
-
-/// What ends the load range of a drive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum LimitReason {
-    /// The driven pulley slips grossly: its speed has fallen to zero.
-    DrivenSlips,
-    /// The driver slips grossly: a limit point at small inclination.
-    DriverSlips,
-    /// The belt overhangs at the exit of the driver: a limit point beyond 90° of inclination.
-    Overhang,
-}
-
-impl LimitReason {
-    /// What a limit point means, from the inclination where the belt leaves the driver, rad.
-    pub(super) fn of_limit_point(exit_inclination: f64) -> Self {
-        if exit_inclination > FRAC_PI_2 {
-            Self::Overhang
-        } else {
-            Self::DriverSlips
-        }
-    }
-}
-
-impl std::fmt::Display for LimitReason {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::DrivenSlips => "the driven pulley slips grossly and stops",
-            Self::DriverSlips => "the driver slips grossly",
-            Self::Overhang => "the belt overhangs at the exit of the driver",
-        })
-    }
-}
 
 /// The end of the load range.
 #[derive(Clone, Debug)]

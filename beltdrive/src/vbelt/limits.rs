@@ -1,16 +1,14 @@
 //! Both ends of the range of an entry over which a drive has steady states.
 
-use super::limit::LimitReason;
 use super::path::{Path, Solved};
-use super::solve::{carried, checked, find};
+use super::solve::{carried, find};
 use super::state::describe;
 use super::tracer::{Tracer, Until, errors};
 use super::watched::RATIOS;
-use super::{SolveError, SolveOptions};
 use crate::input::Key;
 use crate::{
-    Branch, BranchEnd, BranchEvent, Drive, EventKind, Limit, Limits, RangeEnd, StateSummary,
-    TracePoint,
+    Branch, BranchEnd, BranchEvent, Drive, EventKind, Limit, LimitReason, Limits, RangeEnd,
+    SolveError, SolveOptions, StateSummary, TracePoint,
 };
 use continuation::Direction;
 use std::f64::consts::PI;
@@ -26,22 +24,15 @@ const STRETCHES: usize = 3;
 /// A lower end is sought down to this share of the value.
 const SMALLEST_SHARE: f64 = 1e-3;
 
-/// Finds the smallest and the largest value of an entry — by default of the tight tension — that the
-/// drive carries, why the range ends there, and the branch between.
-///
-/// # Errors
-/// Those of [`solve`](crate::solve), if no state is found from which to search.
-///
-/// # Panics
-/// If the entry is none of this drive.
-pub fn limits(
+/// Both ends of the range of an entry of a V-belt drive, and the branch between.
+pub(crate) fn limits(
     drive: &Drive,
     key: &Key,
     options: &SolveOptions,
     progress: &mut dyn FnMut(f64, &str),
 ) -> Result<Limits, SolveError> {
     let start = Instant::now();
-    let tolerance = checked(options)?;
+    let tolerance = options.tolerance;
     progress(0.0, "solving a state between the limits");
     let (drive, solved) = first_state(drive, key, tolerance)?;
     let value = key.get(&drive);

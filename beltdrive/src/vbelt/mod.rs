@@ -44,11 +44,10 @@ pub(crate) use scaling::{Scales, Strand};
 
 use groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 
-pub use limit::LimitReason;
-pub use limit_curve::limit_curve;
-pub use limits::limits;
-pub use solve::{SolveError, SolveOptions, solve, solve_from};
-pub use trace::trace;
+pub(crate) use limit_curve::limit_curve;
+pub(crate) use limits::limits;
+pub(crate) use solve::{solve, solve_from};
+pub(crate) use trace::trace;
 
 /// Index of the driven pulley, which comes first.
 pub(crate) const DRIVEN: usize = 0;

@@ -136,7 +136,7 @@ impl Strand {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::{Belt, FrictionLaw, Load, SpanTension};
+    use crate::{Belt, BeltKind, FrictionLaw, Load, SpanTension, VBelt};
 
     /// The drive of Kim (2009), table 3, with unequal radii if asked for.
     pub(in crate::vbelt) fn kim(law: FrictionLaw, driven_radius: f64) -> Drive {
@@ -145,10 +145,12 @@ pub(super) mod tests {
             belt: Belt {
                 mass_per_length: 0.108,
                 axial_stiffness: 120e3,
-                radial_stiffness: 900e3,
-                height: None,
+                kind: BeltKind::V(VBelt {
+                    radial_stiffness: 900e3,
+                    half_angle: 18_f64.to_radians(),
+                    height: None,
+                }),
             },
-            half_angle: 18_f64.to_radians(),
             friction_coefficient: 0.4,
             law,
             driver_radius: 0.25,

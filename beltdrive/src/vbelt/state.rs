@@ -268,6 +268,7 @@ fn pulley_state(solved: &Solved, pulley: usize, integrals: Integrals) -> PulleyS
         max_penetration: deepest,
         inclination: [entry, exit],
         zones: friction_zones(solved, pulley),
+        entry: None,
         profile,
     }
 }

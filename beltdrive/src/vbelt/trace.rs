@@ -1,29 +1,14 @@
-//! The public face of traces: a drive and a range of one entry in, a branch out.
+//! Traces of V-belt drives: a drive and a range of one entry in, a branch out.
 
-use super::solve::{carried, checked, find};
+use super::solve::{carried, find};
 use super::tracer::{Tracer, Until};
-use super::{SolveError, SolveOptions};
 use crate::input::Key;
-use crate::{Branch, Drive};
+use crate::{Branch, Drive, SolveError, SolveOptions};
 use continuation::Direction;
 use std::time::Instant;
 
-/// Traces the branch of steady states of a drive over one entry of the drive file, from the value
-/// `range[0]` to `range[1]` (SI), around limit points where there are any.
-///
-/// The branch ends where it reaches the end of the range, where it has come back by a quarter of
-/// its way behind a limit point, or where the driven pulley stands still: beyond that no state is a drive
-/// state. What happens on the way — limit points, an inclination of 90°, friction zones that vanish —
-/// is located and carries an error estimate. `progress` is called with the share of the range that is
-/// done and what is being done.
-///
-/// # Errors
-/// Those of [`solve`](crate::solve) at the beginning of the range. A branch that cannot be followed
-/// to its end is no error; its end says so.
-///
-/// # Panics
-/// If the entry is none of this drive.
-pub fn trace(
+/// The branch of steady states of a V-belt drive over one entry of the drive file.
+pub(crate) fn trace(
     drive: &Drive,
     key: &Key,
     range: [f64; 2],
@@ -31,7 +16,7 @@ pub fn trace(
     progress: &mut dyn FnMut(f64, &str),
 ) -> Result<Branch, SolveError> {
     let start = Instant::now();
-    let tolerance = checked(options)?;
+    let tolerance = options.tolerance;
     let [from, to] = range;
     let ascending = [from.min(to), from.max(to)];
     let mut tracer = Tracer::new(drive, *key, ascending, tolerance, Until::RangeEnds);

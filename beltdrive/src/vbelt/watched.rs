@@ -46,7 +46,7 @@ impl Tracer<'_> {
                 }
             }
         };
-        let height = self.drive.belt.height;
+        let height = self.drive.belt.v().height;
         let radius = problem.scales().radius;
         let sunk = |pulley: usize| {
             let zones = problem.zones(pulley);

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::vbelt::scaling::tests::kim;
+use crate::{BeltKind, VBelt};
 use bvp::Equations;
 use proptest::prelude::*;
 
@@ -79,7 +80,10 @@ fn the_equations_do_not_depend_on_units() {
         let mut other = drive.clone();
         other.belt.mass_per_length *= m / l;
         other.belt.axial_stiffness *= force;
-        other.belt.radial_stiffness *= force / (l * l);
+        other.belt.kind = BeltKind::V(VBelt {
+            radial_stiffness: drive.belt.v().radial_stiffness * force / (l * l),
+            ..*drive.belt.v()
+        });
         other.driver_radius *= l;
         other.driven_radius *= l;
         other.driver_speed /= t;
@@ -90,6 +94,7 @@ fn the_equations_do_not_depend_on_units() {
             FrictionLaw::Coulomb => {}
             FrictionLaw::Epp { stiffness } => *stiffness *= force / (l * l),
             FrictionLaw::Bristle { stiffness } => *stiffness /= l,
+            FrictionLaw::CreepRate { .. } => unreachable!("no law of this list"),
         }
         let [one, two] =
             [drive, other].map(|drive| DriveProblem::new(&drive, Scales::new(&drive), 0.02));
