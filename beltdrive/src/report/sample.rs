@@ -77,6 +77,7 @@ fn state([slack, tight]: [f64; 2], overhang: f64) -> SteadyState {
         max_penetration: profile.penetration.iter().copied().fold(0.0, f64::max),
         inclination,
         zones,
+        entry: None,
         profile,
     };
     let profile = |wrap, from, to, excess| profile(&drive, wrap, [from, to], rate, excess);
