@@ -1,4 +1,18 @@
-//! Flat belts.
+//! The flat-belt drive.
+mod closed_form;
+mod contact;
+mod coulomb;
+mod creep_rate;
+mod epp;
+mod geometry;
+mod root;
+mod traction;
+
+/// Indices of the pulleys.
+pub(crate) const DRIVEN: usize = 0;
+/// As [`DRIVEN`].
+pub(crate) const DRIVER: usize = 1;
+
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, SteadyState, input::Key};
 pub(crate) fn solve(_: &Drive) -> Result<SteadyState, SolveError> {
     Err(SolveError::NotModelled(""))
@@ -23,3 +37,6 @@ pub(crate) fn limit_curve(
 ) -> Result<LimitCurve, SolveError> {
     Err(SolveError::NotModelled(""))
 }
+
+#[cfg(test)]
+mod facts;

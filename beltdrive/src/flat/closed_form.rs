@@ -1,0 +1,270 @@
+//! The whole drive: the speed of the belt, and the contact with both pulleys.
+
+use super::contact::{Arc, Contact};
+use super::geometry::OpenBelt;
+use super::root::bracketed;
+use super::traction::Traction;
+use super::{DRIVEN, DRIVER, coulomb, creep_rate, epp};
+use crate::{BeltKind, Drive, FrictionLaw, LimitReason, NormalForce, Pulley, SpanTension};
+
+/// Most steps of the fixed-point iteration for the belt speed, which gains three digits and more a step
+/// unless the driver all but slips.
+const MAX_STEPS: usize = 8;
+
+/// The steady state of a flat-belt drive in closed form.
+#[derive(Clone, Debug)]
+pub(super) struct ClosedForm {
+    /// The belt around the pulleys.
+    pub(super) geometry: OpenBelt,
+    /// Speed c = G/m of the unstretched belt, m/s.
+    pub(super) speed: f64,
+    /// Belt tension of the slack and of the tight span, N.
+    pub(super) tension: [f64; 2],
+    /// Contact with the driven pulley and with the driver.
+    pub(super) contact: [Contact; 2],
+    /// Evaluations of scalar equations that it took.
+    pub(super) evaluations: usize,
+}
+
+/// Why there is no steady state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Refusal {
+    /// The load is too large.
+    Slips(LimitReason),
+    /// The belt does not press on the pulleys.
+    LiftsOff {
+        /// Tension of the slack span, N.
+        tension: f64,
+        /// Belt speed there, m/s.
+        speed: f64,
+        /// Momentum flow G V there, N.
+        centrifugal: f64,
+    },
+}
+
+impl ClosedForm {
+    /// The steady state of a flat-belt drive.
+    ///
+    /// The driver turns with the belt at its reference tension, ω₂ R₂ = c (1 + T_o/EA), which is one
+    /// equation for c. A drive slips grossly if a pulley does not carry the load at the speed at which
+    /// the driver would take the belt along without slip.
+    ///
+    /// # Panics
+    /// If the drive is none of those that [`crate::solve`] passes on.
+    pub(super) fn new(drive: &Drive) -> Result<Self, Refusal> {
+        let statement = Statement::new(drive);
+        let rim = drive.driver_speed * drive.driver_radius;
+        let axial = drive.belt.axial_stiffness;
+        let unslipped = statement.unslipped_speed(rim);
+        let loaded = statement.at(unslipped);
+        statement.check(&loaded)?;
+        let taken_along = |contact: &Contact| {
+            let reference = contact.arc.belt.tension(contact.reference());
+            rim / (1.0 + reference / axial)
+        };
+        let mut evaluations = 0;
+        let mut speed = unslipped;
+        let mut settled = false;
+        for _ in 0..MAX_STEPS {
+            let Some(driver) = statement.contact(&statement.at(speed), DRIVER) else {
+                break;
+            };
+            evaluations += driver.evaluations;
+            let next = taken_along(&driver);
+            settled = (next - speed).abs() <= 2.0 * f64::EPSILON * speed;
+            speed = next;
+            if settled {
+                break;
+            }
+        }
+        if !settled {
+            // The driver all but slips: the belt lags behind.
+            let excess = |speed: f64| {
+                let driver = statement.contact(&statement.at(speed), DRIVER);
+                driver.map_or(1.0, |driver| speed / taken_along(&driver) - 1.0)
+            };
+            let slowest = f64::EPSILON * unslipped;
+            let ends = [slowest, unslipped];
+            let slips = Refusal::Slips(LimitReason::Capstan(Pulley::Driver));
+            speed = bracketed(excess, ends, ends.map(excess)).ok_or(slips)?;
+        }
+        let state = statement.at(speed);
+        let contact = |pulley: usize| {
+            let reason = LimitReason::Capstan(PULLEYS[pulley]);
+            let contact = statement.contact(&state, pulley);
+            contact.ok_or(Refusal::Slips(reason))
+        };
+        let contact = [contact(DRIVEN)?, contact(DRIVER)?];
+        evaluations += contact[DRIVEN].evaluations;
+        let closed_form = Self {
+            geometry: statement.geometry,
+            speed,
+            tension: state.tension,
+            contact,
+            evaluations,
+        };
+        match closed_form.rim_speed(drive, DRIVEN) > 0.0 {
+            true => Ok(closed_form),
+            false => Err(Refusal::Slips(LimitReason::DrivenSlips)),
+        }
+    }
+
+    /// Circumferential speed c (1 + T_o/EA) of a pulley, m/s.
+    pub(super) fn rim_speed(&self, drive: &Drive, pulley: usize) -> f64 {
+        let contact = &self.contact[pulley];
+        let reference = contact.arc.belt.tension(contact.reference());
+        self.speed * (1.0 + reference / drive.belt.axial_stiffness)
+    }
+}
+
+const PULLEYS: [Pulley; 2] = [Pulley::Driven, Pulley::Driver];
+
+/// A drive as the closed form needs it.
+struct Statement<'d> {
+    drive: &'d Drive,
+    geometry: OpenBelt,
+    convention: NormalForce,
+}
+
+/// The loaded belt at a speed.
+struct Loaded {
+    /// Speed c of the unstretched belt, m/s.
+    speed: f64,
+    /// Belt tension of the slack and of the tight span, N.
+    tension: [f64; 2],
+    /// The arcs of the driven pulley and of the driver.
+    arc: [Arc; 2],
+}
+
+impl<'d> Statement<'d> {
+    fn new(drive: &'d Drive) -> Self {
+        let BeltKind::Flat { normal_force } = drive.belt.kind else {
+            panic!("a flat belt was expected")
+        };
+        Self {
+            drive,
+            geometry: OpenBelt::new(drive),
+            convention: match drive.law {
+                // Friction that depends on speeds and forces alone is the same in both.
+                FrictionLaw::CreepRate { .. } => NormalForce::Inertia,
+                _ => normal_force,
+            },
+        }
+    }
+
+    /// Speed c of the belt if the driver took it along without slip, m/s.
+    fn unslipped_speed(&self, rim: f64) -> f64 {
+        let axial = self.drive.belt.axial_stiffness;
+        let mut speed = rim;
+        for _ in 0..MAX_STEPS {
+            let [_, tight] = self.at(speed).tension;
+            speed = rim / (1.0 + tight / axial);
+        }
+        speed
+    }
+
+    /// The belt and its load at a speed c.
+    fn at(&self, speed: f64) -> Loaded {
+        let (drive, belt) = (self.drive, self.drive.belt);
+        let axial = belt.axial_stiffness;
+        let kinetic = belt.mass_per_length * speed * speed;
+        let share = 1.0 - kinetic / axial;
+        let tension = |span: SpanTension| match span {
+            SpanTension::Tractive(force) => Some((force + kinetic) / share),
+            SpanTension::Belt(tension) => Some(tension),
+            SpanTension::DrivenTorque(_) => None,
+        };
+        let traction = |slack: f64| {
+            let speed = match self.convention {
+                NormalForce::Thesis => speed * (1.0 + slack / axial),
+                NormalForce::Inertia | NormalForce::Exact => speed,
+            };
+            Traction::new(self.convention, belt.mass_per_length, axial, speed)
+        };
+        let by_torque = |torque: f64| torque / drive.driven_radius;
+        let (moving, slack, change) = match [drive.load.slack, drive.load.tight] {
+            [SpanTension::DrivenTorque(torque), tight] => {
+                let tight = tension(tight).expect("one span has a tension");
+                let change = by_torque(torque);
+                // The slack tension enters the speed of the convention `thesis` alone.
+                let mut slack = tight - change;
+                for _ in 0..MAX_STEPS {
+                    let moving = traction(slack);
+                    slack = moving.tension(moving.of_tension(tight) - change);
+                }
+                (traction(slack), slack, change)
+            }
+            [slack, SpanTension::DrivenTorque(torque)] => {
+                let slack = tension(slack).expect("one span has a tension");
+                (traction(slack), slack, by_torque(torque))
+            }
+            [slack, tight] => {
+                let difference = match [slack, tight] {
+                    [SpanTension::Belt(slack), SpanTension::Belt(tight)] => tight - slack,
+                    [SpanTension::Tractive(slack), SpanTension::Tractive(tight)] => {
+                        (tight - slack) / share
+                    }
+                    spans => {
+                        let [slack, tight] = spans.map(|span| tension(span).unwrap_or(f64::NAN));
+                        tight - slack
+                    }
+                };
+                let slack = tension(slack).expect("a tension");
+                let moving = traction(slack);
+                (moving, slack, difference * moving.stiffness / axial)
+            }
+        };
+        let low = moving.of_tension(slack);
+        let radius = [drive.driven_radius, drive.driver_radius];
+        let arc = |pulley: usize, sense, entry| Arc {
+            belt: moving,
+            sense,
+            slip_rate: moving.slip_rate(drive.friction_coefficient, radius[pulley]),
+            length: radius[pulley] * self.geometry.wrap[pulley],
+            entry,
+            change,
+        };
+        Loaded {
+            speed,
+            tension: [slack, moving.tension(low + change)],
+            arc: [arc(DRIVEN, 1.0, low), arc(DRIVER, -1.0, low + change)],
+        }
+    }
+
+    /// Whether the belt presses on the pulleys and both carry the load. Where both do not, the one with
+    /// less capacity lets go first; with equal capacities the driver is named.
+    fn check(&self, loaded: &Loaded) -> Result<(), Refusal> {
+        let [driven, driver] = &loaded.arc;
+        if driven.entry <= 0.0 || driven.belt.stiffness <= 0.0 {
+            let belt = self.drive.belt;
+            let [tension, _] = loaded.tension;
+            let speed = loaded.speed * (1.0 + tension / belt.axial_stiffness);
+            return Err(Refusal::LiftsOff {
+                tension,
+                speed,
+                centrifugal: belt.mass_per_length * loaded.speed * speed,
+            });
+        }
+        let first = match driven.capacity() < driver.capacity() {
+            true => (driven, Pulley::Driven),
+            false => (driver, Pulley::Driver),
+        };
+        match first {
+            (arc, pulley) if arc.load() >= arc.capacity() => {
+                Err(Refusal::Slips(LimitReason::Capstan(pulley)))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The contact with a pulley, unless it slips grossly.
+    fn contact(&self, loaded: &Loaded, pulley: usize) -> Option<Contact> {
+        let arc = loaded.arc[pulley];
+        match self.drive.law {
+            FrictionLaw::Coulomb => coulomb::solve(arc),
+            FrictionLaw::Epp { stiffness } => epp::solve(arc, stiffness),
+            FrictionLaw::CreepRate { velocity } => creep_rate::solve(arc, loaded.speed, velocity),
+            FrictionLaw::Bristle { .. } => panic!("a law for flat belts was expected"),
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! A flat belt on one pulley: what is given, and the zones of the solution.
+
+use super::creep_rate::Creep;
+use super::traction::Traction;
+use crate::ZoneKind;
+
+/// The arc of contact of a pulley, and the traction of the belt at its ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arc {
+    /// The moving belt.
+    pub(super) belt: Traction,
+    /// Sense of the friction force on the belt: +1 on the driven pulley, where it holds the belt back
+    /// and the traction grows; −1 on the driver.
+    pub(super) sense: f64,
+    /// Slip rate a, 1/m.
+    pub(super) slip_rate: f64,
+    /// Length L of the arc, m.
+    pub(super) length: f64,
+    /// Traction P where the belt enters, N; positive.
+    pub(super) entry: f64,
+    /// |P(L) − P(0)|, N; not negative.
+    pub(super) change: f64,
+}
+
+impl Arc {
+    /// The traction where the belt leaves, N.
+    pub(super) fn exit(&self) -> f64 {
+        self.entry + self.sense * self.change
+    }
+
+    /// The load |ln(P(L)/P(0))|. The arc carries less than a L.
+    pub(super) fn load(&self) -> f64 {
+        (self.change / self.entry.min(self.exit())).ln_1p()
+    }
+
+    /// The largest load, a L: the belt then slips on the whole arc.
+    pub(super) fn capacity(&self) -> f64 {
+        self.slip_rate * self.length
+    }
+
+    /// Friction per coordinate σ at its limit, a P ds/dσ, N/m.
+    pub(super) fn friction_limit(&self, traction: f64) -> f64 {
+        self.slip_rate * traction * self.belt.stretch(traction)
+    }
+}
+
+/// The belt at a place on a pulley. Tensions grow along the driven pulley and fall along the driver; the
+/// displacement and the friction force are magnitudes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    /// Arc length from the entry, m.
+    pub(super) arc_length: f64,
+    /// Traction P, N.
+    pub(super) traction: f64,
+    /// Displacement |u| against the rim, m.
+    pub(super) displacement: f64,
+    /// Friction force per arc length by the friction law, N/m; that of the balance of forces is
+    /// |dP/ds|.
+    pub(super) friction: f64,
+}
+
+/// A flat belt on one pulley: the solution.
+#[derive(Clone, Debug)]
+pub(super) struct Contact {
+    /// What was given.
+    pub(super) arc: Arc,
+    /// Strain |u′(0)| of the belt against the rim where it enters.
+    pub(super) strain: f64,
+    /// The zones, in the order in which the belt passes them.
+    pub(super) zones: Vec<ContactZone>,
+    /// Evaluations of scalar equations that it took.
+    pub(super) evaluations: usize,
+}
+
+/// A part of the arc with friction of one kind.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ContactZone {
+    /// The belt where the zone begins.
+    pub(super) start: Place,
+    /// Where it ends, as arc length, m.
+    pub(super) end: f64,
+    /// What happens in between.
+    pub(super) friction: Friction,
+}
+
+/// Friction in a zone.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Friction {
+    /// No displacement, no friction.
+    Adhesion,
+    /// Elastic friction `k_f` |u| per coordinate: |u|″ = w² |u| with w² = `k_f`/D.
+    Elastic {
+        /// Friction stiffness `k_f`, N/m².
+        stiffness: f64,
+        /// Its rate w, 1/m.
+        rate: f64,
+        /// Length of the zone in the coordinate σ, m.
+        length: f64,
+        /// Displacement |u| at its end, m.
+        end: f64,
+    },
+    /// Friction at its limit: P = P₀ exp(± a (s − s₀)).
+    Slip,
+    /// Friction a P y/`v_s` with the slip velocity y below `v_s`.
+    Creep {
+        /// Logarithm of the slip velocity at the entry in m/s.
+        logarithm: f64,
+        /// Speed c of the unstretched belt, m/s.
+        speed: f64,
+        /// Slip velocity `v_s` of full friction, m/s.
+        saturation: f64,
+    },
+}
+
+impl Friction {
+    /// The kind of zone.
+    pub(super) fn kind(&self) -> ZoneKind {
+        match self {
+            Self::Adhesion => ZoneKind::Adhesion,
+            Self::Elastic { .. } => ZoneKind::Elastic,
+            Self::Slip => ZoneKind::Slip,
+            Self::Creep { .. } => ZoneKind::Creep,
+        }
+    }
+}
+
+impl Contact {
+    /// Traction `P_o` at which the belt would run as fast as the rim, N.
+    pub(super) fn reference(&self) -> f64 {
+        self.arc.entry - self.arc.sense * self.arc.belt.stiffness * self.strain
+    }
+
+    /// The belt at a share of a zone, from 0 where it begins to 1 where it ends. Shares are those of
+    /// the coordinate σ in an elastic zone, of arc length elsewhere.
+    pub(super) fn at(&self, zone: &ContactZone, share: f64) -> Place {
+        let Arc {
+            belt,
+            sense,
+            slip_rate,
+            ..
+        } = self.arc;
+        let start = zone.start;
+        let arc_length = start.arc_length + share * (zone.end - start.arc_length);
+        match zone.friction {
+            Friction::Adhesion => Place {
+                arc_length,
+                ..start
+            },
+            Friction::Elastic {
+                stiffness,
+                rate,
+                length,
+                end,
+            } => {
+                let x = share * length;
+                let (ends, begin) = ([start.displacement, end], start.displacement);
+                let [displacement, slope] = elastic(rate, length, ends, x);
+                let [_, first_slope] = elastic(rate, length, ends, 0.0);
+                let stiff = sense * belt.stiffness;
+                let traction = start.traction + stiff * (slope - first_slope);
+                let stretched = belt.stretch(self.reference()) * x
+                    + belt.stretch_slope() * stiff * (displacement - begin);
+                Place {
+                    arc_length: start.arc_length + stretched,
+                    traction,
+                    displacement,
+                    friction: stiffness * displacement / belt.stretch(traction),
+                }
+            }
+            Friction::Slip => self.slipped(&start, arc_length - start.arc_length),
+            Friction::Creep {
+                logarithm,
+                speed,
+                saturation,
+            } => {
+                let creep = Creep::with_logarithm(&self.arc, speed, saturation, logarithm);
+                let velocity = creep.velocity(arc_length);
+                let gained = belt.stiffness / speed * (velocity - creep.entry);
+                let traction = self.arc.entry + sense * gained;
+                let displacement =
+                    saturation / (slip_rate * speed) * (traction / self.arc.entry).ln().abs();
+                Place {
+                    arc_length,
+                    traction,
+                    displacement,
+                    friction: slip_rate * traction * velocity / saturation,
+                }
+            }
+        }
+    }
+
+    /// The belt after it has slipped over an arc length `y` from a place:
+    ///
+    /// ```text
+    /// P = P₀ exp(± a y)     |u| = |u₀| + ∫ |P − P_o|/D dσ     dσ = dP/(± a P (α + β P))
+    /// ```
+    pub(super) fn slipped(&self, from: &Place, y: f64) -> Place {
+        let Arc {
+            belt,
+            sense,
+            slip_rate,
+            ..
+        } = self.arc;
+        let traction = from.traction * (sense * slip_rate * y).exp();
+        let [alpha, beta] = [belt.stretch_offset(), belt.stretch_slope()];
+        let [first, last] = [from.traction, traction].map(|traction| belt.stretch(traction));
+        // σ and the integral of P over it.
+        let coordinate = (y - sense / slip_rate * (last / first).ln()) / alpha;
+        let relative = beta * (traction - from.traction) / first;
+        let logarithm = if relative == 0.0 {
+            1.0
+        } else {
+            relative.ln_1p() / relative
+        };
+        let integral = sense * (traction - from.traction) / (slip_rate * first) * logarithm;
+        let slid = sense * (integral - self.reference() * coordinate) / belt.stiffness;
+        Place {
+            arc_length: from.arc_length + y,
+            traction,
+            displacement: from.displacement + slid,
+            friction: slip_rate * traction,
+        }
+    }
+
+    /// The end of a zone.
+    pub(super) fn end(&self, zone: &ContactZone) -> Place {
+        self.at(zone, 1.0)
+    }
+}
+
+/// Value and slope at x of the function with b″ = w² b and given values at 0 and `length`, without
+/// overflow:
+///
+/// ```text
+/// b = [b₀ sinh w(l − x) + b₁ sinh w x]/sinh w l
+/// ```
+pub(super) fn elastic(rate: f64, length: f64, [first, last]: [f64; 2], x: f64) -> [f64; 2] {
+    // sinh(p)/sinh(q) and cosh(p)/sinh(q) for 0 ≤ p ≤ q.
+    let ratios = |p: f64, q: f64| {
+        let factor = (p - q).exp() / -(-2.0 * q).exp_m1();
+        let decayed = (-2.0 * p).exp_m1();
+        [-factor * decayed, factor * (2.0 + decayed)]
+    };
+    let whole = rate * length;
+    let [rise, rise_slope] = ratios(rate * x, whole);
+    let [fall, fall_slope] = ratios(rate * (length - x), whole);
+    [
+        first * fall + last * rise,
+        rate * (last * rise_slope - first * fall_slope),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elastic_displacements_take_their_end_values_and_do_not_overflow() {
+        for rate in [1e-6, 3.0, 1e5] {
+            let ends = [0.2, 0.7];
+            let [start, _] = elastic(rate, 2.0, ends, 0.0);
+            let [end, _] = elastic(rate, 2.0, ends, 2.0);
+            assert!((start - 0.2).abs() < 1e-9 && (end - 0.7).abs() < 1e-9);
+        }
+        let [value, slope] = elastic(3.0, 2.0, [0.0, 1.0], 1.0);
+        assert!((value - 3_f64.sinh() / 6_f64.sinh()).abs() < 1e-15);
+        assert!((slope - 3.0 * 3_f64.cosh() / 6_f64.sinh()).abs() < 1e-14);
+    }
+}

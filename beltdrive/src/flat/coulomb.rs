@@ -1,0 +1,42 @@
+//! Coulomb friction: an arc of adhesion, then an arc of slip (Johnson, Contact Mechanics, 1985).
+
+use super::contact::{Arc, Contact, ContactZone, Friction, Place};
+
+/// The contact of an arc with rigid friction: the belt enters as fast as the rim, keeps its tension
+/// over the arc of adhesion, and slips over the last ln(P(L)/P(0))/a of the arc. `None` if that is not
+/// less than the whole arc.
+pub(super) fn solve(arc: Arc) -> Option<Contact> {
+    let slipping = arc.load() / arc.slip_rate;
+    if slipping >= arc.length {
+        return None;
+    }
+    let start = Place {
+        arc_length: 0.0,
+        traction: arc.entry,
+        displacement: 0.0,
+        friction: 0.0,
+    };
+    let place = arc.length - slipping;
+    let mut zones = vec![ContactZone {
+        start,
+        end: place,
+        friction: Friction::Adhesion,
+    }];
+    if slipping > 0.0 {
+        let start = Place {
+            arc_length: place,
+            ..start
+        };
+        zones.push(ContactZone {
+            start,
+            end: arc.length,
+            friction: Friction::Slip,
+        });
+    }
+    Some(Contact {
+        arc,
+        strain: 0.0,
+        zones,
+        evaluations: 0,
+    })
+}

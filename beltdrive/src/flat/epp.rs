@@ -1,0 +1,351 @@
+//! Elastic/perfectly-plastic friction f = min(`k_f` |u|, μ n) in closed form (Kim 2009, chapter 2).
+//!
+//! ```text
+//! elastic   |u| = (e/w) sinh w σ       P = P_o ± D |u|′      w = sqrt(k_f/D), e = |u|′(0)
+//! slip      P = P₁ exp(± a (s − s₁))
+//! ```
+//!
+//! with the upper sign on the driven pulley. Where slip begins, at σ₁, friction is at its limit,
+//! `k_f` |u₁| = a P₁ (α + β P₁), and P₁ follows from σ₁ by a quadratic equation,
+//!
+//! ```text
+//! P₁ = P(0) ± (a/w) tanh(w σ₁/2) P₁ (α + β P₁)
+//! ```
+//!
+//! so that the load is an explicit function of σ₁, which is the unknown: the strain
+//! e = w |u₁|/sinh(w σ₁) would be one only as long as it is no smaller than 1e-308.
+//!
+//! Where the bristles are so soft that a > w, the limit of friction rises along the driven pulley
+//! faster than elastic friction can follow: the belt that slips sticks again, and there is a third,
+//! elastic zone. The first zone then ends before the elastic friction touches its limit from below.
+
+use super::contact::{Arc, Contact, ContactZone, Friction, Place, elastic};
+use super::root::bracketed;
+use std::cell::Cell;
+
+/// A stiffness in place of 0: it is so soft that the displacement is a parabola.
+const SOFT: f64 = 1e-9;
+
+/// The contact of an arc with friction of stiffness `k_f`, N/m²; `None` if the load is not below the
+/// capacity of the arc.
+pub(super) fn solve(arc: Arc, stiffness: f64) -> Option<Contact> {
+    let bristles = Bristles::new(arc, stiffness);
+    let load = arc.load();
+    if load >= arc.capacity() {
+        return None;
+    }
+    let last = bristles.last_transition()?;
+    let excess = bristles.load(last)? - load;
+    if excess >= 0.0 {
+        return bristles.all_elastic();
+    }
+    let residual = |place| bristles.load(place).map_or(f64::NAN, |found| found - load);
+    let ends = [arc.capacity() - load, excess];
+    let place = bracketed(residual, [0.0, last], ends)?;
+    bristles.slipping(place)
+}
+
+/// The stiffness below which friction is elastic over the whole arc, N/m², if there is one at this load.
+pub(super) fn smallest_stiffness(arc: Arc) -> Option<f64> {
+    let load = arc.load();
+    let excess = |logarithm: f64| {
+        let bristles = Bristles::new(arc, logarithm.exp());
+        let carried = bristles
+            .last_transition()
+            .and_then(|last| bristles.load(last));
+        carried.map_or(f64::NAN, |carried| carried - load)
+    };
+    let unit = arc.belt.stiffness / (arc.length * arc.length);
+    let softest = (SOFT * unit).ln();
+    // With stiff bristles an elastic arc carries a load of a/w.
+    let stiffest = (arc.belt.stiffness * (4.0 * arc.slip_rate / load).powi(2)).ln();
+    let ends = [softest, stiffest.max(softest + 1.0)];
+    let root = bracketed(excess, ends, ends.map(excess))?;
+    Some(root.exp())
+}
+
+/// An arc with elastic friction.
+struct Bristles {
+    arc: Arc,
+    stiffness: f64,
+    /// Rate w, 1/m.
+    rate: f64,
+    evaluations: Cell<usize>,
+}
+
+/// The belt where it begins to slip.
+#[derive(Clone, Copy)]
+struct Transition {
+    /// Coordinate σ₁, m.
+    coordinate: f64,
+    /// The belt there.
+    place: Place,
+    /// Strain e at the entry.
+    strain: f64,
+}
+
+impl Bristles {
+    fn new(arc: Arc, stiffness: f64) -> Self {
+        let rate = (stiffness / arc.belt.stiffness).sqrt();
+        Self {
+            arc,
+            stiffness,
+            rate,
+            evaluations: Cell::new(0),
+        }
+    }
+
+    /// The belt that begins to slip at the coordinate σ₁; `None` if friction does not reach its limit
+    /// there at any load.
+    fn transition(&self, coordinate: f64) -> Option<Transition> {
+        self.evaluations.set(self.evaluations.get() + 1);
+        let Arc { belt, sense, .. } = self.arc;
+        let reach = sense * self.arc.slip_rate / self.rate * (0.5 * self.rate * coordinate).tanh();
+        let square = reach * belt.stretch_slope();
+        let linear = 1.0 - reach * belt.stretch_offset();
+        let root = (linear * linear - 4.0 * square * self.arc.entry).sqrt();
+        let traction = 2.0 * self.arc.entry / (linear + root);
+        // Not a number included.
+        if !(traction > 0.0 && traction.is_finite()) {
+            return None;
+        }
+        let displacement = self.arc.friction_limit(traction) / self.stiffness;
+        let [_, strain] = match coordinate {
+            0.0 => [0.0, f64::INFINITY],
+            _ => elastic(self.rate, coordinate, [0.0, displacement], 0.0),
+        };
+        let stretched = match coordinate {
+            0.0 => 0.0,
+            _ => self.arc_length(coordinate, strain, displacement),
+        };
+        Some(Transition {
+            coordinate,
+            place: Place {
+                arc_length: stretched,
+                traction,
+                displacement,
+                friction: self.arc.slip_rate * traction,
+            },
+            strain,
+        })
+    }
+
+    /// Arc length s at σ from the entry, where the displacement is |u|: with the stretch α + β `P_o` at
+    /// the entry less the strain e, s = (α + β `P_o`) σ ± β D |u|.
+    fn arc_length(&self, coordinate: f64, strain: f64, displacement: f64) -> f64 {
+        let Arc { belt, sense, .. } = self.arc;
+        let slope = sense * belt.stretch_slope() * belt.stiffness;
+        belt.stretch(self.arc.entry) * coordinate - slope * (strain * coordinate - displacement)
+    }
+
+    /// The last coordinate at which slip can begin: where the arc ends, or where elastic friction only
+    /// touches its limit.
+    fn last_transition(&self) -> Option<f64> {
+        let Arc { belt, sense, .. } = self.arc;
+        let entered = self.arc.length / belt.stretch(self.arc.entry);
+        // The belt contracts on the driver, at most to P = 0.
+        let longest = match sense > 0.0 {
+            true => entered,
+            false => self.arc.length / belt.stretch_offset(),
+        };
+        // Slope of elastic friction less that of its limit, over k_f |u₁|.
+        let gap = |coordinate: f64| {
+            self.transition(coordinate).map_or(-1.0, |transition| {
+                let steepening = belt.stretch_slope() * transition.place.traction;
+                let limit =
+                    self.arc.slip_rate * (belt.stretch(transition.place.traction) + steepening);
+                self.rate / (self.rate * coordinate).tanh() - sense * limit
+            })
+        };
+        let at_end = gap(longest);
+        let last = match at_end < 0.0 {
+            true => {
+                let early = f64::EPSILON * longest;
+                bracketed(gap, [early, longest], [gap(early), at_end])?
+            }
+            false => longest,
+        };
+        let beyond = |coordinate: f64| {
+            let transition = self.transition(coordinate);
+            transition.map_or(f64::NAN, |found| found.place.arc_length - self.arc.length)
+        };
+        let excess = beyond(last);
+        // Rounding of a belt that does not stretch is no excess.
+        match excess > 4.0 * f64::EPSILON * self.arc.length {
+            true => bracketed(beyond, [0.0, last], [-self.arc.length, excess]),
+            false => Some(last),
+        }
+    }
+
+    /// The load |ln(P(L)/P(0))| if slip begins at σ₁.
+    fn load(&self, coordinate: f64) -> Option<f64> {
+        let transition = self.transition(coordinate)?;
+        let Arc { sense, entry, .. } = self.arc;
+        let gained = |traction: f64| (sense * ((traction - entry) / entry).ln_1p()).max(0.0);
+        let first = gained(transition.place.traction);
+        match self.stick(&transition) {
+            Some((_, zone)) => {
+                let contact = self.contact(&transition);
+                Some(gained(contact.end(&zone).traction))
+            }
+            None => {
+                let slipping = self.arc.length - transition.place.arc_length;
+                Some(first + self.arc.slip_rate * slipping)
+            }
+        }
+    }
+
+    /// Where the slipping belt sticks again, and the elastic zone from there.
+    fn stick(&self, transition: &Transition) -> Option<(Place, ContactZone)> {
+        let Arc {
+            belt,
+            sense,
+            slip_rate,
+            ..
+        } = self.arc;
+        if sense < 0.0 || !transition.strain.is_finite() {
+            return None;
+        }
+        let contact = self.contact(transition);
+        let from = transition.place;
+        let slipping = self.arc.length - from.arc_length;
+        let reference = contact.reference();
+        // Elastic friction over its limit, and the slope of that along the coordinate.
+        let over = |place: &Place| {
+            self.stiffness * place.displacement - self.arc.friction_limit(place.traction)
+        };
+        let slope = |place: &Place| {
+            let steepening = belt.stretch_slope() * place.traction;
+            let limit = slip_rate
+                * self.arc.friction_limit(place.traction)
+                * (belt.stretch(place.traction) + steepening);
+            self.stiffness * (place.traction - reference) / belt.stiffness - limit
+        };
+        let end = contact.slipped(&from, slipping);
+        if over(&end) >= 0.0 {
+            return None;
+        }
+        let slope_after = |y: f64| slope(&contact.slipped(&from, y));
+        let highest = match slope_after(0.0) > 0.0 {
+            true => bracketed(
+                slope_after,
+                [0.0, slipping],
+                [slope_after(0.0), slope(&end)],
+            )?,
+            false => 0.0,
+        };
+        let over_after = |y: f64| over(&contact.slipped(&from, y));
+        let at_highest = over_after(highest);
+        let stuck = match at_highest > 0.0 {
+            true => bracketed(over_after, [highest, slipping], [at_highest, over(&end)])?,
+            false => highest,
+        };
+        let place = contact.slipped(&from, stuck);
+        Some((place, self.elastic_after(&contact, place)?))
+    }
+
+    /// The elastic zone from a place, where the belt sticks again, to the end of the arc.
+    fn elastic_after(&self, contact: &Contact, start: Place) -> Option<ContactZone> {
+        let Arc { belt, sense, .. } = self.arc;
+        let reference = contact.reference();
+        let slope = (start.traction - reference).abs() / belt.stiffness;
+        let displacement = |x: f64| {
+            let (sinh, cosh) = ((self.rate * x).sinh(), (self.rate * x).cosh());
+            start.displacement * cosh + slope / self.rate * sinh
+        };
+        let stretch = belt.stretch(reference);
+        let stretching = sense * belt.stretch_slope() * belt.stiffness;
+        let rest = self.arc.length - start.arc_length;
+        let beyond =
+            |x: f64| stretch * x + stretching * (displacement(x) - start.displacement) - rest;
+        let longest = rest / belt.stretch(start.traction);
+        let length = match belt.stretch_slope() == 0.0 {
+            true => rest,
+            false => bracketed(beyond, [0.0, longest], [-rest, beyond(longest)])?,
+        };
+        Some(ContactZone {
+            start,
+            end: self.arc.length,
+            friction: self.elastic(length, displacement(length)),
+        })
+    }
+
+    /// An elastic zone.
+    fn elastic(&self, length: f64, end: f64) -> Friction {
+        Friction::Elastic {
+            stiffness: self.stiffness,
+            rate: self.rate,
+            length,
+            end,
+        }
+    }
+
+    /// The contact with its first zone, elastic, up to where slip begins.
+    fn contact(&self, transition: &Transition) -> Contact {
+        Contact {
+            arc: self.arc,
+            strain: transition.strain,
+            zones: vec![ContactZone {
+                start: self.entrance(),
+                end: transition.place.arc_length,
+                friction: self.elastic(transition.coordinate, transition.place.displacement),
+            }],
+            evaluations: self.evaluations.get(),
+        }
+    }
+
+    /// The contact in which slip begins at σ₁.
+    fn slipping(&self, coordinate: f64) -> Option<Contact> {
+        let transition = self.transition(coordinate)?;
+        let mut contact = self.contact(&transition);
+        let stick = self.stick(&transition);
+        contact.zones.push(ContactZone {
+            start: transition.place,
+            end: stick.map_or(self.arc.length, |(place, _)| place.arc_length),
+            friction: Friction::Slip,
+        });
+        contact.zones.extend(stick.map(|(_, zone)| zone));
+        Some(contact)
+    }
+
+    /// The contact without slip. With the load ΔP, |u(L)| = ΔP/(D w tanh(w σ(L)/2)).
+    fn all_elastic(&self) -> Option<Contact> {
+        let Arc { belt, change, .. } = self.arc;
+        let end = |x: f64| change / (belt.stiffness * self.rate * (0.5 * self.rate * x).tanh());
+        let strain = |x: f64| elastic(self.rate, x, [0.0, end(x)], 0.0)[1];
+        let beyond = |x: f64| self.arc_length(x, strain(x), end(x)) - self.arc.length;
+        let length = match belt.stretch_slope() == 0.0 {
+            true => self.arc.length,
+            false => {
+                let [one, other] = [self.arc.entry, self.arc.exit()]
+                    .map(|traction| self.arc.length / belt.stretch(traction));
+                // A load of rounding errors leaves no room between the two.
+                let ends = [
+                    one.min(other) * (1.0 - 1e-12),
+                    one.max(other) * (1.0 + 1e-12),
+                ];
+                bracketed(beyond, ends, ends.map(beyond))?
+            }
+        };
+        Some(Contact {
+            arc: self.arc,
+            strain: strain(length),
+            zones: vec![ContactZone {
+                start: self.entrance(),
+                end: self.arc.length,
+                friction: self.elastic(length, end(length)),
+            }],
+            evaluations: self.evaluations.get(),
+        })
+    }
+
+    /// The belt where it enters the pulley.
+    fn entrance(&self) -> Place {
+        Place {
+            arc_length: 0.0,
+            traction: self.arc.entry,
+            displacement: 0.0,
+            friction: 0.0,
+        }
+    }
+}
