@@ -79,7 +79,7 @@ fn branch(criterion: &mut Criterion) {
     group.sample_size(10);
     for (law, from) in BRANCHES {
         let drive = drive(law, 700.0);
-        let key = Key::tight_tension(&drive);
+        let key = Key::load(&drive);
         group.bench_function(BenchmarkId::new(law, format!("from {from} N")), |b| {
             b.iter(|| {
                 let range = [from, BEYOND];
@@ -100,7 +100,7 @@ fn both_limits(criterion: &mut Criterion) {
     group.sample_size(10);
     for (law, _) in BRANCHES {
         let drive = drive(law, 700.0);
-        let key = Key::tight_tension(&drive);
+        let key = Key::load(&drive);
         group.bench_function(BenchmarkId::new(law, "tight tension"), |b| {
             b.iter(|| {
                 let limits = limits(black_box(&drive), &key, &OPTIONS, &mut |_, _| {});

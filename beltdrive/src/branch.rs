@@ -2,8 +2,8 @@
 
 use crate::input::Key;
 use crate::{
-    BeltKind, Drive, Pulley, SolveError, SolveOptions, StateErrors, StateSummary, ZoneKind, flat,
-    solve, vbelt,
+    BeltKind, Drive, LimitReason, Pulley, SolveError, SolveOptions, StateErrors, StateSummary,
+    ZoneKind, flat, solve, vbelt,
 };
 use std::fmt;
 
@@ -95,6 +95,8 @@ pub enum BranchEnd {
     GrossSlip(Pulley),
     /// Both spans have the same tension: the drive transmits no torque.
     NoLoad,
+    /// The belt is too slack for its speed and lifts off the pulleys.
+    LiftsOff,
     /// The branch has closed on itself.
     Closed,
     /// The next state was not found. The last point is the last good one.
@@ -116,6 +118,7 @@ impl fmt::Display for BranchEnd {
             Self::NoLoad => {
                 f.write_str("the spans have the same tension: the drive transmits no torque")
             }
+            Self::LiftsOff => LimitReason::LiftsOff.fmt(f),
             Self::Closed => f.write_str("the branch closed on itself"),
             Self::NotConverged { cause } => write!(f, "the next state was not found: {cause}"),
         }

@@ -113,7 +113,7 @@ pub enum FrictionLaw {
         /// Bristle stiffness κ, 1/m; the micro-slip length is μ/κ.
         stiffness: f64,
     },
-    /// Friction grows with the slip velocity v up to its Coulomb value, μ n min(|v|/v_s, 1); flat belts
+    /// Friction grows with the slip velocity v up to its Coulomb value, `μ n min(|v|/v_s, 1)`; flat belts
     /// only (Leamy and Wasfy, 2002).
     CreepRate {
         /// Slip velocity `v_s` at which friction is fully developed, m/s.

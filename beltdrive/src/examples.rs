@@ -12,7 +12,7 @@ pub struct Example {
 }
 
 /// Every shipped drive file.
-pub const EXAMPLES: [Example; 4] = [
+pub const EXAMPLES: [Example; 6] = [
     Example {
         name: "kim2009",
         text: include_str!("../examples/kim2009.toml"),
@@ -28,6 +28,14 @@ pub const EXAMPLES: [Example; 4] = [
     Example {
         name: "cvt-variator",
         text: include_str!("../examples/cvt-variator.toml"),
+    },
+    Example {
+        name: "kim2009-flat",
+        text: include_str!("../examples/kim2009-flat.toml"),
+    },
+    Example {
+        name: "flat-unequal",
+        text: include_str!("../examples/flat-unequal.toml"),
     },
 ];
 
@@ -83,6 +91,7 @@ fn hint(nearest: Option<&str>) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{BeltKind, NormalForce};
 
     #[test]
     fn every_example_is_a_drive_with_title_and_summary() {
@@ -95,11 +104,39 @@ mod tests {
     }
 
     #[test]
-    fn every_law_can_be_selected_in_the_thesis_drive() {
-        let text = find("kim2009").unwrap().text;
+    fn every_law_and_model_of_the_belt_can_be_selected() {
+        let name = |example: &str, entry: &str, word: &str| {
+            let text = find(example).unwrap().text;
+            let drive = input::parse(example, text, &[format!("{entry}={word}")]).unwrap();
+            match drive.belt.kind {
+                BeltKind::Flat { normal_force } if entry == "model.normal_force" => {
+                    normal_force.name()
+                }
+                _ => drive.law.name(),
+            }
+        };
         for law in ["coulomb", "epp", "bristle"] {
-            let drive = input::parse("kim2009", text, &[format!("friction.law={law}")]).unwrap();
-            assert_eq!(drive.law.name(), law);
+            assert_eq!(name("kim2009", "friction.law", law), law);
+            assert_eq!(name("cvt-variator", "friction.law", law), law);
+        }
+        for example in ["kim2009-flat", "flat-unequal"] {
+            for law in ["coulomb", "epp", "creep-rate"] {
+                assert_eq!(name(example, "friction.law", law), law);
+            }
+            for model in NormalForce::ALL.map(NormalForce::name) {
+                assert_eq!(name(example, "model.normal_force", model), model);
+            }
+        }
+    }
+
+    #[test]
+    fn the_drive_of_a_v_belt_can_be_given_a_flat_belt() {
+        for example in EXAMPLES {
+            let overrides = ["belt.type=flat", "friction.law=epp"].map(str::to_owned);
+            let drive = input::parse(example.name, example.text, &overrides);
+            let kind = drive.unwrap_or_else(|error| panic!("{error}")).belt.kind;
+            let normal_force = NormalForce::default();
+            assert_eq!(kind, BeltKind::Flat { normal_force });
         }
     }
 

@@ -49,7 +49,7 @@
 //! let example = examples::find("kim2009").expect("a shipped example");
 //! let friction = ["friction.coefficient = 0.3".to_owned()];
 //! let drive = input::parse(example.name, example.text, &friction)?;
-//! let load = Key::tight_tension(&drive);
+//! let load = Key::load(&drive);
 //! let range = [1500.0, 3000.0];
 //! let branch = trace(&drive, &load, range, &SolveOptions::default(), &mut |_, _| {})?;
 //!

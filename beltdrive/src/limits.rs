@@ -90,6 +90,8 @@ pub enum LimitReason {
     /// Friction is exhausted over the whole arc of contact of the pulley of a flat belt: the ratio of
     /// the tensions has reached its capstan limit.
     Capstan(Pulley),
+    /// The belt is too slack for its speed and lifts off the pulleys (flat belts).
+    LiftsOff,
     /// The belt overhangs at the exit of the driver: a limit point beyond 90° of inclination.
     Overhang,
 }
@@ -112,6 +114,7 @@ impl fmt::Display for LimitReason {
             Self::DriverSlips => "the driver slips grossly",
             Self::Capstan(Pulley::Driven) => "the belt slips grossly on the driven pulley",
             Self::Capstan(Pulley::Driver) => "the belt slips grossly on the driver",
+            Self::LiftsOff => "the belt is too slack for its speed and lifts off the pulleys",
             Self::Overhang => "the belt overhangs at the exit of the driver",
         })
     }

@@ -73,6 +73,17 @@ pub enum SolveError {
         /// Momentum flow G V there, N.
         centrifugal: f64,
     },
+    /// The tight tension is below the slack one, which is seen once the belt speed is known.
+    #[error(
+        "the tight tension {} N is below the slack tension {} N", six_digits(*.tight),
+        six_digits(*.slack)
+    )]
+    Backwards {
+        /// Belt tension of the slack span, N.
+        slack: f64,
+        /// Belt tension of the tight span, N.
+        tight: f64,
+    },
     /// There is no model of such a drive.
     #[error("{0}")]
     NotModelled(&'static str),

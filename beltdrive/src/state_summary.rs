@@ -1,6 +1,6 @@
 //! The scalars of a steady state, which tables of many states show, and their errors.
 
-use crate::{Entry, PulleyState, SteadyState, Zone};
+use crate::{Drive, Entry, PulleyState, SteadyState, Zone};
 
 /// A steady state without its profiles. SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,6 +79,32 @@ pub struct PulleyErrors {
     pub max_penetration: f64,
     /// Of the inclinations at entry and exit, rad.
     pub inclination: [f64; 2],
+}
+
+impl StateErrors {
+    /// The errors of a state of a drive with a relative error.
+    pub(crate) fn relative(state: &StateSummary, drive: &Drive, relative: f64) -> Self {
+        let pulley = |pulley: &PulleySummary, radius: f64| PulleyErrors {
+            angular_speed: relative * state.driver.angular_speed,
+            // A torque is a difference of tensions.
+            torque: relative * state.tight_tension * radius,
+            wrap_angle: relative * pulley.wrap_angle,
+            max_penetration: relative * pulley.max_penetration,
+            inclination: [relative * steepest(state); 2],
+        };
+        Self {
+            efficiency: relative,
+            driver: pulley(&state.driver, drive.driver_radius),
+            driven: pulley(&state.driven, drive.driven_radius),
+        }
+    }
+}
+
+/// The largest inclination at the ends of both pulleys.
+fn steepest(state: &StateSummary) -> f64 {
+    let ends = [state.driver.inclination, state.driven.inclination].concat();
+    ends.into_iter()
+        .fold(0.0, |m: f64, theta| m.max(theta.abs()))
 }
 
 impl PulleySummary {

@@ -2,8 +2,8 @@
 
 use beltdrive::input::Key;
 use beltdrive::{
-    Branch, BranchEnd, BranchEvent, Drive, EventKind, FrictionLaw, LimitReason, Pulley, RangeEnd,
-    SolveError, SolveOptions, SpanTension, examples, input, limits, solve, trace,
+    BeltKind, Branch, BranchEnd, BranchEvent, Drive, EventKind, FrictionLaw, LimitReason, Pulley,
+    RangeEnd, SolveError, SolveOptions, SpanTension, examples, input, limits, solve, trace,
 };
 
 const BRISTLE: FrictionLaw = FrictionLaw::Bristle { stiffness: 1620.0 };
@@ -217,14 +217,16 @@ fn other_entries_are_traced_too() {
     close(branch.points.last().unwrap().value, 0.189_901_28, 1e-7);
     let branch = traced(&drive, "belt.radial_stiffness", [900e3, 300e3]);
     assert_eq!(branch.end, BranchEnd::Target);
-    let branch = traced(&drive, "groove.half_angle", [drive.half_angle, 0.28]);
+    let branch = traced(&drive, "groove.half_angle", [18_f64.to_radians(), 0.28]);
     assert_eq!(branch.points.last().unwrap().value, 0.28);
 }
 
 #[test]
 fn a_belt_that_sinks_beyond_its_height_is_an_event() {
     let mut drive = kim(BRISTLE);
-    drive.belt.height = Some(0.01);
+    if let BeltKind::V(belt) = &mut drive.belt.kind {
+        belt.height = Some(0.01);
+    }
     let branch = traced(&drive, TIGHT, [700.0, 3000.0]);
     let sunk = event(&branch, EventKind::BeltHeight(Pulley::Driven));
     close(sunk.point.state.driven.max_penetration, 0.01, 1e-3);

@@ -43,15 +43,15 @@ fn unreadable_toml() {
 
 #[test]
 fn unknown_tables_and_keys() {
-    assert_snapshot!(error("[groove]", "[grove]"), @r#"
+    assert_snapshot!(error("[groove]", "[grove]"), @r"
     error: unknown table `grove`
       --> drive.toml:9:2
       |
     9 | [grove]
       |  ^^^^^
-    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `layout`, `load`
+    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `layout`, `load`, `model`
     help: did you mean `groove`?
-    "#);
+    ");
     assert_snapshot!(error("[pulleys.driver]", "[pulleys.drive]"), @r#"
     error: unknown table `drive` in [pulleys]
        --> drive.toml:17:10
@@ -177,24 +177,8 @@ fn words() {
        |
     13 | law = "colomb"
        |       ^^^^^^^^
-    expected: one of `coulomb`, `epp`, `bristle`
+    expected: one of `coulomb`, `epp`, `bristle`, `creep-rate`
     help: did you mean `coulomb`?
-    "#);
-    assert_snapshot!(error(r#""v""#, r#""flat""#), @r#"
-    error: flat belts are not supported yet: this version solves V-belts only
-      --> drive.toml:4:8
-      |
-    4 | type = "flat"
-      |        ^^^^^^
-    expected: `v`
-    "#);
-    assert_snapshot!(error(r#""coulomb""#, r#""creep-rate""#), @r#"
-    error: creep-rate is a law for flat belts: this version solves V-belts only
-       --> drive.toml:13:7
-       |
-    13 | law = "creep-rate"
-       |       ^^^^^^^^^^^^
-    expected: one of `coulomb`, `epp`, `bristle`
     "#);
     assert_snapshot!(error(r#""v""#, r#""toothed""#), @r#"
     error: unknown belt type `toothed`
@@ -202,7 +186,7 @@ fn words() {
       |
     4 | type = "toothed"
       |        ^^^^^^^^^
-    expected: `v`
+    expected: one of `v`, `flat`
     "#);
 }
 
@@ -216,14 +200,23 @@ fn refused_entries() {
        | ^^^^^
     expected: `radius`
     "#);
-    assert_snapshot!(override_error(&["load.torque=45 N*m"]), @r#"
-    error: `load.torque` is not supported yet: give one slack and one tight tension
+    assert_snapshot!(override_error(&["load.setup_tension=400 N"]), @r"
+    error: `load.setup_tension` is not supported yet: give one slack and one tight tension
+      --> command line:1:12
+      |
+    1 | --set load.setup_tension=400 N
+      |            ^^^^^^^^^^^^^
+    expected: one of `slack_tractive_tension`, `slack_tension`, `tight_tractive_tension`, `tight_tension`, `driven_torque`
+    ");
+    assert_snapshot!(override_error(&["load.torque=45 N*m"]), @r"
+    error: `load.torque` does not say of which pulley it is
       --> command line:1:12
       |
     1 | --set load.torque=45 N*m
       |            ^^^^^^
-    expected: one of `slack_tractive_tension`, `slack_tension`, `tight_tractive_tension`, `tight_tension`
-    "#);
+    expected: one of `slack_tractive_tension`, `slack_tension`, `tight_tractive_tension`, `tight_tension`, `driven_torque`
+    help: did you mean `driven_torque`?
+    ");
 }
 
 #[test]
@@ -237,24 +230,24 @@ fn overrides() {
     expected: one of `law`, `coefficient`, `stiffness`, `bristle_stiffness`, `velocity`
     help: did you mean `law`?
     "#);
-    assert_snapshot!(override_error(&["groove.half_angle=17 deg", "frction.law = epp"]), @r#"
+    assert_snapshot!(override_error(&["groove.half_angle=17 deg", "frction.law = epp"]), @r"
     error: unknown table `frction`
       --> command line:2:7
       |
     2 | --set frction.law = epp
       |       ^^^^^^^
-    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `layout`, `load`
+    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `layout`, `load`, `model`
     help: did you mean `friction`?
-    "#);
-    assert_snapshot!(override_error(&["law=epp"]), @r#"
+    ");
+    assert_snapshot!(override_error(&["law=epp"]), @r"
     error: unknown key `law`
       --> command line:1:7
       |
     1 | --set law=epp
       |       ^^^
-    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `layout`, `load`
+    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `layout`, `load`, `model`
     help: did you mean `friction.law`?
-    "#);
+    ");
     assert_snapshot!(override_error(&["friction.law"]), @r#"
     error: the override `friction.law` has no value
       --> command line:1:7
@@ -279,6 +272,31 @@ fn overrides() {
       |                               ^^^^
     expected: a pure number, e.g. 0.4
     "#);
+    assert_snapshot!(override_error(&["groove.half_angle="]), @r#"
+    error: missing key `half_angle` in [groove]
+      --> drive.toml:9:2
+      |
+    9 | [groove]
+      |  ^^^^^^
+    expected: half_angle = "18 deg"
+    "#);
+    assert_snapshot!(override_error(&["belt="]), @r"
+    error: `belt` must be a table, got a text
+      --> command line:1:12
+      |
+    1 | --set belt=
+      |            ^
+    expected: [belt]
+    ");
+    assert_snapshot!(override_error(&["load.tigt_tension="]), @r"
+    error: unknown key `tigt_tension` in [load]
+      --> command line:1:12
+      |
+    1 | --set load.tigt_tension=
+      |            ^^^^^^^^^^^^
+    expected: one of `slack_tractive_tension`, `slack_tension`, `tight_tractive_tension`, `tight_tension`, `driven_torque`
+    help: did you mean `tight_tension`?
+    ");
     assert_snapshot!(override_error(&["belt=3"]), @r#"
     error: `belt` must be a table, got a text
       --> command line:1:12
@@ -293,7 +311,7 @@ fn overrides() {
       |
     1 | --set friction.law="ep"
       |                    ^^^^
-    expected: one of `coulomb`, `epp`, `bristle`
+    expected: one of `coulomb`, `epp`, `bristle`, `creep-rate`
     help: did you mean `epp`?
     "#);
 }

@@ -2,7 +2,7 @@
 
 mod support;
 
-use beltdrive::SpanTension;
+use beltdrive::{BeltKind, SpanTension};
 use insta::assert_snapshot;
 use support::{error, overridden, override_error};
 
@@ -295,7 +295,10 @@ fn tensions_that_do_not_contradict() {
 
 #[test]
 fn the_height_of_the_belt_may_be_given() {
-    let height = |overrides: &[&str]| overridden(overrides).unwrap().belt.height;
+    let height = |overrides: &[&str]| match overridden(overrides).unwrap().belt.kind {
+        BeltKind::V(belt) => belt.height,
+        BeltKind::Flat { .. } => panic!("a V-belt was expected"),
+    };
     assert_eq!(height(&[]), None);
     assert_eq!(height(&["belt.height=8 mm"]), Some(0.008));
     let error = override_error(&["belt.height=0 m"]);

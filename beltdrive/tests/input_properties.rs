@@ -1,12 +1,24 @@
 //! Properties of reading: whatever the text, the answer is a drive or one diagnostic; and a quantity
 //! is the same in every unit.
 
-use beltdrive::{Drive, examples::EXAMPLES, input};
+use beltdrive::{BeltKind, Drive, VBelt, examples, input};
 use proptest::{prelude::*, sample::Index};
 use std::f64::consts::TAU;
 
 /// A right drive file.
-const DRIVE: &str = EXAMPLES[0].text;
+const DRIVE: &str = examples::EXAMPLES[0].text;
+
+/// The right drive file of a flat belt under a torque.
+fn flat_drive() -> &'static str {
+    examples::find("flat-unequal").unwrap().text
+}
+
+fn v_belt(drive: &Drive) -> VBelt {
+    match drive.belt.kind {
+        BeltKind::V(belt) => belt,
+        BeltKind::Flat { .. } => panic!("a V-belt was expected"),
+    }
+}
 
 /// A change of a text, as slips of editing make it.
 #[derive(Clone, Debug)]
@@ -123,8 +135,6 @@ fn is_sound(drive: &Drive) -> bool {
     let positive = [
         drive.belt.mass_per_length,
         drive.belt.axial_stiffness,
-        drive.belt.radial_stiffness,
-        drive.half_angle,
         drive.friction_coefficient,
         drive.driver_radius,
         drive.driver_speed,
@@ -133,8 +143,13 @@ fn is_sound(drive: &Drive) -> bool {
         drive.load.slack.value(),
         drive.load.tight.value(),
     ];
+    let of_kind = match drive.belt.kind {
+        BeltKind::V(belt) => vec![belt.radial_stiffness, belt.half_angle],
+        BeltKind::Flat { .. } => Vec::new(),
+    };
     positive
         .iter()
+        .chain(&of_kind)
         .all(|value| value.is_finite() && *value > 0.0)
 }
 
@@ -143,19 +158,22 @@ proptest! {
 
     #[test]
     fn an_edited_file_is_a_sound_drive_or_one_diagnostic(edits in prop::collection::vec(edit(), 1..6)) {
-        let text = edits.iter().fold(DRIVE.to_owned(), |text, edit| apply(&text, edit));
-        if let Some(drive) = read(&text, &[]) {
-            prop_assert!(is_sound(&drive), "{drive:?}");
+        for file in [DRIVE, flat_drive()] {
+            let text = edits.iter().fold(file.to_owned(), |text, edit| apply(&text, edit));
+            if let Some(drive) = read(&text, &[]) {
+                prop_assert!(is_sound(&drive), "{drive:?}");
+            }
         }
     }
 
     #[test]
     fn any_override_is_taken_or_refused(
-        key in "[a-z_.]{0,20}|belt|pulleys\\.driver|friction\\.(law|coefficient)|load\\.tight_tension",
+        key in "[a-z_.]{0,20}|belt|pulleys\\.driver|friction\\.(law|coefficient)|load\\.(tight_tension|driven_torque)|model\\.normal_force",
         value in value(),
         other in any::<String>(),
     ) {
         read(DRIVE, &[format!("{key}={value}")]);
+        read(flat_drive(), &[format!("{key}={value}")]);
         read(DRIVE, &[format!("{key} = '{value}'"), other]);
     }
 
@@ -175,7 +193,7 @@ proptest! {
         ];
         let drive = input::parse("drive.toml", DRIVE, &overrides).unwrap();
         prop_assert_eq!(drive.belt.axial_stiffness, force);
-        prop_assert_eq!(drive.half_angle, angle);
+        prop_assert_eq!(v_belt(&drive).half_angle, angle);
         prop_assert_eq!(drive.load.slack.value(), force);
     }
 
@@ -203,8 +221,10 @@ type Reader = fn(&Drive) -> f64;
 
 const FORCE: (&str, Reader) = ("belt.axial_stiffness", |drive| drive.belt.axial_stiffness);
 const DENSITY: (&str, Reader) = ("belt.mass_per_length", |drive| drive.belt.mass_per_length);
-const PRESSURE: (&str, Reader) = ("belt.radial_stiffness", |drive| drive.belt.radial_stiffness);
-const ANGLE: (&str, Reader) = ("groove.half_angle", |drive| drive.half_angle);
+const PRESSURE: (&str, Reader) = ("belt.radial_stiffness", |drive| {
+    v_belt(drive).radial_stiffness
+});
+const ANGLE: (&str, Reader) = ("groove.half_angle", |drive| v_belt(drive).half_angle);
 const SPEED: (&str, Reader) = ("pulleys.driver.speed", |drive| drive.driver_speed);
 const LENGTH: (&str, Reader) = ("layout.centre_distance", |drive| drive.centre_distance);
 

@@ -4,20 +4,30 @@ use beltdrive::input::{self, Argument, Key};
 use beltdrive::{Drive, examples};
 use insta::assert_snapshot;
 
+/// A shipped drive with overrides.
+fn example(name: &str, overrides: &[&str]) -> Drive {
+    let overrides: Vec<_> = overrides.iter().map(|text| (*text).to_owned()).collect();
+    let example = examples::find(name).unwrap();
+    input::parse(example.name, example.text, &overrides).unwrap()
+}
+
 /// The thesis drive with overrides.
 fn drive(overrides: &[&str]) -> Drive {
-    let overrides: Vec<_> = overrides.iter().map(|text| (*text).to_owned()).collect();
-    let example = examples::find("kim2009").unwrap();
-    input::parse(example.name, example.text, &overrides).unwrap()
+    example("kim2009", overrides)
 }
 
 /// The error of an entry of the thesis drive with overrides.
 #[track_caller]
 fn key_error(overrides: &[&str], value: &str) -> String {
-    let drive = drive(overrides);
+    error_of(&drive(overrides), value)
+}
+
+/// The error of an entry of a drive.
+#[track_caller]
+fn error_of(drive: &Drive, value: &str) -> String {
     let option = "--parameter";
     let argument = Argument { option, value };
-    argument.key(&drive).unwrap_err().to_string()
+    argument.key(drive).unwrap_err().to_string()
 }
 
 /// The value of an entry of the thesis drive, or the error.
@@ -59,14 +69,16 @@ fn misspelled_entries() {
     );
 }
 
+/// The message of an error and its help.
+fn shortened(error: &str) -> String {
+    let message = error.lines().next().unwrap_or_default();
+    let help = error.lines().find(|line| line.starts_with("help"));
+    [message, help.unwrap_or_default()].join("\n")
+}
+
 #[test]
 fn entries_that_are_none_of_the_drive() {
-    let first = |overrides, path| {
-        let error = key_error(overrides, path);
-        let lines: Vec<_> = error.lines().map(str::to_owned).collect();
-        let help = lines.iter().find(|line| line.starts_with("help"));
-        [lines[0].clone(), help.cloned().unwrap_or_default()].join("\n")
-    };
+    let first = |overrides, path| shortened(&key_error(overrides, path));
     assert_snapshot!(first(&[], "friction.law"), @r"error: `friction.law` is no number, so it cannot be traced");
     assert_snapshot!(first(&[], "friction.stiffness"), @r"error: `friction.stiffness` does not apply to the friction law `coulomb`");
     assert_snapshot!(first(&["friction.law=epp"], "friction.velocity"), @r"error: `friction.velocity` does not apply to the friction law `epp`");
@@ -74,9 +86,54 @@ fn entries_that_are_none_of_the_drive() {
     error: `load.tight_tension` is not given: the drive has `load.tight_tractive_tension`
     help: did you mean `load.tight_tractive_tension`?
     ");
-    assert_snapshot!(first(&[], "load.torque"), @r"error: `load.torque` is not supported yet: give one slack and one tight tension");
+    assert_snapshot!(first(&[], "load.torque"), @r"error: `load.torque` does not say of which pulley it is");
+    assert_snapshot!(first(&[], "load.driven_torque"), @r"error: `load.driven_torque` does not apply to a V-belt");
+    assert_snapshot!(first(&[], "friction.velocity"), @r"error: `friction.velocity` does not apply to the friction law `coulomb`");
+    assert_snapshot!(first(&[], "model.normal_force"), @r"error: `model.normal_force` is no number, so it cannot be traced");
     assert_snapshot!(first(&[], "belt.height"), @r"error: `belt.height` does not change the steady state, so it cannot be traced");
     assert_snapshot!(first(&[], "groove"), @r"error: unknown key `groove`");
+}
+
+#[test]
+fn entries_that_are_none_of_a_flat_belt_drive() {
+    let first =
+        |overrides: &[&str], path| shortened(&error_of(&example("flat-unequal", overrides), path));
+    let tensions = ["load.driven_torque=", "load.tight_tension=550 N"];
+    let tight = ["load.slack_tension=", "load.tight_tension=550 N"];
+    assert_snapshot!(first(&[], "groove.half_angle"), @r"error: `groove.half_angle` does not apply to a flat belt");
+    assert_snapshot!(first(&[], "belt.radial_stiffness"), @r"error: `belt.radial_stiffness` does not apply to a flat belt");
+    assert_snapshot!(first(&[], "belt.height"), @r"error: `belt.height` does not apply to a flat belt");
+    assert_snapshot!(first(&[], "friction.bristle_stiffness"), @r"error: `friction.bristle_stiffness` does not apply to the friction law `epp`");
+    assert_snapshot!(first(&[], "friction.velocity"), @r"error: `friction.velocity` does not apply to the friction law `epp`");
+    assert_snapshot!(first(&[], "load.tight_tension"), @r"
+    error: `load.tight_tension` is not given: the drive has `load.driven_torque`
+    help: did you mean `load.driven_torque`?
+    ");
+    assert_snapshot!(first(&[], "load.slack_tractive_tension"), @r"
+    error: `load.slack_tractive_tension` is not given: the drive has `load.slack_tension`
+    help: did you mean `load.slack_tension`?
+    ");
+    assert_snapshot!(first(&tight, "load.slack_tension"), @r"
+    error: `load.slack_tension` is not given: the drive has `load.driven_torque`
+    help: did you mean `load.driven_torque`?
+    ");
+    assert_snapshot!(first(&tensions, "load.driven_torque"), @r"
+    error: `load.driven_torque` is not given: the drive has `load.tight_tension`
+    help: did you mean `load.tight_tension`?
+    ");
+    assert_snapshot!(first(&[], "load.torque"), @r"
+    error: `load.torque` does not say of which pulley it is
+    help: did you mean `load.driven_torque`?
+    ");
+    assert_snapshot!(error_of(&example("flat-unequal", &[]), "driven_torqe"), @r"
+    error: unknown key `driven_torqe`
+      --> command line:1:13
+      |
+    1 | --parameter driven_torqe
+      |             ^^^^^^^^^^^^
+    expected: one of `belt.mass_per_length`, `belt.axial_stiffness`, `friction.coefficient`, `friction.stiffness`, `pulleys.driver.radius`, `pulleys.driver.speed`, `pulleys.driven.radius`, `layout.centre_distance`, `load.slack_tension`, `load.driven_torque`
+    help: did you mean `load.driven_torque`?
+    ");
 }
 
 #[test]
@@ -146,6 +203,26 @@ fn values_that_contradict_the_drive() {
     1 | --from 2 m
       |        ^^^
     ");
+}
+
+#[test]
+fn a_torque_contradicts_no_tension() {
+    let drive = example("flat-unequal", &[]);
+    let key = Key::load(&drive);
+    let argument = |value| Argument {
+        option: "--to",
+        value,
+    };
+    assert_eq!(argument("90 N*m").value(key, &drive, None), Ok(90.0));
+    let error = argument("90 N").value(key, &drive, None).unwrap_err();
+    assert_snapshot!(error, @r#"
+    error: wrong dimension: expected a torque, got a force
+      --> command line:1:9
+      |
+    1 | --to 90 N
+      |         ^
+    expected: a torque, e.g. "45 N*m"
+    "#);
 }
 
 #[test]

@@ -28,7 +28,7 @@ impl Limits {
         let drive = self.common.drive()?;
         let key = match &self.parameter {
             Some(value) => parameter::key("--parameter", value, &drive)?,
-            None => Key::tight_tension(&drive),
+            None => Key::load(&drive),
         };
         let options = self.common.options();
         let limits = self

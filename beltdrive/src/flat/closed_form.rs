@@ -31,6 +31,11 @@ pub(super) struct ClosedForm {
 pub(super) enum Refusal {
     /// The load is too large.
     Slips(LimitReason),
+    /// The tight tension is below the slack one.
+    Backwards {
+        /// Tension of the slack and of the tight span, N.
+        tension: [f64; 2],
+    },
     /// The belt does not press on the pulleys.
     LiftsOff {
         /// Tension of the slack span, N.
@@ -45,7 +50,7 @@ pub(super) enum Refusal {
 impl ClosedForm {
     /// The steady state of a flat-belt drive.
     ///
-    /// The driver turns with the belt at its reference tension, ω₂ R₂ = c (1 + T_o/EA), which is one
+    /// The driver turns with the belt at its reference tension, `ω₂ R₂ = c (1 + T_o/EA)`, which is one
     /// equation for c. A drive slips grossly if a pulley does not carry the load at the speed at which
     /// the driver would take the belt along without slip.
     ///
@@ -89,6 +94,7 @@ impl ClosedForm {
             speed = bracketed(excess, ends, ends.map(excess)).ok_or(slips)?;
         }
         let state = statement.at(speed);
+        statement.check(&state)?;
         let contact = |pulley: usize| {
             let reason = LimitReason::Capstan(PULLEYS[pulley]);
             let contact = statement.contact(&state, pulley);
@@ -109,7 +115,7 @@ impl ClosedForm {
         }
     }
 
-    /// Circumferential speed c (1 + T_o/EA) of a pulley, m/s.
+    /// Circumferential speed `c (1 + T_o/EA)` of a pulley, m/s.
     pub(super) fn rim_speed(&self, drive: &Drive, pulley: usize) -> f64 {
         let contact = &self.contact[pulley];
         let reference = contact.arc.belt.tension(contact.reference());
@@ -235,9 +241,13 @@ impl<'d> Statement<'d> {
     /// less capacity lets go first; with equal capacities the driver is named.
     fn check(&self, loaded: &Loaded) -> Result<(), Refusal> {
         let [driven, driver] = &loaded.arc;
+        let tension = loaded.tension;
+        if driven.change < 0.0 {
+            return Err(Refusal::Backwards { tension });
+        }
         if driven.entry <= 0.0 || driven.belt.stiffness <= 0.0 {
             let belt = self.drive.belt;
-            let [tension, _] = loaded.tension;
+            let [tension, _] = tension;
             let speed = loaded.speed * (1.0 + tension / belt.axial_stiffness);
             return Err(Refusal::LiftsOff {
                 tension,

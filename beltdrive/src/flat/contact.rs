@@ -175,10 +175,9 @@ impl Contact {
             } => {
                 let creep = Creep::with_logarithm(&self.arc, speed, saturation, logarithm);
                 let velocity = creep.velocity(arc_length);
-                let gained = belt.stiffness / speed * (velocity - creep.entry);
-                let traction = self.arc.entry + sense * gained;
-                let displacement =
-                    saturation / (slip_rate * speed) * (traction / self.arc.entry).ln().abs();
+                let load = creep.load_to(arc_length);
+                let traction = self.arc.entry * (sense * load).exp();
+                let displacement = saturation / (slip_rate * speed) * load;
                 Place {
                     arc_length,
                     traction,

@@ -147,15 +147,35 @@ impl Creep {
         }
     }
 
+    /// The load |ln(P(s)/P(0))| taken up to an arc length before saturation. With the exponent x of
+    /// [`Creep::velocity`], q = c P(0)/D and the upper sign on the driven pulley, it is
+    ///
+    /// ```text
+    /// ± ln(1 ∓ y(0)/q) ∓ ln(1 ∓ exp(−x))  =  a |B| s/v_s ± ln(1 ∓ q/y(0)) ∓ ln(1 ∓ exp(x))
+    /// ```
+    ///
+    /// of which the first loses no digits for x > 0, the second for x < 0.
+    pub(super) fn load_to(&self, arc_length: f64) -> f64 {
+        let Self { sense, unit, .. } = *self;
+        if self.is_degenerate() {
+            let velocity = self.velocity(arc_length);
+            return ((velocity - self.entry) / unit).ln_1p();
+        }
+        let travelled = self.b * self.slip_rate * arc_length / self.saturation;
+        let exponent = unit.ln() - self.logarithm - travelled;
+        let logarithm = |value: f64| sense * (-sense * value).ln_1p();
+        match exponent > 0.0 {
+            true => logarithm(self.entry / unit) - logarithm((-exponent).exp()),
+            false => travelled.abs() + logarithm(unit / self.entry) - logarithm(exponent.exp()),
+        }
+    }
+
     /// The load |ln(P(L)/P(0))| of the arc.
     fn load(&self) -> f64 {
-        let gained = |velocity: f64| {
-            (self.sense * (self.sense * (velocity - self.entry) / self.unit).ln_1p()).max(0.0)
-        };
         let saturated = self.saturated();
         match saturated < self.length {
-            true => gained(self.saturation) + self.slip_rate * (self.length - saturated),
-            false => gained(self.velocity(self.length)),
+            true => self.load_to(saturated) + self.slip_rate * (self.length - saturated),
+            false => self.load_to(self.length),
         }
     }
 }

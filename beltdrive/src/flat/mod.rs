@@ -1,42 +1,38 @@
-//! The flat-belt drive.
+//! The flat-belt drive: a string with axial stretch on the rims of two pulleys, in steady motion, in
+//! closed form.
+//!
+//! The coordinate runs along the belt from where it enters a pulley; friction that holds the belt back,
+//! on the driven pulley, has the sense +1, that of the driver −1.
+//!
+//! Sources: D. Kim, MS thesis, Georgia Institute of Technology (2009), chapter 2; K. L. Johnson, Contact
+//! Mechanics (1985), section 8.2; S. E. Bechtel, S. Vohra, K. I. Jacob and C. D. Carlson, J. Appl. Mech.
+//! 67 (2000); M. J. Leamy and T. M. Wasfy, J. Vib. Acoust. 124 (2002).
+
 mod closed_form;
 mod contact;
 mod coulomb;
 mod creep_rate;
 mod epp;
 mod geometry;
+mod limit_curve;
+mod limits;
+mod quadrature;
+mod range;
 mod root;
+mod solve;
+mod state;
+mod trace;
 mod traction;
 
-/// Indices of the pulleys.
-pub(crate) const DRIVEN: usize = 0;
-/// As [`DRIVEN`].
-pub(crate) const DRIVER: usize = 1;
+pub(crate) use limit_curve::limit_curve;
+pub(crate) use limits::limits;
+pub(crate) use solve::solve;
+pub(crate) use trace::trace;
 
-use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, SteadyState, input::Key};
-pub(crate) fn solve(_: &Drive) -> Result<SteadyState, SolveError> {
-    Err(SolveError::NotModelled(""))
-}
-pub(crate) fn trace(
-    _: &Drive,
-    _: &Key,
-    _: [f64; 2],
-    _: &SolveOptions,
-) -> Result<Branch, SolveError> {
-    Err(SolveError::NotModelled(""))
-}
-pub(crate) fn limits(_: &Drive, _: &Key, _: &SolveOptions) -> Result<Limits, SolveError> {
-    Err(SolveError::NotModelled(""))
-}
-pub(crate) fn limit_curve(
-    _: &Drive,
-    _: &Key,
-    _: &Key,
-    _: [f64; 2],
-    _: &SolveOptions,
-) -> Result<LimitCurve, SolveError> {
-    Err(SolveError::NotModelled(""))
-}
+/// Indices of the pulleys.
+const DRIVEN: usize = 0;
+/// As [`DRIVEN`].
+const DRIVER: usize = 1;
 
 #[cfg(test)]
 mod facts;

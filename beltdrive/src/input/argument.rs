@@ -1,7 +1,7 @@
 //! Entries and values that a command line names: what is traced, and from where to where.
 
 use super::{
-    check,
+    belt, check,
     diagnostic::{Diagnostic, Finding},
     document::{Content, Entry},
     file,
@@ -10,7 +10,8 @@ use super::{
     source::Source,
     spelling,
 };
-use crate::Drive;
+use crate::{BeltKind, Drive};
+use std::ops::Range;
 
 /// An option of a command line and its value.
 #[derive(Clone, Copy, Debug)]
@@ -65,24 +66,16 @@ impl Argument<'_> {
     fn no_key(&self, drive: &Drive) -> Finding {
         let path = self.value;
         let place = self.entry().place;
-        let law = drive.law.name();
-        let other = schema::alternative(path);
         let finding = |message| Finding::new(place.clone(), message);
         match schema::rule(path).map(|rule| &rule.kind) {
-            Some(Kind::Refused(reason)) => finding(format!("`{path}` {reason}")),
+            Some(Kind::Refused { reason, instead }) => {
+                let applies = |path: &&str| Key::all(drive).any(|key| key.path() == *path);
+                finding(format!("`{path}` {reason}")).did_you_mean(instead.filter(applies))
+            }
             Some(Kind::Text | Kind::Word { .. }) => {
                 finding(format!("`{path}` is no number, so it cannot be traced"))
             }
-            Some(Kind::Quantity { .. }) if path == "belt.height" => finding(format!(
-                "`{path}` does not change the steady state, so it cannot be traced"
-            )),
-            Some(Kind::Quantity { .. }) => match other {
-                Some(other) => finding(format!("`{path}` is not given: the drive has `{other}`"))
-                    .did_you_mean(Some(other)),
-                None => finding(format!(
-                    "`{path}` does not apply to the friction law `{law}`"
-                )),
-            },
+            Some(Kind::Quantity { .. }) => inapplicable(path, drive, &place),
             None => {
                 let keys = || Key::all(drive).map(|key| key.path());
                 let names = keys().map(|path| (schema::split(path).1, path));
@@ -113,5 +106,31 @@ impl Argument<'_> {
 
     fn diagnose(&self, finding: Finding) -> Diagnostic {
         Diagnostic::new(finding, &self.source())
+    }
+}
+
+/// Why a quantity of the schema is none over which the drive can be traced.
+fn inapplicable(path: &str, drive: &Drive, place: &Range<usize>) -> Finding {
+    let finding = |message| Finding::new(place.clone(), message);
+    let belt = belt::name(drive.belt.kind);
+    let is_v_belt = matches!(drive.belt.kind, BeltKind::V(_));
+    match schema::split(path).0 {
+        "belt" if is_v_belt => finding(format!(
+            "`{path}` does not change the steady state, so it cannot be traced"
+        )),
+        "friction" => {
+            let law = drive.law.name();
+            finding(format!(
+                "`{path}` does not apply to the friction law `{law}`"
+            ))
+        }
+        "load" if path != schema::TORQUE || !is_v_belt => {
+            let is_other = |key: &Key| Some(key.path()) == schema::alternative(path);
+            let other = Key::all(drive).find(is_other);
+            let other = other.unwrap_or_else(|| Key::load(drive)).path();
+            finding(format!("`{path}` is not given: the drive has `{other}`"))
+                .did_you_mean(Some(other))
+        }
+        _ => finding(format!("`{path}` does not apply to {belt}")),
     }
 }

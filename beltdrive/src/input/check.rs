@@ -49,22 +49,18 @@ pub(super) fn word<'e>(
     rule: &Rule,
     what: &str,
     words: &[&str],
-    unsolved: &[(&str, &str)],
     entry: &'e Entry,
 ) -> Result<&'e str, Finding> {
     let text = text(rule, entry)?;
     if words.contains(&text) {
         return Ok(text);
     }
-    let finding = match unsolved.iter().find(|(word, _)| *word == text) {
-        Some((_, reason)) => Finding::new(entry.place.clone(), *reason),
-        None => {
-            let nearest = spelling::nearest(text, words.iter().map(|word| (word, word)));
-            Finding::new(entry.place.clone(), format!("unknown {what} `{text}`"))
-                .did_you_mean(nearest)
-        }
-    };
-    Err(finding.expected(one_of(words)))
+    let nearest = spelling::nearest(text, words.iter().map(|word| (word, word)));
+    Err(
+        Finding::new(entry.place.clone(), format!("unknown {what} `{text}`"))
+            .expected(one_of(words))
+            .did_you_mean(nearest),
+    )
 }
 
 /// Checks a positive quantity, which may have to stay below a limit, and gives it in SI units.

@@ -1,129 +1,17 @@
 //! The numeric entries of a drive file that a branch can be traced over.
 
-use super::{dimension::Dimension, schema};
-use crate::{BeltKind, Drive, FrictionLaw, SpanTension, VBelt};
+use super::{
+    dimension::Dimension,
+    schema,
+    traceable::{ENTRIES, Traceable},
+};
+use crate::Drive;
 
 /// A numeric entry of the drive file on which the steady state depends.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
     entry: &'static Traceable,
     unit: &'static ReportUnit,
-}
-
-/// An entry with the place of its value in a drive.
-#[derive(Debug)]
-struct Traceable {
-    /// Its dotted path.
-    path: &'static str,
-    /// What it is called.
-    name: &'static str,
-    /// Where its value stands; `None` where the entry does not apply.
-    slot: fn(&mut Drive) -> Option<&mut f64>,
-}
-
-const ENTRIES: [Traceable; 15] = [
-    Traceable {
-        path: "belt.mass_per_length",
-        name: "mass per length",
-        slot: |drive| Some(&mut drive.belt.mass_per_length),
-    },
-    Traceable {
-        path: "belt.axial_stiffness",
-        name: "axial stiffness",
-        slot: |drive| Some(&mut drive.belt.axial_stiffness),
-    },
-    Traceable {
-        path: "belt.radial_stiffness",
-        name: "radial stiffness",
-        slot: |drive| v_belt(drive).map(|belt| &mut belt.radial_stiffness),
-    },
-    Traceable {
-        path: "groove.half_angle",
-        name: "half groove angle",
-        slot: |drive| v_belt(drive).map(|belt| &mut belt.half_angle),
-    },
-    Traceable {
-        path: "friction.coefficient",
-        name: "coefficient of friction",
-        slot: |drive| Some(&mut drive.friction_coefficient),
-    },
-    Traceable {
-        path: "friction.stiffness",
-        name: "friction stiffness",
-        slot: |drive| match &mut drive.law {
-            FrictionLaw::Epp { stiffness } => Some(stiffness),
-            _ => None,
-        },
-    },
-    Traceable {
-        path: "friction.bristle_stiffness",
-        name: "bristle stiffness",
-        slot: |drive| match &mut drive.law {
-            FrictionLaw::Bristle { stiffness } => Some(stiffness),
-            _ => None,
-        },
-    },
-    Traceable {
-        path: "pulleys.driver.radius",
-        name: "driver radius",
-        slot: |drive| Some(&mut drive.driver_radius),
-    },
-    Traceable {
-        path: "pulleys.driver.speed",
-        name: "driver speed",
-        slot: |drive| Some(&mut drive.driver_speed),
-    },
-    Traceable {
-        path: "pulleys.driven.radius",
-        name: "driven radius",
-        slot: |drive| Some(&mut drive.driven_radius),
-    },
-    Traceable {
-        path: "layout.centre_distance",
-        name: "centre distance",
-        slot: |drive| Some(&mut drive.centre_distance),
-    },
-    Traceable {
-        path: schema::SLACK[0],
-        name: "slack tractive tension",
-        slot: |drive| tractive(&mut drive.load.slack),
-    },
-    Traceable {
-        path: schema::SLACK[1],
-        name: "slack tension",
-        slot: |drive| belt(&mut drive.load.slack),
-    },
-    Traceable {
-        path: schema::TIGHT[0],
-        name: "tight tractive tension",
-        slot: |drive| tractive(&mut drive.load.tight),
-    },
-    Traceable {
-        path: schema::TIGHT[1],
-        name: "tight tension",
-        slot: |drive| belt(&mut drive.load.tight),
-    },
-];
-
-fn v_belt(drive: &mut Drive) -> Option<&mut VBelt> {
-    match &mut drive.belt.kind {
-        BeltKind::V(belt) => Some(belt),
-        BeltKind::Flat { .. } => None,
-    }
-}
-
-fn tractive(tension: &mut SpanTension) -> Option<&mut f64> {
-    match tension {
-        SpanTension::Tractive(value) => Some(value),
-        _ => None,
-    }
-}
-
-fn belt(tension: &mut SpanTension) -> Option<&mut f64> {
-    match tension {
-        SpanTension::Belt(value) => Some(value),
-        _ => None,
-    }
 }
 
 /// The unit in which reports show a dimension: SI, but degrees for angles.
@@ -145,13 +33,15 @@ const fn si(dimension: Dimension, symbol: &'static str, suffix: &'static str) ->
     }
 }
 
-const UNITS: [ReportUnit; 8] = [
+const UNITS: [ReportUnit; 10] = [
     si(Dimension::NUMBER, "", ""),
     si(Dimension::FORCE, "N", "_N"),
     si(Dimension::LENGTH, "m", "_m"),
     si(Dimension::INVERSE_LENGTH, "1/m", "_per_m"),
     si(Dimension::MASS_PER_LENGTH, "kg/m", "_kg_per_m"),
     si(Dimension::FORCE_PER_AREA, "N/m²", "_N_per_m2"),
+    si(Dimension::VELOCITY, "m/s", "_m_per_s"),
+    si(Dimension::TORQUE, "N·m", "_N_m"),
     si(Dimension::ANGULAR_SPEED, "rad/s", "_rad_per_s"),
     ReportUnit {
         dimension: Dimension::ANGLE,
@@ -170,14 +60,17 @@ impl Key {
             .filter(|key| key.applies(drive))
     }
 
-    /// The entry of the tight tension: what a drive is loaded with.
+    /// The entry of what a drive is loaded with: the driven torque where it is given, the tight
+    /// tension otherwise.
     ///
     /// # Panics
     /// Never: every drive has one.
-    pub fn tight_tension(drive: &Drive) -> Self {
-        Self::all(drive)
-            .find(|key| schema::TIGHT.contains(&key.path()))
-            .expect("a drive has a tight tension")
+    pub fn load(drive: &Drive) -> Self {
+        let [tractive, belt] = schema::TIGHT;
+        [schema::TORQUE, tractive, belt]
+            .into_iter()
+            .find_map(|path| Self::all(drive).find(|key| key.path() == path))
+            .expect("a drive has a load")
     }
 
     /// The dotted path of the entry in the drive file.
@@ -214,7 +107,7 @@ impl Key {
     /// The value in a drive, SI.
     ///
     /// # Panics
-    /// If the entry does not apply to the drive, such as a stiffness of another friction law.
+    /// If the entry does not apply to the drive, such as a parameter of another friction law.
     pub fn get(&self, drive: &Drive) -> f64 {
         *self.slot(&mut drive.clone())
     }
@@ -256,31 +149,42 @@ mod tests {
     use super::*;
     use crate::{examples, input};
 
-    /// The thesis drive with overrides.
-    fn drive(overrides: &[&str]) -> Drive {
+    /// An example with overrides.
+    type Variant = (&'static str, &'static [&'static str]);
+
+    fn drive((example, overrides): (&str, &[&str])) -> Drive {
         let overrides: Vec<_> = overrides.iter().map(|text| (*text).to_owned()).collect();
-        let text = examples::find("kim2009").unwrap().text;
-        input::parse("kim2009.toml", text, &overrides).unwrap()
+        let text = examples::find(example).unwrap().text;
+        input::parse(example, text, &overrides).unwrap()
     }
 
-    const VARIANTS: [&[&str]; 3] = [
-        &[],
-        &["friction.law=epp", "load.tight_tension=800 N"],
-        &["friction.law=bristle", "load.slack_tension=150 N"],
+    const VARIANTS: [Variant; 6] = [
+        ("kim2009", &[]),
+        ("kim2009", &["friction.law=epp", "load.tight_tension=800 N"]),
+        (
+            "kim2009",
+            &["friction.law=bristle", "load.slack_tension=150 N"],
+        ),
+        ("kim2009-flat", &["friction.law=creep-rate"]),
+        ("flat-unequal", &[]),
+        (
+            "flat-unequal",
+            &["load.slack_tension=", "load.tight_tension=1 kN"],
+        ),
     ];
 
     #[test]
     fn every_entry_applies_to_some_drive_and_is_the_one_of_the_file() {
         let mut found = Vec::new();
-        for overrides in VARIANTS {
-            let original = drive(overrides);
+        for (example, overrides) in VARIANTS {
+            let original = drive((example, overrides));
             for key in Key::all(&original) {
                 let value = 1.1 * key.get(&original);
                 let assignment = format!("{}={value:e}", key.path());
                 let overrides = [overrides, &[assignment.as_str()]].concat();
                 let mut changed = original.clone();
                 key.set(&mut changed, value);
-                assert_eq!(changed, drive(&overrides), "{assignment}");
+                assert_eq!(changed, drive((example, &overrides)), "{assignment}");
                 assert_eq!(key.get(&changed), value);
                 found.push(key.path());
             }
@@ -293,8 +197,8 @@ mod tests {
     #[test]
     fn columns_carry_units_and_are_unique() {
         let mut columns = Vec::new();
-        for overrides in VARIANTS {
-            columns.extend(Key::all(&drive(overrides)).map(|key| key.column()));
+        for variant in VARIANTS {
+            columns.extend(Key::all(&drive(variant)).map(|key| key.column()));
         }
         columns.sort_unstable();
         columns.dedup();
@@ -305,23 +209,53 @@ mod tests {
             "half_angle_deg",
             "driver_speed_rad_per_s",
             "bristle_stiffness_per_m",
+            "velocity_m_per_s",
             "centre_distance_m",
+            "driven_torque_N_m",
         ] {
             assert!(columns.iter().any(|name| name == column), "{column}");
         }
     }
 
     #[test]
-    fn the_load_is_the_tight_tension_of_the_file() {
-        let [tractive, belt, _] = VARIANTS.map(|overrides| Key::tight_tension(&drive(overrides)));
-        assert_eq!(tractive.path(), "load.tight_tractive_tension");
-        assert_eq!(belt.path(), "load.tight_tension");
-        assert!(tractive != belt);
+    fn the_load_is_the_driven_torque_or_else_the_tight_tension() {
+        let paths = VARIANTS.map(|variant| Key::load(&drive(variant)).path());
+        let [tractive, belt, .., slack_and_torque, tight_and_torque] = paths;
+        assert_eq!(tractive, "load.tight_tractive_tension");
+        assert_eq!(belt, "load.tight_tension");
+        assert_eq!([slack_and_torque, tight_and_torque], [schema::TORQUE; 2]);
+    }
+
+    #[test]
+    fn entries_apply_where_they_matter() {
+        let paths = |variant| {
+            let drive = drive(variant);
+            Key::all(&drive).map(|key| key.path()).collect::<Vec<_>>()
+        };
+        let common = ["belt.mass_per_length", "belt.axial_stiffness"];
+        let pulleys = [
+            "pulleys.driver.radius",
+            "pulleys.driver.speed",
+            "pulleys.driven.radius",
+            "layout.centre_distance",
+        ];
+        let creep_rate = ["friction.coefficient", "friction.velocity"];
+        let load = ["load.slack_tension", "load.tight_tension"];
+        assert_eq!(
+            paths(VARIANTS[3]),
+            [&common[..], &creep_rate, &pulleys, &load].concat()
+        );
+        let epp = ["friction.coefficient", "friction.stiffness"];
+        let load = ["load.tight_tension", "load.driven_torque"];
+        assert_eq!(
+            paths(VARIANTS[5]),
+            [&common[..], &epp, &pulleys, &load].concat()
+        );
     }
 
     #[test]
     fn angles_are_reported_in_degrees() {
-        let drive = drive(&[]);
+        let drive = drive(VARIANTS[0]);
         let mut keys = Key::all(&drive);
         let angle = keys.find(|key| key.path() == "groove.half_angle").unwrap();
         assert_eq!(angle.unit(), "°");

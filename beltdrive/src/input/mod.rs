@@ -6,8 +6,8 @@
 //! text ── document ── overrides ── values ── drive
 //!         TOML        --set        schema:   relations between
 //!                                  keys,     values, choice of
-//!                                  units,    law and load
-//!                                  ranges
+//!                                  units,    belt, law and
+//!                                  ranges    load
 //! ```
 //!
 //! What a branch is traced over, a [`Key`] with its range, is read by the same rules from an
@@ -16,17 +16,21 @@
 //! The first finding of any stage ends the reading and is shown where it stands.
 
 mod argument;
+mod belt;
 mod check;
 mod diagnostic;
 mod dimension;
 mod document;
 mod file;
+mod friction;
 mod key;
+mod load;
 mod overrides;
 mod quantity;
 mod schema;
 mod source;
 pub(crate) mod spelling;
+mod traceable;
 mod unit;
 mod values;
 
@@ -41,7 +45,8 @@ use source::Source;
 use values::Values;
 
 /// Reads the drive file `text`, called `name` in messages, with overrides `KEY=VALUE` in place of
-/// entries or in addition to them. A key is a dotted path; a value may be quoted or not.
+/// entries or in addition to them. A key is a dotted path; a value may be quoted or not; without a
+/// value, `KEY=`, the entry is left out.
 ///
 /// ```
 /// let text = beltdrive::examples::find("kim2009")?.text;

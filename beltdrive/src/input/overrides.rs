@@ -9,7 +9,8 @@ use super::{
 /// Applies the override `text`, which starts at byte `start` of the source.
 ///
 /// It replaces the entry at its path and, where a quantity can be stated in two ways, the other
-/// way too: `load.tight_tension=…` takes the place of a tight tractive tension.
+/// way too: `load.tight_tension=…` takes the place of a tight tractive tension. Without a value it
+/// removes the entry: `load.tight_tension=`.
 pub(super) fn apply(document: &mut Document, text: &str, start: usize) -> Result<(), Finding> {
     let whole = start..start + text.len();
     let malformed = |message: &str| {
@@ -27,6 +28,12 @@ pub(super) fn apply(document: &mut Document, text: &str, start: usize) -> Result
         .any(|name| name.trim() != name || name.is_empty())
     {
         return Err(malformed(&format!("malformed key `{path}`")));
+    }
+
+    let is_entry = schema::rule(path).is_some_and(|rule| !rule.is_refused());
+    if value.trim().is_empty() && is_entry {
+        document.entries.remove(path);
+        return Ok(());
     }
 
     // The tables on the way, unless the file has them.
@@ -56,6 +63,11 @@ pub(super) fn apply(document: &mut Document, text: &str, start: usize) -> Result
     Ok(())
 }
 
+/// Advice on how to do without the entry at `path`.
+pub(super) fn removal(path: &str) -> String {
+    format!("`--set {path}=`, without a value, leaves that entry out for one run")
+}
+
 /// The text within a pair of quotes, or the text itself.
 fn unquoted(value: &str) -> &str {
     ['"', '\'']
@@ -80,6 +92,23 @@ mod tests {
             (entry.key.clone(), entry.place.clone()),
             (105..118, 121..128)
         );
+    }
+
+    #[test]
+    fn an_override_without_a_value_removes_an_entry() {
+        let mut document = Document::from_toml("[load]\ntight_tension = 700").unwrap();
+        for text in [
+            "load.tight_tension = ",
+            "load.slack_tension=",
+            "belt.height=",
+        ] {
+            apply(&mut document, text, 100).unwrap();
+        }
+        assert_eq!(document.entries.keys().collect::<Vec<_>>(), ["load"]);
+        // What is no entry stays, to be found fault with.
+        apply(&mut document, "load.colour=", 100).unwrap();
+        apply(&mut document, "load.torque=", 100).unwrap();
+        assert_eq!(document.entries.len(), 3);
     }
 
     #[test]

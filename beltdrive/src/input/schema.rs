@@ -23,10 +23,8 @@ pub(super) enum Kind {
     Word {
         /// What the words name.
         what: &'static str,
-        /// The words this version knows.
+        /// The words.
         words: &'static [&'static str],
-        /// The words of the format that this version does not solve, and why.
-        unsolved: &'static [(&'static str, &'static str)],
     },
     /// A positive number of a dimension.
     Quantity {
@@ -35,8 +33,13 @@ pub(super) enum Kind {
         /// The number it stays below, in SI units and in words.
         below: Option<(f64, &'static str)>,
     },
-    /// Nothing: the reason why the entry may not be given.
-    Refused(&'static str),
+    /// Nothing: the entry may not be given.
+    Refused {
+        /// Why.
+        reason: &'static str,
+        /// The path of the entry that was probably meant.
+        instead: Option<&'static str>,
+    },
 }
 
 const fn quantity(path: &'static str, example: &'static str, dimension: Dimension) -> Rule {
@@ -50,35 +53,45 @@ const fn quantity(path: &'static str, example: &'static str, dimension: Dimensio
     }
 }
 
-const fn refused(path: &'static str, example: &'static str, reason: &'static str) -> Rule {
+const fn word(
+    path: &'static str,
+    example: &'static str,
+    what: &'static str,
+    words: &'static [&'static str],
+) -> Rule {
     Rule {
         path,
         example,
-        kind: Kind::Refused(reason),
+        kind: Kind::Word { what, words },
+    }
+}
+
+const fn refused(
+    path: &'static str,
+    example: &'static str,
+    reason: &'static str,
+    instead: Option<&'static str>,
+) -> Rule {
+    Rule {
+        path,
+        example,
+        kind: Kind::Refused { reason, instead },
     }
 }
 
 const LATER: &str = "is not supported yet: give one slack and one tight tension";
 
+/// The friction laws.
+pub(super) const LAWS: [&str; 4] = ["coulomb", "epp", "bristle", "creep-rate"];
+
 /// Every entry, in the order in which messages list them.
-const RULES: [Rule; 24] = [
+const RULES: [Rule; 27] = [
     Rule {
         path: "title",
         example: "\"Test drive\"",
         kind: Kind::Text,
     },
-    Rule {
-        path: "belt.type",
-        example: "\"v\"",
-        kind: Kind::Word {
-            what: "belt type",
-            words: &["v"],
-            unsolved: &[(
-                "flat",
-                "flat belts are not supported yet: this version solves V-belts only",
-            )],
-        },
-    },
+    word("belt.type", "\"v\"", "belt type", &["v", "flat"]),
     quantity(
         "belt.mass_per_length",
         "\"0.108 kg/m\"",
@@ -99,18 +112,7 @@ const RULES: [Rule; 24] = [
             below: Some((FRAC_PI_2, "90 deg")),
         },
     },
-    Rule {
-        path: "friction.law",
-        example: "\"coulomb\"",
-        kind: Kind::Word {
-            what: "friction law",
-            words: &["coulomb", "epp", "bristle"],
-            unsolved: &[(
-                "creep-rate",
-                "creep-rate is a law for flat belts: this version solves V-belts only",
-            )],
-        },
-    },
+    word("friction.law", "\"coulomb\"", "friction law", &LAWS),
     quantity("friction.coefficient", "0.4", Dimension::NUMBER),
     quantity(
         "friction.stiffness",
@@ -134,21 +136,45 @@ const RULES: [Rule; 24] = [
         "pulleys.driven.speed",
         "\"1000 rpm\"",
         "may not be given: the speed of the driven pulley follows from the load",
+        None,
     ),
     quantity("layout.centre_distance", "\"1.4 m\"", Dimension::LENGTH),
     quantity("load.slack_tractive_tension", "\"100 N\"", Dimension::FORCE),
     quantity("load.slack_tension", "\"110 N\"", Dimension::FORCE),
     quantity("load.tight_tractive_tension", "\"700 N\"", Dimension::FORCE),
     quantity("load.tight_tension", "\"710 N\"", Dimension::FORCE),
-    refused("load.torque", "\"45 N*m\"", LATER),
-    refused("load.setup_tension", "\"400 N\"", LATER),
-    refused("load.belt_length", "\"4.36 m\"", LATER),
+    quantity(TORQUE, "\"45 N*m\"", Dimension::TORQUE),
+    refused(
+        "load.torque",
+        "\"45 N*m\"",
+        "does not say of which pulley it is",
+        Some(TORQUE),
+    ),
+    refused(
+        "load.driver_torque",
+        "\"45 N*m\"",
+        "may not be given: the load is the torque of the driven pulley",
+        Some(TORQUE),
+    ),
+    refused("load.setup_tension", "\"400 N\"", LATER, None),
+    refused("load.belt_length", "\"4.36 m\"", LATER, None),
+    word(
+        NORMAL_FORCE,
+        "\"inertia\"",
+        "normal force",
+        &["inertia", "thesis", "exact"],
+    ),
 ];
 
-/// The entries that state one quantity in two ways: of each pair a drive file has exactly one.
+/// The entries that state one quantity in two ways: of each pair a drive file has at most one.
 pub(super) const SLACK: [&str; 2] = ["load.slack_tractive_tension", "load.slack_tension"];
 /// As [`SLACK`], for the tight span.
 pub(super) const TIGHT: [&str; 2] = ["load.tight_tractive_tension", "load.tight_tension"];
+
+/// The torque of the driven pulley, in place of the tension of a span.
+pub(super) const TORQUE: &str = "load.driven_torque";
+/// How the normal force follows from the tension of a flat belt.
+pub(super) const NORMAL_FORCE: &str = "model.normal_force";
 
 /// The entries of both span tensions.
 pub(super) const TENSIONS: [&str; 4] = [SLACK[0], SLACK[1], TIGHT[0], TIGHT[1]];
@@ -157,6 +183,19 @@ impl Rule {
     /// The entry as a line of its table.
     pub(super) fn line(&self) -> String {
         format!("{} = {}", split(self.path).1, self.example)
+    }
+
+    /// Whether the entry may not be given.
+    pub(super) fn is_refused(&self) -> bool {
+        matches!(self.kind, Kind::Refused { .. })
+    }
+
+    /// The path to propose for this entry: its own, unless another one is meant.
+    fn meant(&self) -> &'static str {
+        match self.kind {
+            Kind::Refused { instead, .. } => instead.unwrap_or(self.path),
+            _ => self.path,
+        }
     }
 }
 
@@ -208,7 +247,7 @@ pub(super) fn is_table(path: &str) -> bool {
 pub(super) fn names(table: &str) -> Vec<&'static str> {
     let keys = RULES
         .iter()
-        .filter(|rule| !matches!(rule.kind, Kind::Refused(_)))
+        .filter(|rule| !rule.is_refused())
         .map(|rule| rule.path);
     let mut names: Vec<_> = keys
         .chain(tables())
@@ -224,10 +263,10 @@ pub(super) fn names(table: &str) -> Vec<&'static str> {
 /// path of a like-named entry of another table.
 pub(super) fn nearest(path: &str) -> Option<&'static str> {
     let (table, name) = split(path);
-    let elsewhere = || RULES.iter().map(|rule| (split(rule.path).1, rule.path));
+    let elsewhere = || RULES.iter().map(|rule| (split(rule.path).1, rule.meant()));
     spelling::nearest(name, names(table).into_iter().map(|name| (name, name)))
         .or_else(|| spelling::nearest(name, elsewhere()))
-        .or_else(|| spelling::nearest(path, RULES.iter().map(|rule| (rule.path, rule.path))))
+        .or_else(|| spelling::nearest(path, RULES.iter().map(|rule| (rule.path, rule.meant()))))
 }
 
 /// The path of the entry `name` of a table. A name that is no bare TOML key keeps its quotes, so
@@ -268,7 +307,7 @@ mod tests {
         assert_eq!(names("pulleys"), ["driver", "driven"]);
         assert_eq!(names("pulleys.driven"), ["radius"]);
         let top = [
-            "title", "belt", "groove", "friction", "pulleys", "layout", "load",
+            "title", "belt", "groove", "friction", "pulleys", "layout", "load", "model",
         ];
         assert_eq!(names(""), top);
     }
@@ -279,5 +318,7 @@ mod tests {
         assert_eq!(nearest("belt.half_angel"), Some("groove.half_angle"));
         assert_eq!(nearest("frction"), Some("friction"));
         assert_eq!(nearest("belt.colour"), None);
+        assert_eq!(nearest("torqe"), Some(TORQUE));
+        assert_eq!(nearest("normal_force"), Some(NORMAL_FORCE));
     }
 }

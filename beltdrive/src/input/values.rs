@@ -63,6 +63,12 @@ impl<'d> Values<'d> {
         entry.map_or(self.document.end.clone(), |entry| entry.place.clone())
     }
 
+    /// Where the key of the entry at `path` stands.
+    pub(super) fn key_place(&self, path: &str) -> Range<usize> {
+        let entry = self.document.entries.get(path);
+        entry.map_or(self.document.end.clone(), |entry| entry.key.clone())
+    }
+
     /// The finding that a drive has none of the entries at `paths`, all of one table.
     pub(super) fn missing(&self, paths: &[&str]) -> Finding {
         let rules: Vec<_> = paths.iter().filter_map(|path| schema::rule(path)).collect();
@@ -93,22 +99,20 @@ impl<'d> Values<'d> {
                 let value = check::number(rule, dimension, below, entry, source)?;
                 self.numbers.insert(rule.path, value);
             }
-            Kind::Word {
-                what,
-                words,
-                unsolved,
-            } => {
-                let word = check::word(rule, what, words, unsolved, entry)?;
+            Kind::Word { what, words } => {
+                let word = check::word(rule, what, words, entry)?;
                 self.texts.insert(rule.path, word.to_owned());
             }
             Kind::Text => {
                 let text = check::text(rule, entry)?;
                 self.texts.insert(rule.path, text.to_owned());
             }
-            Kind::Refused(reason) => {
+            Kind::Refused { reason, instead } => {
                 let message = format!("`{}` {reason}", rule.path);
                 let expected = check::one_of(&schema::names(schema::split(rule.path).0));
-                return Err(Finding::new(entry.key.clone(), message).expected(expected));
+                return Err(Finding::new(entry.key.clone(), message)
+                    .expected(expected)
+                    .did_you_mean(instead.map(|path| schema::split(path).1)));
             }
         }
         Ok(())

@@ -33,7 +33,7 @@ pub(super) fn figure(curve: &LimitCurve) -> String {
 /// The colour of a kind of limit.
 fn color(reason: LimitReason) -> RGBColor {
     match reason {
-        LimitReason::Overhang => style::VERMILION,
+        LimitReason::Overhang | LimitReason::LiftsOff => style::VERMILION,
         LimitReason::DriverSlips | LimitReason::Capstan(Pulley::Driver) => style::WINE,
         LimitReason::DrivenSlips | LimitReason::Capstan(Pulley::Driven) => style::BLUE,
     }

@@ -23,7 +23,7 @@ pub(crate) fn folded() -> Branch {
         (EventKind::End, 1.0),
     ];
     Branch {
-        key: Key::tight_tension(&drive),
+        key: Key::load(&drive),
         drive,
         points,
         events: events.map(|(kind, at)| event(kind, at)).to_vec(),

@@ -74,7 +74,7 @@ mod tests {
     fn values_have_unit_and_known_digits() {
         let drive = sample::loaded().drive;
         let find = |path| Key::all(&drive).find(|key| key.path() == path).unwrap();
-        let tight = Key::tight_tension(&drive);
+        let tight = Key::load(&drive);
         assert_eq!(quantity(tight, 8_221.013_42, Some(0.004)), "8221.01 N");
         assert_eq!(quantity(tight, 700.0, None), "700 N");
         assert_eq!(quantity(tight, 700.0, Some(0.0)), "700 N");

@@ -105,6 +105,7 @@ pub(super) fn end_kind(end: &BranchEnd) -> &'static str {
         BranchEnd::Returned => "returned",
         BranchEnd::GrossSlip(_) => "gross slip",
         BranchEnd::NoLoad => "no load",
+        BranchEnd::LiftsOff => "lift-off",
         BranchEnd::Closed => "closed",
         BranchEnd::NotConverged { .. } => "not converged",
     }
@@ -115,15 +116,17 @@ pub(super) fn limit_kind(reason: LimitReason) -> &'static str {
     match reason {
         LimitReason::DriverSlips | LimitReason::Overhang => "fold",
         LimitReason::DrivenSlips | LimitReason::Capstan(_) => "gross slip",
+        LimitReason::LiftsOff => "lift-off",
     }
 }
 
-/// The pulley a limit is about.
-pub(super) fn limit_pulley(reason: LimitReason) -> Pulley {
+/// The pulley a limit is about, if it is about one.
+pub(super) fn limit_pulley(reason: LimitReason) -> Option<Pulley> {
     match reason {
-        LimitReason::DriverSlips | LimitReason::Overhang => Pulley::Driver,
-        LimitReason::DrivenSlips => Pulley::Driven,
-        LimitReason::Capstan(pulley) => pulley,
+        LimitReason::DriverSlips | LimitReason::Overhang => Some(Pulley::Driver),
+        LimitReason::DrivenSlips => Some(Pulley::Driven),
+        LimitReason::Capstan(pulley) => Some(pulley),
+        LimitReason::LiftsOff => None,
     }
 }
 
@@ -134,6 +137,7 @@ pub(crate) fn limit_label(reason: LimitReason) -> &'static str {
         LimitReason::DriverSlips => "fold: driver slips",
         LimitReason::DrivenSlips | LimitReason::Capstan(Pulley::Driven) => "driven pulley slips",
         LimitReason::Capstan(Pulley::Driver) => "driver slips",
+        LimitReason::LiftsOff => "belt lifts off",
     }
 }
 
@@ -149,7 +153,7 @@ pub(super) fn range_end_kind(end: RangeEnd) -> &'static str {
 /// The pulley the end of a range is about, if it is about one.
 pub(super) fn range_end_pulley(end: RangeEnd) -> Option<Pulley> {
     match end {
-        RangeEnd::Limit(reason) => Some(limit_pulley(reason)),
+        RangeEnd::Limit(reason) => limit_pulley(reason),
         RangeEnd::NoLoad | RangeEnd::NotFound => None,
     }
 }
@@ -194,7 +198,7 @@ mod tests {
             EventKind::BranchPoint,
         ];
         let kinds = plain.into_iter().chain([EventKind::End]).chain(of_pulley);
-        let key = Key::tight_tension(&sample::loaded().drive);
+        let key = Key::load(&sample::loaded().drive);
         let mut words = Vec::new();
         for kind in kinds {
             let label = event_label(kind);

@@ -102,7 +102,7 @@ impl<'d> Chart<'d> {
     fn locate(&mut self, value: f64) -> Result<Located, SolveError> {
         let mut drive = self.drive.clone();
         self.second.set(&mut drive, value);
-        let tight = Key::tight_tension(&drive);
+        let tight = Key::load(&drive);
         // A slack tension above the tight one of the file leaves no load: begin with a light one.
         let least = 1.5 * drive.load.slack.value();
         if self.key == tight && tight.get(&drive) < least {

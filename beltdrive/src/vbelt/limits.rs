@@ -3,12 +3,12 @@
 use super::path::{Path, Solved};
 use super::solve::{carried, find};
 use super::state::describe;
-use super::tracer::{Tracer, Until, errors};
+use super::tracer::{Tracer, Until};
 use super::watched::RATIOS;
 use crate::input::Key;
 use crate::{
     Branch, BranchEnd, BranchEvent, Drive, EventKind, Limit, LimitReason, Limits, RangeEnd,
-    SolveError, SolveOptions, StateSummary, TracePoint,
+    SolveError, SolveOptions, StateErrors, StateSummary, TracePoint,
 };
 use continuation::Direction;
 use std::f64::consts::PI;
@@ -40,7 +40,7 @@ pub(crate) fn limits(
 
     let mut up = upwards(&drive, key, tolerance, solved.clone(), high, progress);
     let largest = up.limit();
-    let is_load = *key == Key::tight_tension(&drive);
+    let is_load = *key == Key::load(&drive);
     let bottom = if is_load && !matches!(drive.law, crate::FrictionLaw::Bristle { .. }) {
         // Below that the branch is left to the state without load.
         (RATIOS[0] * drive.load.slack.value()).min(value)
@@ -101,7 +101,7 @@ pub(super) fn first_state(
     key: &Key,
     tolerance: f64,
 ) -> Result<(Drive, Solved), SolveError> {
-    let tight = Key::tight_tension(drive);
+    let tight = Key::load(drive);
     let mut first = drive.clone();
     let ratio = tight.get(drive) / drive.load.slack.value();
     let mut attempt = |share: f64| {
@@ -173,7 +173,7 @@ impl Traced<'_> {
 
 /// The state without load: both spans have the same tension. Its ε is the smallest that was reached.
 fn no_load(drive: &Drive, tolerance: f64) -> Result<Limit, SolveError> {
-    let key = Key::tight_tension(drive);
+    let key = Key::load(drive);
     let mut idle = drive.clone();
     let value = drive.load.slack.value();
     key.set(&mut idle, value);
@@ -203,7 +203,7 @@ fn no_load(drive: &Drive, tolerance: f64) -> Result<Limit, SolveError> {
         value,
         value_error: Some(0.0),
         reason: RangeEnd::NoLoad,
-        errors: relative.map(|relative| errors(&state, drive, relative)),
+        errors: relative.map(|relative| StateErrors::relative(&state, drive, relative)),
         state,
     })
 }

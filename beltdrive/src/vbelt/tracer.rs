@@ -13,8 +13,8 @@ use super::path::Solved;
 use super::piece::PieceEnd;
 use crate::input::Key;
 use crate::{
-    BranchEnd, BranchEvent, Drive, EventKind, PulleyErrors, PulleySummary, StateErrors,
-    StateSummary, SteadyState, TraceConvergence, TracePoint,
+    BranchEnd, BranchEvent, Drive, EventKind, StateErrors, StateSummary, SteadyState,
+    TraceConvergence, TracePoint,
 };
 use continuation::{Direction, Kind, Point, Stop};
 use std::time::Instant;
@@ -173,7 +173,8 @@ impl<'d> Tracer<'d> {
                 kind,
                 point: traced.clone(),
                 value_error: error.map(|error| error.lambda * self.unit()),
-                errors: relative.map(|relative| errors(&traced.state, self.drive, relative)),
+                errors: relative
+                    .map(|relative| StateErrors::relative(&traced.state, self.drive, relative)),
             });
         }
         let first_of_next_piece = point.kind == Kind::Start && !self.points.is_empty();
@@ -207,7 +208,7 @@ impl<'d> Tracer<'d> {
         let first = self.points.first().map(|point| point.value);
         match stop {
             Some(Stop::Bound { .. }) => {
-                let is_load = self.key == Key::tight_tension(self.drive);
+                let is_load = self.key == Key::load(self.drive);
                 let is_slack = self.key.path().starts_with("load.slack");
                 let other = match self.drive.load {
                     load if is_load => Some(load.slack.value()),
@@ -230,28 +231,4 @@ impl<'d> Tracer<'d> {
             None => BranchEnd::Target,
         }
     }
-}
-
-/// Absolute errors of the scalars of a state with a relative error.
-pub(super) fn errors(state: &StateSummary, drive: &Drive, relative: f64) -> StateErrors {
-    let pulley = |pulley: &PulleySummary, radius: f64| PulleyErrors {
-        angular_speed: relative * state.driver.angular_speed,
-        // A torque is a difference of tensions.
-        torque: relative * state.tight_tension * radius,
-        wrap_angle: relative * pulley.wrap_angle,
-        max_penetration: relative * pulley.max_penetration,
-        inclination: [relative * steepest(state); 2],
-    };
-    StateErrors {
-        efficiency: relative,
-        driver: pulley(&state.driver, drive.driver_radius),
-        driven: pulley(&state.driven, drive.driven_radius),
-    }
-}
-
-/// The largest inclination at the ends of both pulleys.
-fn steepest(state: &StateSummary) -> f64 {
-    let ends = [state.driver.inclination, state.driven.inclination].concat();
-    ends.into_iter()
-        .fold(0.0, |m: f64, theta| m.max(theta.abs()))
 }

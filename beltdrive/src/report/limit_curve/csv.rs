@@ -18,7 +18,9 @@ pub fn csv(curve: &LimitCurve) -> String {
             key.reported(point.value).to_string(),
             rows::optional(point.value_error.map(|error| key.reported(error))),
             words::limit_kind(point.reason).to_owned(),
-            words::pulley_word(words::limit_pulley(point.reason)).to_owned(),
+            words::limit_pulley(point.reason)
+                .map_or("", words::pulley_word)
+                .to_owned(),
         ];
         let scalars = columns.iter().map(|column| column.text(&point.state));
         own.into_iter().chain(scalars).collect()

@@ -52,7 +52,7 @@ struct PointReport {
     value: f64,
     value_error: Option<f64>,
     reason: &'static str,
-    pulley: Pulley,
+    pulley: Option<Pulley>,
     description: String,
     #[serde(flatten)]
     scalars: Scalars,

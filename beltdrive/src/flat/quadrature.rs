@@ -1,0 +1,82 @@
+//! Where a zone changes quickly: places for profiles, and integrals along the belt.
+
+use super::contact::{Contact, ContactZone, Friction, Place};
+
+/// Beyond so many decay lengths before the end of a zone nothing changes, to rounding.
+const DECAY_LENGTHS: f64 = 40.0;
+
+/// Nodes and weights of Gauss quadrature with six nodes on (−1, 1), one half of each; the other half
+/// mirrors them (Abramowitz and Stegun, table 25.4).
+const GAUSS: [[f64; 2]; 3] = [
+    [0.238_619_186_083_196_9, 0.467_913_934_572_691],
+    [0.661_209_386_466_264_5, 0.360_761_573_048_138_6],
+    [0.932_469_514_203_152, 0.171_324_492_379_170_36],
+];
+
+impl Contact {
+    /// Shares of a zone that bound panels on which all quantities are smooth, finer towards the end,
+    /// where displacements and slip velocities grow exponentially.
+    pub(super) fn panels(&self, zone: &ContactZone) -> Vec<f64> {
+        let extent = zone.end - zone.start.arc_length;
+        let decays = match zone.friction {
+            Friction::Adhesion => 0.0,
+            Friction::Elastic { rate, length, .. } => rate * length,
+            Friction::Slip => self.arc.slip_rate * extent,
+            Friction::Creep {
+                speed, saturation, ..
+            } => {
+                let unit = speed * self.arc.entry / self.arc.belt.stiffness;
+                self.arc.slip_rate * extent * (unit + 2.0 * saturation) / saturation
+            }
+        };
+        // Panels of two thirds of a decay length.
+        let panel = (2.0 / 3.0 / decays).min(0.25);
+        let graded = (DECAY_LENGTHS.min(decays) / decays).min(1.0);
+        let steps = (graded / panel).ceil();
+        let mut shares = vec![0.0];
+        if graded < 1.0 {
+            shares.push(1.0 - graded);
+        }
+        let mut step = 1.0;
+        while step <= steps {
+            shares.push(1.0 - graded * (1.0 - step / steps));
+            step += 1.0;
+        }
+        shares
+    }
+
+    /// The integral of a function of the place over the arc length of the whole contact.
+    pub(super) fn integral(&self, function: impl Fn(&Place) -> f64) -> f64 {
+        self.zones
+            .iter()
+            .map(|zone| self.over(zone, &function))
+            .sum()
+    }
+
+    fn over(&self, zone: &ContactZone, function: &impl Fn(&Place) -> f64) -> f64 {
+        let panels = self.panels(zone);
+        let integrand = |share: f64| {
+            let place = self.at(zone, share);
+            function(&place) * self.arc_per_share(zone, &place)
+        };
+        panels
+            .windows(2)
+            .map(|panel| {
+                let [middle, half] = [0.5 * (panel[0] + panel[1]), 0.5 * (panel[1] - panel[0])];
+                let nodes = GAUSS.iter().map(|[node, weight]| {
+                    let ends = [middle - half * node, middle + half * node];
+                    weight * ends.map(&integrand).iter().sum::<f64>()
+                });
+                half * nodes.sum::<f64>()
+            })
+            .sum()
+    }
+
+    /// Arc length per share of a zone, at a place, m.
+    fn arc_per_share(&self, zone: &ContactZone, place: &Place) -> f64 {
+        match zone.friction {
+            Friction::Elastic { length, .. } => length * self.arc.belt.stretch(place.traction),
+            _ => zone.end - zone.start.arc_length,
+        }
+    }
+}

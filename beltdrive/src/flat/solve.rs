@@ -1,0 +1,50 @@
+//! A flat-belt drive in, a steady state or the reason why there is none out.
+
+use super::closed_form::{ClosedForm, Refusal};
+use super::limits::largest_load;
+use super::state::steady_state;
+use crate::input::Key;
+use crate::{Check, Drive, SolveError, SteadyState};
+use std::time::Instant;
+
+/// The steady state of a flat-belt drive.
+pub(crate) fn solve(drive: &Drive) -> Result<SteadyState, SolveError> {
+    let start = Instant::now();
+    let solved = ClosedForm::new(drive).map_err(|refusal| refused(drive, refusal))?;
+    let state = steady_state(drive, &solved, start);
+    let violated = |check: &&Check| check.deviation.is_nan() || check.deviation > check.limit;
+    match state.checks.iter().find(violated) {
+        Some(check) => Err(SolveError::Violated(check.clone())),
+        None => Ok(state),
+    }
+}
+
+/// The reason in engineering words, with the largest load.
+pub(super) fn refused(drive: &Drive, refusal: Refusal) -> SolveError {
+    match refusal {
+        Refusal::LiftsOff {
+            tension,
+            speed,
+            centrifugal,
+        } => SolveError::LiftsOff {
+            tension,
+            speed,
+            centrifugal,
+        },
+        Refusal::Backwards {
+            tension: [slack, tight],
+        } => SolveError::Backwards { slack, tight },
+        Refusal::Slips(reason) => {
+            let key = Key::load(drive);
+            let asked = key.get(drive);
+            let limit = largest_load(drive, &key);
+            SolveError::GrossSlip {
+                quantity: key.name(),
+                unit: key.unit(),
+                asked,
+                limit: limit.map_or(f64::NAN, |limit| limit.value),
+                reason: limit.map_or(reason, |limit| limit.reason),
+            }
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! The closed form as a steady state: profiles, powers, and the invariants it has to satisfy.
+
+use super::closed_form::ClosedForm;
+use super::contact::{Contact, Place};
+use super::{DRIVEN, DRIVER, epp};
+use crate::{
+    BeltKind, Check, Convergence, Drive, Entry, FrictionLaw, NormalForce, Profile, PulleyState,
+    SteadyState, Zone,
+};
+use std::f64::consts::FRAC_PI_2;
+use std::time::Instant;
+
+/// Points of a profile per panel of a zone.
+const POINTS: usize = 4;
+
+/// How far an invariant may be off, relative: quadrature has about eleven digits.
+const ALLOWED: f64 = 1e-9;
+
+/// The whole steady state.
+pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -> SteadyState {
+    let belt = drive.belt;
+    let axial = belt.axial_stiffness;
+    let flow = belt.mass_per_length * solved.speed;
+    let share = 1.0 - flow * solved.speed / axial;
+    let tractive = |tension: f64| tension * share - flow * solved.speed;
+    let [slack, tight] = solved.tension;
+    let [driven, driver] = [DRIVEN, DRIVER].map(|pulley| pulley_state(drive, solved, pulley));
+    let powers = [&driven, &driver].map(|pulley| pulley.torque * pulley.angular_speed);
+    let unstretched = |span: f64, tension: f64| span / (1.0 + tension / axial);
+    let on_pulleys = solved.contact.iter().map(|contact| {
+        let stretch = |place: &Place| 1.0 + contact.arc.belt.tension(place.traction) / axial;
+        contact.integral(|place| stretch(place).recip())
+    });
+    let span = solved.geometry.span;
+    let mut state = SteadyState {
+        drive: drive.clone(),
+        mass_flow: flow,
+        belt_length: on_pulleys.sum::<f64>() + unstretched(span, slack) + unstretched(span, tight),
+        slack_span: span,
+        tight_span: span,
+        slack_tension: slack,
+        tight_tension: tight,
+        slack_tractive_tension: tractive(slack),
+        tight_tractive_tension: tractive(tight),
+        efficiency: match powers[DRIVER] > 0.0 {
+            true => powers[DRIVEN] / powers[DRIVER],
+            false => 0.0,
+        },
+        friction_loss: powers[DRIVER] - powers[DRIVEN],
+        driver,
+        driven,
+        warnings: Vec::new(),
+        checks: Vec::new(),
+        convergence: Convergence {
+            newton_iterations: solved.evaluations,
+            ..Convergence::default()
+        },
+        restart: None,
+    };
+    state.checks = checks(drive, solved, &state);
+    state.convergence.error_estimate = closing_error(solved);
+    state.convergence.seconds = start.elapsed().as_secs_f64();
+    state
+}
+
+/// How far the tractions at the ends of both pulleys are off, relative; at least the rounding of
+/// doubles.
+fn closing_error(solved: &ClosedForm) -> f64 {
+    let off = |contact: &Contact| {
+        let last = contact.zones.last().map(|zone| contact.end(zone).traction);
+        last.map_or(0.0, |traction| (traction / contact.arc.exit() - 1.0).abs())
+    };
+    let [driven, driver] = &solved.contact;
+    off(driven).max(off(driver)).max(4.0 * f64::EPSILON)
+}
+
+/// One pulley in SI units.
+fn pulley_state(drive: &Drive, solved: &ClosedForm, pulley: usize) -> PulleyState {
+    let contact = &solved.contact[pulley];
+    let arc = contact.arc;
+    let radius = [drive.driven_radius, drive.driver_radius][pulley];
+    let zones = contact.zones.iter().map(|zone| Zone {
+        kind: zone.friction.kind(),
+        from: zone.start.arc_length / radius,
+        to: zone.end / radius,
+    });
+    PulleyState {
+        angular_speed: match pulley {
+            DRIVER => drive.driver_speed,
+            _ => solved.rim_speed(drive, pulley) / radius,
+        },
+        torque: arc.change * radius,
+        wrap_angle: solved.geometry.wrap[pulley],
+        max_penetration: 0.0,
+        inclination: [0.0; 2],
+        zones: zones.collect(),
+        entry: Some(Entry {
+            reference_tension: arc.belt.tension(contact.reference()),
+            strain: arc.sense * contact.strain,
+            smallest_stiffness: match drive.law {
+                FrictionLaw::Epp { .. } => epp::smallest_stiffness(arc),
+                _ => None,
+            },
+        }),
+        profile: profile(drive, solved, pulley),
+    }
+}
+
+/// The belt along one pulley in SI units.
+fn profile(drive: &Drive, solved: &ClosedForm, pulley: usize) -> Profile {
+    let contact = &solved.contact[pulley];
+    let belt = drive.belt;
+    let radius = [drive.driven_radius, drive.driver_radius][pulley];
+    let flow = belt.mass_per_length * solved.speed;
+    let thesis = BeltKind::Flat {
+        normal_force: NormalForce::Thesis,
+    };
+    let mut profile = Profile::default();
+    let mut push = |place: &Place| {
+        let tension = contact.arc.belt.tension(place.traction);
+        let speed = solved.speed * (1.0 + tension / belt.axial_stiffness);
+        let tractive = tension - flow * speed;
+        let pressing = if belt.kind == thesis {
+            tension
+        } else {
+            tractive
+        };
+        profile.angle.push(place.arc_length / radius);
+        profile.arc_length.push(place.arc_length);
+        profile.tension.push(tension);
+        profile.tractive_tension.push(tractive);
+        profile.inclination.push(0.0);
+        profile.penetration.push(0.0);
+        profile
+            .displacement
+            .push(contact.arc.sense * place.displacement);
+        profile.sliding_angle.push(contact.arc.sense * FRAC_PI_2);
+        profile.normal_force.push(pressing / radius);
+        profile.friction_force.push(place.friction);
+    };
+    for zone in &contact.zones {
+        push(&contact.at(zone, 0.0));
+        for panel in contact.panels(zone).windows(2) {
+            for point in 1..=POINTS {
+                let share = point as f64 / POINTS as f64;
+                push(&contact.at(zone, panel[0] + share * (panel[1] - panel[0])));
+            }
+        }
+    }
+    profile
+}
+
+/// The invariants, from the friction law along the profile and not from the equations that were solved.
+fn checks(drive: &Drive, solved: &ClosedForm, state: &SteadyState) -> Vec<Check> {
+    let torque = |pulley: usize| {
+        let contact = &solved.contact[pulley];
+        let friction = contact.integral(|place| place.friction);
+        (friction - contact.arc.change).abs() / contact.arc.entry.max(contact.arc.exit())
+    };
+    let driven = Check {
+        name: "torque of the driven pulley from its friction",
+        deviation: torque(DRIVEN),
+        limit: ALLOWED,
+    };
+    let driver = Check {
+        name: "torque of the driver from its friction",
+        deviation: torque(DRIVER),
+        limit: ALLOWED,
+    };
+    // Friction works against the slip velocity |V − R ω|.
+    let dissipated = |pulley: usize| {
+        let contact = &solved.contact[pulley];
+        let rim = solved.rim_speed(drive, pulley);
+        let slip = |place: &Place| {
+            let tension = contact.arc.belt.tension(place.traction);
+            solved.speed * (1.0 + tension / drive.belt.axial_stiffness) - rim
+        };
+        contact.integral(|place| place.friction * slip(place).abs())
+    };
+    let lost = dissipated(DRIVEN) + dissipated(DRIVER);
+    let transmitted = solved.tension[1] * solved.speed;
+    let power = Check {
+        name: "power balance",
+        deviation: (lost - state.friction_loss).abs() / transmitted,
+        limit: ALLOWED,
+    };
+    let excess = solved.contact.iter().flat_map(|contact| {
+        contact.zones.iter().flat_map(move |zone| {
+            let shares = contact.panels(zone);
+            shares.into_iter().map(move |share| {
+                let place = contact.at(zone, share);
+                place.friction / (contact.arc.slip_rate * place.traction) - 1.0
+            })
+        })
+    });
+    let limit = Check {
+        name: "friction within its limit",
+        deviation: excess.fold(0.0, f64::max),
+        limit: ALLOWED,
+    };
+    vec![driven, driver, power, limit]
+}

@@ -1,0 +1,240 @@
+//! The steady states of a flat-belt drive over one entry of the drive file.
+//!
+//! There is one state for each value, in closed form, so that the branch has no limit points and is
+//! sampled; where the friction zones change between two samples, the place is found by bisection.
+
+use super::closed_form::Refusal;
+use super::range::{End, Members};
+use super::solve::refused;
+use crate::input::Key;
+use crate::{
+    Branch, BranchEnd, BranchEvent, Drive, EventKind, LimitReason, Pulley, SolveError,
+    SolveOptions, TraceConvergence, TracePoint, ZoneKind,
+};
+use std::time::Instant;
+
+/// Intervals between the samples of a branch.
+const INTERVALS: usize = 48;
+/// A range is sampled in equal ratios if its ends have a larger one.
+const WIDE: f64 = 20.0;
+/// Zones that change within this share of the range from its start are not told apart from it.
+const EDGE: f64 = 1e-9;
+/// Bisections after which two doubles of one sign are neighbours.
+const BISECTIONS: usize = 80;
+
+/// The branch of steady states over an entry from `range[0]` to `range[1]`.
+pub(crate) fn trace(
+    drive: &Drive,
+    key: &Key,
+    range: [f64; 2],
+    options: &SolveOptions,
+) -> Result<Branch, SolveError> {
+    branch_between(&Members::new(drive, key), range, options)
+}
+
+/// As [`trace`].
+pub(super) fn branch_between(
+    members: &Members<'_>,
+    range: [f64; 2],
+    options: &SolveOptions,
+) -> Result<Branch, SolveError> {
+    let start = Instant::now();
+    let [from, to] = range;
+    members
+        .at(from)
+        .map_err(|refusal| refused(&members.drive_at(from), refusal))?;
+    let mut trace = Trace {
+        members,
+        range,
+        points: Vec::new(),
+        events: Vec::new(),
+    };
+    trace.event(EventKind::Start, from);
+    let mut last = from;
+    let mut end = BranchEnd::Target;
+    for value in samples(range) {
+        if members.at(value).is_err() {
+            end = trace.stop(last, value);
+            break;
+        }
+        trace.zones_between(last, value);
+        trace.point(value);
+        last = value;
+    }
+    if end == BranchEnd::Target {
+        trace.event(EventKind::End, to);
+    }
+    let continuation_steps = trace.points.len() + trace.events.len();
+    Ok(Branch {
+        key: members.key,
+        drive: members.drive.clone(),
+        points: trace.points,
+        events: trace.events,
+        end,
+        convergence: TraceConvergence {
+            tolerance: options.tolerance,
+            continuation_steps,
+            seconds: start.elapsed().as_secs_f64(),
+            ..TraceConvergence::default()
+        },
+    })
+}
+
+/// The values of a range after its first, in equal differences or ratios.
+fn samples([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
+    let ratio = to / from;
+    let is_wide = ratio.is_normal() && ratio.max(ratio.recip()) > WIDE;
+    (1..=INTERVALS).map(move |sample| {
+        let share = sample as f64 / INTERVALS as f64;
+        match sample {
+            INTERVALS => to,
+            _ if is_wide => from * ratio.powf(share),
+            _ => from + share * (to - from),
+        }
+    })
+}
+
+/// A branch in the making.
+struct Trace<'m> {
+    members: &'m Members<'m>,
+    range: [f64; 2],
+    points: Vec<TracePoint>,
+    events: Vec<BranchEvent>,
+}
+
+/// The kinds of the zones of the driven pulley and of the driver.
+type Zones = [Vec<ZoneKind>; 2];
+
+impl Trace<'_> {
+    /// The state at a value that the drive carries.
+    fn state(&self, value: f64) -> Option<TracePoint> {
+        let [from, to] = self.range;
+        Some(TracePoint {
+            value,
+            arclength: (value - from).abs() / (to - from).abs(),
+            state: self.members.summary(value)?,
+        })
+    }
+
+    fn point(&mut self, value: f64) {
+        self.points.extend(self.state(value));
+    }
+
+    /// Adds what happens at a value, as a point, too.
+    fn event(&mut self, kind: EventKind, value: f64) {
+        let located = !matches!(kind, EventKind::Start | EventKind::End);
+        if !located {
+            self.points.retain(|point| point.value != value);
+            self.point(value);
+        }
+        let [from, _] = self.range;
+        let errors = self.members.errors(value, from);
+        self.events
+            .extend(self.state(value).map(|point| BranchEvent {
+                kind,
+                value_error: Some(if located {
+                    f64::EPSILON * value.abs()
+                } else {
+                    0.0
+                }),
+                errors,
+                point,
+            }));
+    }
+
+    /// Ends the branch between a value that the drive carries and one that it does not.
+    fn stop(&mut self, inside: f64, outside: f64) -> BranchEnd {
+        let Some(End { value, refusal }) = self.members.end_between(inside, outside) else {
+            return BranchEnd::Target;
+        };
+        self.zones_between(inside, value);
+        match refusal {
+            Refusal::Slips(reason) => {
+                let pulley = match reason {
+                    LimitReason::Capstan(pulley) => pulley,
+                    _ => Pulley::Driven,
+                };
+                self.event(EventKind::GrossSlip(pulley), value);
+                BranchEnd::GrossSlip(pulley)
+            }
+            Refusal::LiftsOff { .. } => {
+                self.event(EventKind::End, value);
+                BranchEnd::LiftsOff
+            }
+            Refusal::Backwards { .. } => {
+                self.event(EventKind::End, value);
+                BranchEnd::NoLoad
+            }
+        }
+    }
+
+    /// Locates where zones appear and vanish between two values that the drive carries.
+    fn zones_between(&mut self, from: f64, to: f64) {
+        let [start, end] = self.range;
+        let edge = EDGE * (end - start).abs();
+        let Some(last) = self.zones(to) else {
+            return;
+        };
+        let mut here = from;
+        while let Some(zones) = self.zones(here)
+            && zones != last
+        {
+            let (before, after) = self.change(&zones, here, to);
+            // Beyond the rounding errors of the place.
+            let beyond = after + (end - start).signum() * edge.min((to - after).abs());
+            let Some(next) = self.zones(beyond) else {
+                return;
+            };
+            if (before - start).abs() > edge {
+                for kind in changes(&zones, &next) {
+                    self.event(kind, after);
+                }
+            }
+            if beyond == here {
+                return;
+            }
+            here = beyond;
+        }
+    }
+
+    /// Neighbouring values between which zones are no longer those at the first.
+    fn change(&self, zones: &Zones, mut before: f64, mut after: f64) -> (f64, f64) {
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (before + after);
+            if middle == before || middle == after {
+                break;
+            }
+            match self.zones(middle).as_ref() == Some(zones) {
+                true => before = middle,
+                false => after = middle,
+            }
+        }
+        (before, after)
+    }
+
+    fn zones(&self, value: f64) -> Option<Zones> {
+        let solved = self.members.at(value).ok()?;
+        let kinds = solved.contact.map(|contact| {
+            let zones = contact.zones.iter();
+            zones.map(|zone| zone.friction.kind()).collect()
+        });
+        Some(kinds)
+    }
+}
+
+/// The zones that appear and vanish.
+fn changes(before: &Zones, after: &Zones) -> Vec<EventKind> {
+    let count = |zones: &[ZoneKind], kind| zones.iter().filter(|&&zone| zone == kind).count();
+    let pulleys = [Pulley::Driven, Pulley::Driver];
+    let mut events = Vec::new();
+    for (pulley, (before, after)) in pulleys.into_iter().zip(before.iter().zip(after)) {
+        for kind in ZoneKind::ALL {
+            match count(after, kind).cmp(&count(before, kind)) {
+                std::cmp::Ordering::Greater => events.push(EventKind::ZoneAppears { pulley, kind }),
+                std::cmp::Ordering::Less => events.push(EventKind::ZoneVanishes { pulley, kind }),
+                std::cmp::Ordering::Equal => {}
+            }
+        }
+    }
+    events
+}
