@@ -70,6 +70,7 @@ mod limits;
 pub mod plot;
 pub mod report;
 mod solve;
+mod stability;
 mod state_summary;
 mod steady_state;
 mod vbelt;
@@ -79,6 +80,10 @@ pub use drive::{Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SpanTensi
 pub use limit_curve::{LimitCurve, LimitCurvePoint, limit_curve};
 pub use limits::{Limit, LimitReason, Limits, RangeEnd, limits};
 pub use solve::{SolveError, SolveOptions, solve, solve_from};
+pub use stability::{
+    AxialMode, FormStability, LinearisedForm, Onset, PulleyStability, ShapePoint, Stability,
+    stability,
+};
 pub use state_summary::{PulleyErrors, PulleySummary, StateErrors, StateSummary};
 pub use steady_state::{
     Check, Convergence, Entry, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind,

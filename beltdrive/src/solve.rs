@@ -84,6 +84,12 @@ pub enum SolveError {
         /// Belt tension of the tight span, N.
         tight: f64,
     },
+    /// The eigenvalues of the axial motion were not found beyond doubt.
+    #[error("stability: {cause}")]
+    Stability {
+        /// Why.
+        cause: String,
+    },
     /// There is no model of such a drive.
     #[error("{0}")]
     NotModelled(&'static str),

@@ -20,6 +20,7 @@ mod quadrature;
 mod range;
 mod root;
 mod solve;
+mod stability;
 mod state;
 mod trace;
 mod traction;
@@ -27,6 +28,8 @@ mod traction;
 pub(crate) use limit_curve::limit_curve;
 pub(crate) use limits::limits;
 pub(crate) use solve::solve;
+pub use stability::LinearisedForm;
+pub(crate) use stability::stability;
 pub(crate) use trace::trace;
 
 /// Indices of the pulleys.

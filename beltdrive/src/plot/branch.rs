@@ -1,11 +1,12 @@
 //! The bifurcation diagram of a branch: scalars of its states over the parameter.
 
 use super::axis::{Axis, Scale};
+use super::diagrams::{self, Curve, DRIVEN, DRIVER, Diagram};
 use super::panel::{Chart, Panel};
 use super::style::{self, Canvas, Drawn, Header, Legend, Stroke, px};
 use crate::input::Key;
 use crate::report::{value, words};
-use crate::{Branch, StateSummary, TracePoint};
+use crate::{Branch, TracePoint};
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
 use std::iter;
@@ -17,74 +18,6 @@ const PANELS: f64 = 680.0;
 /// Height of a line of the list of events and the space below it, px.
 const LINE: f64 = 20.0;
 const BELOW: f64 = 16.0;
-
-/// A panel: one or two scalars of one unit.
-struct Diagram {
-    title: &'static str,
-    axis: &'static str,
-    scale: Scale,
-    curves: &'static [Curve],
-}
-
-/// A scalar of the states.
-struct Curve {
-    color: RGBColor,
-    quantity: fn(&StateSummary) -> f64,
-}
-
-const DRIVER: RGBColor = style::VERMILION;
-const DRIVEN: RGBColor = style::BLUE;
-
-const DIAGRAMS: [Diagram; 4] = [
-    Diagram {
-        title: "Speed of the driven pulley",
-        axis: "angular speed in rad/s",
-        scale: Scale::Decimal,
-        curves: &[Curve {
-            color: DRIVEN,
-            quantity: |state| state.driven.angular_speed,
-        }],
-    },
-    Diagram {
-        title: "Efficiency",
-        axis: "efficiency in %",
-        scale: Scale::Decimal,
-        curves: &[Curve {
-            color: style::INK,
-            quantity: |state| 100.0 * state.efficiency,
-        }],
-    },
-    Diagram {
-        title: "Wrap angles",
-        axis: "wrap angle in degrees",
-        scale: Scale::Degrees,
-        curves: &[
-            Curve {
-                color: DRIVER,
-                quantity: |state| state.driver.wrap_angle.to_degrees(),
-            },
-            Curve {
-                color: DRIVEN,
-                quantity: |state| state.driven.wrap_angle.to_degrees(),
-            },
-        ],
-    },
-    Diagram {
-        title: "Inclination of the belt at the exit, positive outward",
-        axis: "inclination in degrees",
-        scale: Scale::Degrees,
-        curves: &[
-            Curve {
-                color: DRIVER,
-                quantity: |state| state.driver.inclination[1].to_degrees(),
-            },
-            Curve {
-                color: DRIVEN,
-                quantity: |state| state.driven.inclination[1].to_degrees(),
-            },
-        ],
-    },
-];
 
 /// The figure of a branch.
 pub(super) fn figure(branch: &Branch) -> String {
@@ -103,7 +36,11 @@ pub(super) fn figure(branch: &Branch) -> String {
         style::header(canvas, &header, &view.legend())?;
         let (_, below) = canvas.split_vertically(px(top));
         let (panels, list) = below.split_vertically(px(PANELS));
-        for (panel, diagram) in panels.split_evenly((2, 2)).iter().zip(&DIAGRAMS) {
+        for (panel, diagram) in panels
+            .split_evenly((2, 2))
+            .iter()
+            .zip(diagrams::of(&branch.drive))
+        {
             view.draw(panel, diagram)?;
         }
         view.list(&list)
@@ -175,8 +112,8 @@ impl<'a> View<'a> {
         let at = |point: &TracePoint| (self.across(point), (curve.quantity)(&point.state));
         let [before, behind] = &self.sides;
         for (side, stroke) in [
-            (before, Stroke::solid(curve.color, 2.0)),
-            (behind, Stroke::dashed(curve.color, 2.0)),
+            (before, Stroke::solid(curve.color, curve.width)),
+            (behind, Stroke::dashed(curve.color, curve.width)),
         ] {
             if side.len() > 1 {
                 stroke.draw(area, side.iter().map(|point| at(point)).collect())?;
@@ -200,7 +137,7 @@ impl<'a> View<'a> {
             let place = value::quantity(self.key(), event.point.value, event.value_error);
             let text = format!(
                 "{number}   {place}: {}",
-                words::event(event.kind, self.key())
+                words::event(event.kind, self.key(), &self.branch.drive)
             );
             let height = LINE * (f64::from(number) - 0.5);
             style::write(canvas, &text, &face, [style::MARGIN, height])?;

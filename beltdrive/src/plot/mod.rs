@@ -2,10 +2,12 @@
 
 mod axis;
 mod branch;
+mod diagrams;
 mod drive;
 mod geometry;
 mod limit_curve;
 mod panel;
+mod profile_figures;
 mod profiles;
 mod style;
 
@@ -36,9 +38,12 @@ pub enum Error {
 }
 
 /// Writes all figures of a state into a directory, which is created where it does not exist, and
-/// returns the files written: `drive.svg`, the drive to scale, and the profiles along both
-/// pulleys, `tension.svg`, `inclination.svg`, `penetration.svg`, `sliding_angle.svg` and
-/// `normal_and_friction_force.svg`. Existing files of these names are replaced.
+/// returns the files written: `drive.svg`, the drive to scale, and the profiles along both pulleys.
+/// Existing files of these names are replaced.
+///
+/// A V-belt has the profiles `tension.svg`, `inclination.svg`, `penetration.svg`,
+/// `sliding_angle.svg` and `normal_and_friction_force.svg`; a flat belt has `tension.svg`,
+/// `friction_force.svg`, `normal_force.svg` and `displacement.svg`.
 ///
 /// # Errors
 /// [`Error`] names the directory or file that cannot be written.
@@ -89,7 +94,7 @@ fn write(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{sample, sample_branch};
+    use crate::report::{sample, sample_branch, sample_flat};
 
     /// A directory of this process that is gone after the test.
     struct Scratch(PathBuf);
@@ -129,6 +134,37 @@ mod tests {
                 assert!(!text.contains("made up\""), "quotes are escaped");
             }
         }
+    }
+
+    #[test]
+    fn a_flat_belt_has_its_own_figures() {
+        let scratch = Scratch::new("flat");
+        for state in [
+            sample_flat::epp(),
+            sample_flat::coulomb(),
+            sample_flat::creep(),
+        ] {
+            let mut files = write_all(&state, &scratch.0).unwrap();
+            let names: Vec<_> = files.iter().map(|file| file.file_name().unwrap()).collect();
+            let expected = [
+                "drive.svg",
+                "tension.svg",
+                "friction_force.svg",
+                "normal_force.svg",
+                "displacement.svg",
+            ];
+            assert_eq!(names, expected);
+            files.extend(write_branch(&sample_flat::branch(), &scratch.0).unwrap());
+            files.extend(write_limit_curve(&sample_flat::curve(), &scratch.0).unwrap());
+            for file in files {
+                let text = fs::read_to_string(&file).unwrap();
+                assert!(text.contains("normal force n = (T − G V)/R"));
+                for word in ["NaN", "nclination", "enetration", "groove", "V-belt"] {
+                    assert!(!text.contains(word), "{word} in {}", file.display());
+                }
+            }
+        }
+        assert!(branch::figure(&sample_flat::branch()).contains("Slip arcs"));
     }
 
     #[test]

@@ -2,115 +2,17 @@
 
 use super::axis::{Axis, Scale};
 use super::panel::Panel;
-use super::style::{self, Canvas, Drawn, Header, Legend, Stroke, px};
-use crate::{Profile, PulleyState, SteadyState};
+use super::profile_figures::{self, Curve, Figure};
+use super::style::{self, Canvas, Drawn, Header, Legend, px};
+use crate::{Drive, Profile, PulleyState, SteadyState};
 use plotters::prelude::*;
 
 /// Width and height of the figures, px.
 const SIZE: [f64; 2] = [900.0, 760.0];
 
-/// A figure: one or two quantities of one unit.
-struct Figure {
-    file: &'static str,
-    title: &'static str,
-    axis: &'static str,
-    scale: Scale,
-    curves: &'static [Curve],
-}
-
-/// A quantity along the belt.
-struct Curve {
-    label: &'static str,
-    quantity: fn(&Profile) -> &[f64],
-    unit: fn(f64) -> f64,
-    stroke: Stroke,
-}
-
-const FIRST: Stroke = Stroke::solid(style::INK, 2.0);
-const SECOND: Stroke = Stroke::dashed(style::WINE, 2.0);
-
-const FIGURES: [Figure; 5] = [
-    Figure {
-        file: "tension.svg",
-        title: "Tension along the belt",
-        axis: "tension in N",
-        scale: Scale::Decimal,
-        curves: &[
-            Curve {
-                label: "belt tension T",
-                quantity: |profile| &profile.tension,
-                unit: std::convert::identity,
-                stroke: FIRST,
-            },
-            Curve {
-                label: "tractive tension F",
-                quantity: |profile| &profile.tractive_tension,
-                unit: std::convert::identity,
-                stroke: SECOND,
-            },
-        ],
-    },
-    Figure {
-        file: "inclination.svg",
-        title: "Inclination of the belt, positive outward",
-        axis: "inclination θ in degrees",
-        scale: Scale::Degrees,
-        curves: &[Curve {
-            label: "inclination θ",
-            quantity: |profile| &profile.inclination,
-            unit: f64::to_degrees,
-            stroke: FIRST,
-        }],
-    },
-    Figure {
-        file: "penetration.svg",
-        title: "Penetration of the belt into the groove",
-        axis: "penetration x in mm",
-        scale: Scale::Decimal,
-        curves: &[Curve {
-            label: "penetration x",
-            quantity: |profile| &profile.penetration,
-            unit: |metres| metres * 1e3,
-            stroke: FIRST,
-        }],
-    },
-    Figure {
-        file: "sliding_angle.svg",
-        title: "Slip direction: 0° outward, 90° forward",
-        axis: "sliding angle γ in degrees",
-        scale: Scale::Degrees,
-        curves: &[Curve {
-            label: "sliding angle γ",
-            quantity: |profile| &profile.sliding_angle,
-            unit: f64::to_degrees,
-            stroke: FIRST,
-        }],
-    },
-    Figure {
-        file: "normal_and_friction_force.svg",
-        title: "Forces on each groove face",
-        axis: "force per length in N/m",
-        scale: Scale::Decimal,
-        curves: &[
-            Curve {
-                label: "normal force p",
-                quantity: |profile| &profile.normal_force,
-                unit: std::convert::identity,
-                stroke: FIRST,
-            },
-            Curve {
-                label: "friction force f",
-                quantity: |profile| &profile.friction_force,
-                unit: std::convert::identity,
-                stroke: SECOND,
-            },
-        ],
-    },
-];
-
 /// The figures of all quantities, each with the name of its file.
 pub(super) fn figures(state: &SteadyState) -> impl Iterator<Item = (&'static str, String)> {
-    FIGURES
+    profile_figures::of(&state.drive)
         .iter()
         .map(|figure| (figure.file, figure.draw(state)))
 }
@@ -122,12 +24,16 @@ impl Figure {
         let angles = profiles
             .into_iter()
             .flat_map(|profile| degrees(&profile.angle));
-        let values = profiles
+        let values: Vec<_> = profiles
             .into_iter()
-            .flat_map(|profile| self.curves.iter().flat_map(|curve| curve.values(profile)));
+            .flat_map(|profile| {
+                let curves = self.curves.iter();
+                curves.flat_map(|curve| (curve.values)(&state.drive, profile))
+            })
+            .collect();
         let axes = [
             Axis::spanning(angles, Scale::Degrees),
-            Axis::spanning(values, self.scale).padded(),
+            Axis::spanning(values.iter().copied(), self.scale).padded(),
         ];
         style::render(SIZE, |canvas| {
             let header = Header::of(state, self.title);
@@ -136,7 +42,7 @@ impl Figure {
             let panels = below.split_evenly((2, 1));
             let pulleys = [("driver", &state.driver), ("driven pulley", &state.driven)];
             for (panel, (name, pulley)) in panels.iter().zip(pulleys) {
-                self.panel(panel, &axes, name, pulley)?;
+                self.panel(panel, &axes, name, &state.drive, pulley)?;
             }
             Ok(())
         })
@@ -158,6 +64,7 @@ impl Figure {
         canvas: &Canvas<'_>,
         axes: &[Axis; 2],
         name: &str,
+        drive: &Drive,
         pulley: &PulleyState,
     ) -> Drawn {
         let panel = Panel {
@@ -173,7 +80,7 @@ impl Figure {
         });
         let chart = panel.draw(canvas, zones)?;
         for curve in self.curves {
-            for piece in self.pieces(curve, &pulley.profile) {
+            for piece in self.pieces(curve, drive, &pulley.profile) {
                 curve.stroke.draw(chart.plotting_area(), piece)?;
             }
         }
@@ -181,8 +88,10 @@ impl Figure {
     }
 
     /// The points of a curve, parted where a value is missing or an angle jumps by a full turn.
-    fn pieces(&self, curve: &Curve, profile: &Profile) -> Vec<Vec<(f64, f64)>> {
-        let points: Vec<_> = degrees(&profile.angle).zip(curve.values(profile)).collect();
+    fn pieces(&self, curve: &Curve, drive: &Drive, profile: &Profile) -> Vec<Vec<(f64, f64)>> {
+        let points: Vec<_> = degrees(&profile.angle)
+            .zip((curve.values)(drive, profile))
+            .collect();
         points
             .chunk_by(|(_, before), (_, after)| {
                 let jump = (after - before).abs();
@@ -191,15 +100,6 @@ impl Figure {
             .filter(|piece| piece.len() > 1)
             .map(<[_]>::to_vec)
             .collect()
-    }
-}
-
-impl Curve {
-    /// The values along a pulley in the unit of the figure.
-    fn values<'a>(&'a self, profile: &'a Profile) -> impl Iterator<Item = f64> + Clone + 'a {
-        (self.quantity)(profile)
-            .iter()
-            .map(|&value| (self.unit)(value))
     }
 }
 
@@ -214,14 +114,15 @@ mod tests {
 
     #[test]
     fn a_curve_is_parted_where_it_jumps() {
-        let mut profile = sample::loaded().driver.profile;
-        let [inclination, tension] = [&FIGURES[1], &FIGURES[0]];
+        let state = sample::loaded();
+        let mut profile = state.driver.profile;
+        let [tension, inclination, ..] = profile_figures::of(&state.drive) else {
+            panic!("five figures");
+        };
         profile.inclination[100..].fill(4.0);
         profile.tension[3] = f64::NAN;
-        assert_eq!(
-            inclination.pieces(&inclination.curves[0], &profile).len(),
-            2
-        );
-        assert_eq!(tension.pieces(&tension.curves[0], &profile).len(), 2);
+        let pieces = |figure: &Figure| figure.pieces(&figure.curves[0], &state.drive, &profile);
+        assert_eq!(pieces(inclination).len(), 2);
+        assert_eq!(pieces(tension).len(), 2);
     }
 }

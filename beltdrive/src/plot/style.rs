@@ -1,7 +1,7 @@
 //! What all figures have in common: canvas, colours, text, header and legend.
 
 use crate::input::Key;
-use crate::report::{heading, law, warning};
+use crate::report::{convention, heading, law, warning};
 use crate::{Drive, SteadyState, Warning, ZoneKind};
 use plotters::coord::{CoordTranslate, Shift};
 use plotters::drawing::DrawingAreaErrorKind;
@@ -38,6 +38,9 @@ pub(super) const SMALL: f64 = 12.0;
 
 /// Empty space at the left and right edges of a figure, px.
 pub(super) const MARGIN: f64 = 24.0;
+
+/// Height of a further line of the header, px.
+const LINE: f64 = 20.0;
 
 /// Radius of a dot that marks a point of a curve, px.
 pub(super) const DOT: f64 = 4.5;
@@ -208,7 +211,8 @@ impl<'a> Header<'a> {
 
     /// Its height with the legend, px.
     pub(super) fn height(&self) -> f64 {
-        98.0 + 20.0 * self.warnings.len() as f64
+        let convention = usize::from(convention(self.drive).is_some());
+        98.0 + LINE * (convention + self.warnings.len()) as f64
     }
 }
 
@@ -229,12 +233,15 @@ pub(super) fn header(canvas: &Canvas<'_>, header: &Header<'_>, legend: &[Legend]
         GREY,
         26.0,
     )?;
+    if let Some(convention) = convention(header.drive) {
+        line(convention, BODY, GREY, LINE)?;
+    }
     for remark in header.warnings {
         line(
             &format!("Warning: {}", warning(remark)),
             BODY,
             VERMILION,
-            20.0,
+            LINE,
         )?;
     }
     bottom += 26.0;
@@ -297,7 +304,7 @@ fn fitted(text: &str, size: f64, room: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample;
+    use crate::report::{sample, sample_flat};
 
     #[test]
     fn long_titles_are_cut() {
@@ -318,5 +325,12 @@ mod tests {
     fn kinds_of_zones_are_those_present() {
         assert_eq!(kinds(&sample::loaded()).count(), 2);
         assert_eq!(kinds(&sample::idle()).count(), 0);
+        let adhesion: Vec<_> = kinds(&sample_flat::coulomb()).collect();
+        assert_eq!(adhesion, [ZoneKind::Adhesion, ZoneKind::Slip]);
+        let names = ZoneKind::ALL.map(|kind| zone(kind).0);
+        assert_eq!(
+            names,
+            ["elastic zone", "adhesion zone", "creep zone", "slip zone"]
+        );
     }
 }

@@ -1,5 +1,6 @@
 //! The steady state as JSON: complete, at full precision, every key with its unit.
 
+use super::belt::BeltReport;
 use super::columns::COLUMNS;
 use super::scalars::Scalars;
 use super::warning;
@@ -23,6 +24,8 @@ pub(super) fn pretty(report: &impl Serialize) -> String {
 #[derive(Serialize)]
 struct Report<'a> {
     title: Option<&'a str>,
+    #[serde(flatten)]
+    belt: BeltReport,
     friction_law: &'static str,
     #[serde(flatten)]
     scalars: Scalars,
@@ -36,6 +39,7 @@ impl<'a> From<&'a SteadyState> for Report<'a> {
     fn from(state: &'a SteadyState) -> Self {
         Self {
             title: state.drive.title.as_deref(),
+            belt: BeltReport::from(&state.drive),
             friction_law: state.drive.law.name(),
             scalars: Scalars::from(&StateSummary::from(state)),
             profiles: Profiles {
@@ -142,11 +146,12 @@ impl From<&Convergence> for ConvergenceReport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample;
+    use crate::report::{sample, sample_flat};
     use serde_json::Value;
 
-    const KEYS: [&str; 17] = [
+    const KEYS: [&str; 18] = [
         "/title",
+        "/belt_type",
         "/friction_law",
         "/mass_flow_kg_per_s",
         "/belt_length_m",
@@ -165,7 +170,7 @@ mod tests {
         "/checks/0/deviation",
     ];
 
-    const PULLEY_KEYS: [&str; 10] = [
+    const PULLEY_KEYS: [&str; 11] = [
         "angular_speed_rad_per_s",
         "torque_N_m",
         "power_W",
@@ -173,6 +178,7 @@ mod tests {
         "max_penetration_m",
         "inclination_deg/0",
         "inclination_deg/1",
+        "slip_arc_deg",
         "zones/0/kind",
         "zones/0/from_deg",
         "zones/0/to_deg",
@@ -233,6 +239,33 @@ mod tests {
                 .unwrap_or_else(|| panic!("{key} is missing"));
             assert!(value.is_number() || value.is_string(), "{key}: {value}");
         }
+    }
+
+    #[test]
+    fn a_flat_belt_has_the_keys_of_a_v_belt_and_more() {
+        fn keys(value: &Value) -> Vec<&String> {
+            value.as_object().unwrap().keys().collect()
+        }
+        let (v, flat) = (parsed(&sample::loaded()), parsed(&sample_flat::epp()));
+        assert!(keys(&v).iter().all(|key| keys(&flat).contains(key)));
+        assert_eq!([&v["belt_type"], &flat["belt_type"]], ["v", "flat"]);
+        assert_eq!(flat["normal_force"], "inertia");
+        assert!(v.get("normal_force").is_none());
+        let own: Vec<_> = keys(&flat["driver"])
+            .into_iter()
+            .filter(|key| v["driver"].get(key.as_str()).is_none())
+            .collect();
+        let expected = [
+            "entry_strain",
+            "reference_tension_N",
+            "smallest_friction_stiffness_N_per_m2",
+        ];
+        assert!(own.len() == 3 && expected.iter().all(|key| own.contains(&&key.to_string())));
+        assert_eq!(flat["driven"]["entry_strain"], 2.5e-7);
+        assert_eq!(flat["driven"]["zones"][1]["kind"], "slip");
+        let coulomb = parsed(&sample_flat::coulomb());
+        assert!(coulomb["driven"]["smallest_friction_stiffness_N_per_m2"].is_null());
+        assert_eq!(coulomb["driven"]["zones"][0]["kind"], "adhesion");
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! [`table()`], [`json()`] and [`csv()`] are of a steady state; [`branch`], [`limits`] and
 //! [`limit_curve`] have their own.
 
+mod belt;
 pub mod branch;
 mod columns;
 mod csv;
@@ -17,15 +18,22 @@ mod rows;
 pub(crate) mod sample;
 #[cfg(test)]
 pub(crate) mod sample_branch;
+#[cfg(test)]
+pub(crate) mod sample_flat;
 mod scalars;
+mod shown;
+mod slip_arc;
 mod state_columns;
 mod table;
+mod table_columns;
 pub(crate) mod value;
 pub(crate) mod words;
 
 pub use self::csv::csv;
+pub(crate) use belt::convention;
 pub use json::json;
 pub(crate) use precision::Precision;
+pub(crate) use slip_arc::slip_arc;
 pub use table::table;
 
 use crate::input::Key;
@@ -40,7 +48,7 @@ pub(crate) fn heading(drive: &Drive) -> String {
         .flat_map(|title| title.split_whitespace())
         .collect();
     if words.is_empty() {
-        "Two-pulley V-belt drive".to_owned()
+        belt::description(drive).to_owned()
     } else {
         words.join(" ")
     }
@@ -73,6 +81,21 @@ pub(crate) fn law(drive: &Drive, varied: &[Key]) -> String {
     }
 }
 
+/// The heading of a table: the title of a drive, then its friction law and, for a flat belt, how the
+/// normal force follows from the tension, on one line if they fit.
+fn title(drive: &Drive, varied: &[Key]) -> Vec<String> {
+    let mut lines = vec![heading(drive), law(drive, varied)];
+    if let Some(convention) = convention(drive) {
+        let together = format!("{}, {convention}", lines[1]);
+        if together.chars().count() <= lines::WIDTH {
+            lines[1] = together;
+        } else {
+            lines.push(convention.to_owned());
+        }
+    }
+    lines
+}
+
 /// What a warning tells the user, on one line.
 pub(crate) fn warning(warning: &Warning) -> String {
     match warning {
@@ -101,6 +124,7 @@ pub(crate) fn torque_scale(drive: &Drive, tight_tension: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{BeltKind, NormalForce};
 
     #[test]
     fn heading_is_one_line() {
@@ -109,6 +133,24 @@ mod tests {
         assert_eq!(heading(&drive), "two lines");
         drive.title = Some("  ".to_owned());
         assert_eq!(heading(&drive), "Two-pulley V-belt drive");
+    }
+
+    #[test]
+    fn the_title_states_the_convention_of_a_flat_belt() {
+        assert_eq!(title(&sample::loaded().drive, &[]).len(), 2);
+        let mut drive = sample_flat::epp().drive;
+        drive.title = None;
+        let lines = title(&drive, &[]);
+        assert_eq!(lines[0], "Two-pulley flat-belt drive");
+        let law = "elastic/perfectly-plastic friction, μ = 0.6, k_f = 5e7 N/m²";
+        assert_eq!(lines[1], format!("{law}, normal force n = (T − G V)/R"));
+        let normal_force = NormalForce::Exact;
+        drive.belt.kind = BeltKind::Flat { normal_force };
+        let lines = title(&drive, &[]);
+        assert_eq!(lines[1], law);
+        assert_eq!(lines[2], "normal force n = (T − G V)/R, finite strain");
+        drive.law = FrictionLaw::Coulomb;
+        assert!(title(&drive, &[])[1].ends_with("finite strain"));
     }
 
     #[test]

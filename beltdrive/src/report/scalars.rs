@@ -1,6 +1,7 @@
 //! The scalars of a state as JSON: the same keys wherever a state stands.
 
-use crate::{PulleySummary, StateSummary, Zone, ZoneKind};
+use super::slip_arc;
+use crate::{Entry, PulleySummary, StateSummary, Zone, ZoneKind};
 use serde::Serialize;
 
 /// The scalars of a state. Angles are in degrees, everything else is SI.
@@ -53,6 +54,9 @@ struct PulleyScalars {
     wrap_angle_deg: f64,
     max_penetration_m: f64,
     inclination_deg: [f64; 2],
+    slip_arc_deg: f64,
+    #[serde(flatten)]
+    entry: Option<EntryScalars>,
     zones: Vec<ZoneReport>,
 }
 
@@ -65,7 +69,28 @@ impl From<&PulleySummary> for PulleyScalars {
             wrap_angle_deg: pulley.wrap_angle.to_degrees(),
             max_penetration_m: pulley.max_penetration,
             inclination_deg: pulley.inclination.map(f64::to_degrees),
+            slip_arc_deg: slip_arc(&pulley.zones).to_degrees(),
+            entry: pulley.entry.as_ref().map(EntryScalars::from),
             zones: pulley.zones.iter().map(ZoneReport::from).collect(),
+        }
+    }
+}
+
+/// How a flat belt enters a pulley; a V-belt has none of these keys.
+#[derive(Serialize)]
+#[expect(non_snake_case, reason = "the keys carry units")]
+struct EntryScalars {
+    reference_tension_N: f64,
+    entry_strain: f64,
+    smallest_friction_stiffness_N_per_m2: Option<f64>,
+}
+
+impl From<&Entry> for EntryScalars {
+    fn from(entry: &Entry) -> Self {
+        Self {
+            reference_tension_N: entry.reference_tension,
+            entry_strain: entry.strain,
+            smallest_friction_stiffness_N_per_m2: entry.smallest_stiffness,
         }
     }
 }

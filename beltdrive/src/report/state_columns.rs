@@ -1,34 +1,60 @@
 //! The scalars of a state as columns of CSV: one list for branches, limits and limit curves.
 
+use super::{rows, slip_arc};
 use crate::input::Key;
-use crate::{PulleySummary, StateSummary};
+use crate::{BeltKind, Drive, PulleySummary, StateSummary};
 
 /// A scalar of a state, in the unit that its name states.
+#[derive(Clone, Copy)]
 pub(super) struct StateColumn {
     /// Name with unit.
     pub(super) key: &'static str,
-    quantity: fn(&StateSummary) -> f64,
+    quantity: Quantity,
+}
+
+/// How a scalar follows from a state.
+#[derive(Clone, Copy)]
+enum Quantity {
+    /// Every state has it.
+    Known(fn(&StateSummary) -> f64),
+    /// There may be none.
+    Optional(fn(&StateSummary) -> Option<f64>),
 }
 
 impl StateColumn {
-    /// The value as text, at full precision.
+    /// The value as text, at full precision; empty where there is none.
     pub(super) fn text(&self, state: &StateSummary) -> String {
-        (self.quantity)(state).to_string()
+        rows::optional(match self.quantity {
+            Quantity::Known(quantity) => Some(quantity(state)),
+            Quantity::Optional(quantity) => quantity(state),
+        })
     }
 }
 
 const fn column(key: &'static str, quantity: fn(&StateSummary) -> f64) -> StateColumn {
+    let quantity = Quantity::Known(quantity);
     StateColumn { key, quantity }
 }
 
-/// The scalars of a state without those that are entries with columns of their own.
-pub(super) fn columns_beside(keys: &[Key]) -> Vec<StateColumn> {
-    let own: Vec<_> = keys.iter().map(Key::column).collect();
-    let beside = |column: &StateColumn| own.iter().all(|own| own != column.key);
-    STATE_COLUMNS.into_iter().filter(beside).collect()
+const fn optional(key: &'static str, quantity: fn(&StateSummary) -> Option<f64>) -> StateColumn {
+    let quantity = Quantity::Optional(quantity);
+    StateColumn { key, quantity }
 }
 
-const STATE_COLUMNS: [StateColumn; 25] = [
+/// The scalars of the states of a drive without those that are entries with columns of their own.
+pub(super) fn columns_beside(drive: &Drive, keys: &[Key]) -> Vec<StateColumn> {
+    let of_kind: &[StateColumn] = match drive.belt.kind {
+        BeltKind::V(_) => &[],
+        BeltKind::Flat { .. } => &ENTRY_COLUMNS,
+    };
+    let own: Vec<_> = keys.iter().map(Key::column).collect();
+    let beside = |column: &StateColumn| own.iter().all(|own| own != column.key);
+    let all = STATE_COLUMNS.iter().chain(of_kind).copied();
+    all.filter(beside).collect()
+}
+
+/// The scalars of every state.
+const STATE_COLUMNS: [StateColumn; 27] = [
     column("mass_flow_kg_per_s", |state| state.mass_flow),
     column("belt_length_m", |state| state.belt_length),
     column("slack_span_m", |state| state.slack_span),
@@ -70,6 +96,26 @@ const STATE_COLUMNS: [StateColumn; 25] = [
     }),
     column("driven_entry_inclination_deg", |state| entry(&state.driven)),
     column("driven_exit_inclination_deg", |state| exit(&state.driven)),
+    column("driver_slip_arc_deg", |state| slip(&state.driver)),
+    column("driven_slip_arc_deg", |state| slip(&state.driven)),
+];
+
+/// How a flat belt enters the pulleys.
+const ENTRY_COLUMNS: [StateColumn; 6] = [
+    optional("driver_reference_tension_N", |state| {
+        reference_tension(&state.driver)
+    }),
+    optional("driver_entry_strain", |state| strain(&state.driver)),
+    optional("driver_smallest_friction_stiffness_N_per_m2", |state| {
+        smallest_stiffness(&state.driver)
+    }),
+    optional("driven_reference_tension_N", |state| {
+        reference_tension(&state.driven)
+    }),
+    optional("driven_entry_strain", |state| strain(&state.driven)),
+    optional("driven_smallest_friction_stiffness_N_per_m2", |state| {
+        smallest_stiffness(&state.driven)
+    }),
 ];
 
 fn entry(pulley: &PulleySummary) -> f64 {
@@ -78,4 +124,20 @@ fn entry(pulley: &PulleySummary) -> f64 {
 
 fn exit(pulley: &PulleySummary) -> f64 {
     pulley.inclination[1].to_degrees()
+}
+
+fn slip(pulley: &PulleySummary) -> f64 {
+    slip_arc(&pulley.zones).to_degrees()
+}
+
+fn reference_tension(pulley: &PulleySummary) -> Option<f64> {
+    pulley.entry.map(|entry| entry.reference_tension)
+}
+
+fn strain(pulley: &PulleySummary) -> Option<f64> {
+    pulley.entry.map(|entry| entry.strain)
+}
+
+fn smallest_stiffness(pulley: &PulleySummary) -> Option<f64> {
+    pulley.entry.and_then(|entry| entry.smallest_stiffness)
 }

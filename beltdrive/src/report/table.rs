@@ -1,11 +1,14 @@
 //! The steady state as a table for a terminal.
 
 use super::lines::{self, row, single, small};
-use super::{Precision, heading, law, rpm, torque_scale, warning, words};
-use crate::{Check, Convergence, PulleySummary, StateSummary, SteadyState, Zone};
+use super::{Precision, rpm, slip_arc, title, torque_scale, warning, words};
+use crate::{BeltKind, Check, Convergence, Entry, PulleySummary, StateSummary, SteadyState, Zone};
 
 /// Most significant digits shown; fewer where the error estimate does not support them.
 const DIGITS: u8 = 6;
+
+/// Most significant digits of a strain.
+const STRAIN_DIGITS: u8 = 3;
 
 /// The steady state on lines of at most 100 columns: what an engineer reads at a glance.
 ///
@@ -20,10 +23,13 @@ pub fn table(state: &SteadyState) -> String {
         pulleys(state, &summary, precision),
         spans(state, precision),
         whole(&summary, precision),
-        accuracy(&state.convergence),
+        match state.drive.belt.kind {
+            BeltKind::V(_) => accuracy(&state.convergence),
+            BeltKind::Flat { .. } => closed_form(&state.convergence),
+        },
         state.checks.iter().map(check).collect(),
     ];
-    let title = vec![heading(&state.drive), law(&state.drive, &[])];
+    let title = title(&state.drive, &[]);
     lines::text(std::iter::once(title).chain(warnings).chain(blocks))
 }
 
@@ -39,7 +45,7 @@ fn pulleys(state: &SteadyState, summary: &StateSummary, precision: Precision) ->
     };
     // Torque is a difference of tensions and carries their error; angles that of a radian.
     let torque = torque_scale(&state.drive, state.tight_tension);
-    let angle = |value: f64| precision.show_against(value.to_degrees(), 1_f64.to_degrees());
+    let angle = |value| degrees(precision, value);
     let mut lines = vec![
         row("", ["driver", "driven"].map(str::to_owned), ""),
         number("speed", |pulley| pulley.angular_speed, "rad/s"),
@@ -62,22 +68,11 @@ fn pulleys(state: &SteadyState, summary: &StateSummary, precision: Precision) ->
             pulleys.map(|pulley| angle(pulley.wrap_angle)),
             "°",
         ),
-        number(
-            "largest penetration",
-            |pulley| pulley.max_penetration * 1e3,
-            "mm",
-        ),
-        row(
-            "inclination at entry",
-            pulleys.map(|pulley| angle(pulley.inclination[0])),
-            "°",
-        ),
-        row(
-            "inclination at exit",
-            pulleys.map(|pulley| angle(pulley.inclination[1])),
-            "°",
-        ),
     ];
+    lines.extend(match state.drive.belt.kind {
+        BeltKind::V(_) => groove(pulleys, precision),
+        BeltKind::Flat { .. } => rim(state, pulleys, precision),
+    });
     let zone = |zone: &Zone| {
         let kind = words::zone(zone.kind);
         format!("{kind} {} – {}", angle(zone.from), angle(zone.to))
@@ -92,6 +87,54 @@ fn pulleys(state: &SteadyState, summary: &StateSummary, precision: Precision) ->
         )
     }));
     lines
+}
+
+/// What only a V-belt does: it sinks into the groove and leaves the pitch circle.
+fn groove(pulleys: [&PulleySummary; 2], precision: Precision) -> Vec<String> {
+    let inclination =
+        |end: usize| pulleys.map(|pulley| degrees(precision, pulley.inclination[end]));
+    let penetration = pulleys.map(|pulley| precision.show(pulley.max_penetration * 1e3));
+    vec![
+        row("largest penetration", penetration, "mm"),
+        row("inclination at entry", inclination(0), "°"),
+        row("inclination at exit", inclination(1), "°"),
+    ]
+}
+
+/// What only a flat belt does: it creeps along the rim.
+fn rim(state: &SteadyState, pulleys: [&PulleySummary; 2], precision: Precision) -> Vec<String> {
+    let slip = pulleys.map(|pulley| degrees(precision, slip_arc(&pulley.zones)));
+    let mut lines = vec![row("slip arc", slip, "°")];
+    let mut line = |label, unit, of: fn(Entry) -> Option<f64>, show: &dyn Fn(f64) -> String| {
+        let values = pulleys.map(|pulley| pulley.entry.and_then(of));
+        if values.iter().any(Option::is_some) {
+            let cells = values.map(|value| value.map_or_else(|| "–".to_owned(), show));
+            lines.push(row(label, cells, unit));
+        }
+    };
+    let tension = state.tight_tension;
+    let strain = tension / state.drive.belt.axial_stiffness;
+    line(
+        "reference tension T_o",
+        "N",
+        |entry| Some(entry.reference_tension),
+        &|value| precision.show_against(value, tension),
+    );
+    line("entry strain", "", |entry| Some(entry.strain), &|value| {
+        precision.show_power(value, strain, STRAIN_DIGITS)
+    });
+    line(
+        "smallest k_f with slip",
+        "N/m²",
+        |entry| entry.smallest_stiffness,
+        &|value| precision.show_power(value, value, DIGITS),
+    );
+    lines
+}
+
+/// An angle, rad, in degrees; its error is relative to a radian.
+fn degrees(precision: Precision, angle: f64) -> String {
+    precision.show_against(angle.to_degrees(), 1_f64.to_degrees())
 }
 
 /// Slack and tight span side by side.
@@ -178,6 +221,15 @@ fn accuracy(convergence: &Convergence) -> Vec<String> {
     lines
 }
 
+/// How far the numbers of a closed form can be trusted, and what they cost.
+fn closed_form(convergence: &Convergence) -> Vec<String> {
+    vec![
+        single("method", "closed form".to_owned(), ""),
+        single("estimated error", small(convergence.error_estimate), ""),
+        single("time", format!("{:.3}", convergence.seconds * 1e3), "ms"),
+    ]
+}
+
 /// A verified invariant, and whether it holds.
 fn check(check: &Check) -> String {
     let verdict = if check.deviation <= check.limit {
@@ -194,11 +246,13 @@ fn check(check: &Check) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{lines::WIDTH, sample};
+    use crate::NormalForce;
+    use crate::report::{lines::WIDTH, sample, sample_flat};
 
     #[test]
     fn is_no_wider_than_a_terminal() {
         let mut state = sample::overhanging();
+        let flat = table(&sample_flat::epp());
         state.drive.title = Some("very long ".repeat(20));
         state.checks.push(Check {
             name: "a name ".repeat(9).leak(),
@@ -207,7 +261,7 @@ mod tests {
         });
         state.driver.angular_speed = -1.234_567_89e-7;
         state.driven.angular_speed = 9.876_543_21e12;
-        for line in table(&state).lines() {
+        for line in table(&state).lines().chain(flat.lines()) {
             assert!(line.chars().count() <= WIDTH, "{line}");
         }
     }
@@ -246,6 +300,55 @@ mod tests {
                 .starts_with("WARNING: the belt overhangs")
         );
         assert!(text.contains("VIOLATED"));
+    }
+
+    #[test]
+    fn a_flat_belt_creeps_along_the_rim() {
+        let text = table(&sample_flat::epp());
+        for needle in [
+            "N/m², normal force n = (T − G V)/R\n",
+            "slip arc",
+            "-2.50e-7",
+            "reference tension T_o",
+            "smallest k_f with slip                       7.65432e5",
+            "elastic 0 – 36.2218",
+            "closed form\n",
+            "1.2e-14",
+            "holds",
+        ] {
+            assert!(text.contains(needle), "{needle} is not in\n{text}");
+        }
+        let mut short = sample_flat::epp();
+        short.driver.entry = None;
+        assert!(table(&short).contains("  –  "), "one pulley has an entry");
+        short.driven.entry = None;
+        assert!(!table(&short).contains("T_o"));
+    }
+
+    #[test]
+    fn a_flat_belt_has_nothing_of_a_groove() {
+        for mut state in [
+            sample_flat::epp(),
+            sample_flat::coulomb(),
+            sample_flat::creep(),
+        ] {
+            for normal_force in NormalForce::ALL {
+                state.drive.belt.kind = BeltKind::Flat { normal_force };
+                let text = table(&state);
+                for word in [
+                    "penetration",
+                    "inclination",
+                    "groove",
+                    "mesh",
+                    "NaN",
+                    "V-belt",
+                ] {
+                    assert!(!text.contains(word), "{word} is in\n{text}");
+                }
+                assert!(!text.contains('…'), "{text}");
+            }
+        }
+        assert!(!table(&sample_flat::coulomb()).contains("k_f"));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Events, ends and limits in words: for people and, as fixed words, for programs.
 
 use crate::input::Key;
-use crate::{BranchEnd, EventKind, LimitReason, Pulley, RangeEnd, ZoneKind};
+use crate::{BeltKind, BranchEnd, Drive, EventKind, LimitReason, Pulley, RangeEnd, ZoneKind};
 
 /// The name of a kind of zone.
 pub(crate) fn zone(kind: ZoneKind) -> &'static str {
@@ -65,8 +65,8 @@ pub(super) fn event_label(kind: EventKind) -> String {
     }
 }
 
-/// What happens at an event of a branch over an entry.
-pub(crate) fn event(kind: EventKind, key: Key) -> String {
+/// What happens at an event of a branch of a drive over an entry.
+pub(crate) fn event(kind: EventKind, key: Key, drive: &Drive) -> String {
     match kind {
         EventKind::Start => "the branch starts".to_owned(),
         EventKind::LimitPoint => format!("limit point: the {} turns back", key.name()),
@@ -77,8 +77,7 @@ pub(crate) fn event(kind: EventKind, key: Key) -> String {
                 pulley.name()
             )
         }
-        EventKind::GrossSlip(Pulley::Driven) => LimitReason::DrivenSlips.to_string(),
-        EventKind::GrossSlip(Pulley::Driver) => LimitReason::DriverSlips.to_string(),
+        EventKind::GrossSlip(pulley) => gross_slip(pulley, drive).to_string(),
         EventKind::ZoneAppears { pulley, kind } => {
             let kind = zone(kind);
             format!("a zone of {kind} friction appears on the {}", pulley.name())
@@ -95,6 +94,15 @@ pub(crate) fn event(kind: EventKind, key: Key) -> String {
             pulley.name()
         ),
         EventKind::End => "the branch ends".to_owned(),
+    }
+}
+
+/// What limits a drive whose belt slips grossly on a pulley.
+fn gross_slip(pulley: Pulley, drive: &Drive) -> LimitReason {
+    match (drive.belt.kind, pulley) {
+        (BeltKind::V(_), Pulley::Driven) => LimitReason::DrivenSlips,
+        (BeltKind::V(_), Pulley::Driver) => LimitReason::DriverSlips,
+        (BeltKind::Flat { .. }, _) => LimitReason::Capstan(pulley),
     }
 }
 
@@ -177,7 +185,7 @@ pub(super) fn pulley_word(pulley: Pulley) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample;
+    use crate::report::{sample, sample_flat};
 
     #[test]
     fn every_event_has_a_short_label_and_words() {
@@ -198,7 +206,8 @@ mod tests {
             EventKind::BranchPoint,
         ];
         let kinds = plain.into_iter().chain([EventKind::End]).chain(of_pulley);
-        let key = Key::load(&sample::loaded().drive);
+        let drive = sample::loaded().drive;
+        let key = Key::load(&drive);
         let mut words = Vec::new();
         for kind in kinds {
             let label = event_label(kind);
@@ -209,11 +218,24 @@ mod tests {
             );
             let is_plain = event_pulley(kind).is_none();
             assert_eq!(is_plain, !label.contains(", "), "{label}");
-            words.push(event(kind, key));
+            words.push(event(kind, key, &drive));
         }
         words.sort_unstable();
         words.dedup();
         assert_eq!(words.len(), 14);
+    }
+
+    #[test]
+    fn gross_slip_of_a_flat_belt_is_that_of_the_belt() {
+        let drive = sample_flat::epp().drive;
+        let key = Key::load(&drive);
+        let words = event(EventKind::GrossSlip(Pulley::Driver), key, &drive);
+        assert_eq!(words, "the belt slips grossly on the driver");
+        let reason = LimitReason::Capstan(Pulley::Driver);
+        let end = RangeEnd::Limit(reason);
+        assert_eq!(range_end_kind(end), "gross slip");
+        assert_eq!(range_end_pulley(end), Some(Pulley::Driver));
+        assert_eq!(words, reason.to_string());
     }
 
     #[test]

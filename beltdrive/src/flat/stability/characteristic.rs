@@ -3,7 +3,7 @@
 //! The solution that starts with f = 0, f' = 1 is carried through all zones; χ is what it leaves
 //! of the outlet condition. The factors exp(a x) of all zones have no zeros and are left out.
 
-use super::Form;
+use super::LinearisedForm;
 use super::scaled::Scaled;
 use super::transfer::Transfer;
 use faer::c64;
@@ -41,8 +41,8 @@ impl Scaled {
             log += transfer.log;
         }
         let (value, slope) = match self.form {
-            Form::Thesis => (state[1], slope[1]),
-            Form::NaturalOutlet | Form::Conservative => {
+            LinearisedForm::Thesis => (state[1], slope[1]),
+            LinearisedForm::NaturalOutlet | LinearisedForm::Conservative => {
                 let outlet = |state: [c64; 2]| state[1] * self.delta - sigma * state[0] * self.mach;
                 (outlet(state), outlet(slope) - state[0] * self.mach)
             }
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn newton_converges_from_afar() {
-        let scaled = Scaled::new(&driven(800.0), Form::Thesis);
+        let scaled = Scaled::new(&driven(800.0), LinearisedForm::Thesis);
         let root = scaled.root_near(c64::new(0.0, 18_000.0) / scaled.rate);
         let root = root.expect("convergence") * scaled.rate;
         assert!((root - c64::new(-128.17, 18_740.2)).norm() < 0.06, "{root}");

@@ -1,10 +1,14 @@
 //! Belts for tests: that of Kim (2009), and a rod.
 
-use super::{AxialMotion, Form};
+use super::{AxialMotion, LinearisedForm};
 use std::f64::consts::PI;
 
 /// All forms.
-pub(super) const FORMS: [Form; 3] = [Form::Thesis, Form::NaturalOutlet, Form::Conservative];
+pub(super) const FORMS: [LinearisedForm; 3] = [
+    LinearisedForm::Thesis,
+    LinearisedForm::NaturalOutlet,
+    LinearisedForm::Conservative,
+];
 
 /// Pitch radius, m.
 const RADIUS: f64 = 0.08125;

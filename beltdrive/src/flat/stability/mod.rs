@@ -12,7 +12,7 @@
 //!
 //! with the mass per length m, the belt speed v and the axial stiffness EA. Where slip friction
 //! follows the normal force, the rate η = ±μ/R enters; what follows from it, and what happens
-//! at the outlet, is a choice of [`Form`]. Under rigid friction the belt does not move up to s*,
+//! at the outlet, is a choice of [`LinearisedForm`]. Under rigid friction the belt does not move up to s*,
 //! and f(s*) = 0 takes the place of f(0) = 0.
 //!
 //! Every eigenvalue λ is found by two independent methods, which must agree: spectral elements
@@ -22,6 +22,7 @@
 //! Source: D. Kim, MS thesis, Georgia Institute of Technology (2009), equations 69 to 74.
 
 mod characteristic;
+mod drive;
 mod motion;
 mod polynomials;
 mod scaled;
@@ -36,6 +37,9 @@ mod examples;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use motion::{AxialMotion, Form};
-pub(crate) use shape::{Sample, mode_shape};
-pub(crate) use spectrum::{Mode, Spectrum, StabilityError, spectrum};
+pub(crate) use drive::stability;
+pub use motion::LinearisedForm;
+
+use motion::AxialMotion;
+use shape::mode_shape;
+use spectrum::{Mode, Spectrum, StabilityError, spectrum};

@@ -22,7 +22,7 @@ pub(crate) struct AxialMotion {
 
 /// A form of the linearised problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Form {
+pub enum LinearisedForm {
     /// Slip friction changes with the elastic tension, and the belt leaves without strain:
     ///
     /// ```text
@@ -47,6 +47,11 @@ pub(crate) enum Form {
     /// This is the Euler-Lagrange equation of the Lagrangian density weighted by
     /// exp(−η (s − s*)): the motion is conservative and Re λ = 0.
     Conservative,
+}
+
+impl LinearisedForm {
+    /// Every form.
+    pub const ALL: [Self; 3] = [Self::Thesis, Self::NaturalOutlet, Self::Conservative];
 }
 
 impl AxialMotion {
@@ -82,15 +87,15 @@ impl AxialMotion {
     /// from the product of all reflections and gains of a short wave that travels to the outlet
     /// and back. High are modes of frequencies well above √(`k_f`/m); those of a belt with an
     /// elastic zone oscillate about the limit, closer and closer.
-    pub(crate) fn high_mode_limit(&self, form: Form) -> f64 {
+    pub(crate) fn high_mode_limit(&self, form: LinearisedForm) -> f64 {
         let (c, v) = (self.critical_speed(), self.speed);
         let moving = self.length - self.fixed_end();
         let gain = -0.5 * self.slip_rate * v * (self.length - self.transition) / moving;
         let reflection = -(c * c - v * v) / (c * moving) * (v / c).atanh();
         match form {
-            Form::Thesis => reflection + gain,
-            Form::NaturalOutlet => gain,
-            Form::Conservative => 0.0,
+            LinearisedForm::Thesis => reflection + gain,
+            LinearisedForm::NaturalOutlet => gain,
+            LinearisedForm::Conservative => 0.0,
         }
     }
 }

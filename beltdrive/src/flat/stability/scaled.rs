@@ -7,7 +7,7 @@
 //! outlet:  f' = 0,   or   δ f' = M σ f
 //! ```
 
-use super::{AxialMotion, Form};
+use super::{AxialMotion, LinearisedForm};
 use faer::c64;
 
 /// A stretch of the belt with constant coefficients.
@@ -27,7 +27,7 @@ pub(super) struct Zone {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Scaled {
     /// Its form.
-    pub(super) form: Form,
+    pub(super) form: LinearisedForm,
     /// Ratio M of belt speed and wave speed.
     pub(super) mach: f64,
     /// Stiffness of the moving belt δ = 1 − M², positive.
@@ -54,7 +54,7 @@ pub(super) struct Coefficients {
 
 impl Scaled {
     /// The scaled problem of a motion below its critical speed in which something moves.
-    pub(super) fn new(motion: &AxialMotion, form: Form) -> Self {
+    pub(super) fn new(motion: &AxialMotion, form: LinearisedForm) -> Self {
         let c = motion.critical_speed();
         let moving = motion.length - motion.fixed_end();
         let mach = motion.speed / c;
@@ -84,8 +84,8 @@ impl Scaled {
     pub(super) fn coefficients(&self, zone: &Zone, sigma: c64) -> Coefficients {
         let (mach, delta) = (self.mach, self.delta);
         let (half_slip, coupling) = match self.form {
-            Form::Thesis | Form::NaturalOutlet => (0.5 * zone.slip, 0.0),
-            Form::Conservative => (0.5 * zone.slip * delta, zone.slip * mach),
+            LinearisedForm::Thesis | LinearisedForm::NaturalOutlet => (0.5 * zone.slip, 0.0),
+            LinearisedForm::Conservative => (0.5 * zone.slip * delta, zone.slip * mach),
         };
         Coefficients {
             a: (sigma * mach + half_slip) / delta,

@@ -3,7 +3,7 @@
 use super::scaled::Scaled;
 use super::spectrum::check;
 use super::transfer::Transfer;
-use super::{AxialMotion, Form, StabilityError};
+use super::{AxialMotion, LinearisedForm, StabilityError};
 use faer::c64;
 
 /// The eigenfunction f at a place.
@@ -24,7 +24,7 @@ pub(crate) struct Sample {
 /// [`StabilityError`] where the motion is no belt on a pulley.
 pub(crate) fn mode_shape(
     motion: &AxialMotion,
-    form: Form,
+    form: LinearisedForm,
     value: c64,
     at: &[f64],
 ) -> Result<Vec<Sample>, StabilityError> {
@@ -98,7 +98,7 @@ mod tests {
 
     /// The residuals of the differential equation relative to its terms, f' and f'' by central
     /// differences, and of the outlet condition.
-    fn residuals(motion: &AxialMotion, form: Form, lambda: c64) -> (f64, f64) {
+    fn residuals(motion: &AxialMotion, form: LinearisedForm, lambda: c64) -> (f64, f64) {
         let h = 1e-4 * motion.length;
         let (m, v, d) = (
             motion.mass_per_length,
@@ -128,16 +128,20 @@ mod tests {
             };
             let inertia = lambda * lambda * f * m + lambda * df * (2.0 * m * v);
             let friction = match form {
-                Form::Thesis | Form::NaturalOutlet => df * (motion.axial_stiffness * eta),
-                Form::Conservative => (df * d - lambda * f * (m * v)) * eta,
+                LinearisedForm::Thesis | LinearisedForm::NaturalOutlet => {
+                    df * (motion.axial_stiffness * eta)
+                }
+                LinearisedForm::Conservative => (df * d - lambda * f * (m * v)) * eta,
             };
             let residual = inertia - ddf * d + f * k + friction;
             worst = worst.max(residual.norm() / (m * lambda.norm_sqr() + k));
         }
         let (f, df) = (samples[0].value, samples[0].derivative);
         let outlet = match form {
-            Form::Thesis => df * d,
-            Form::NaturalOutlet | Form::Conservative => df * d - lambda * f * (m * v),
+            LinearisedForm::Thesis => df * d,
+            LinearisedForm::NaturalOutlet | LinearisedForm::Conservative => {
+                df * d - lambda * f * (m * v)
+            }
         };
         (
             worst,
@@ -172,10 +176,11 @@ mod tests {
                 ..driven(800.0)
             };
             let places: Vec<f64> = places.iter().map(|s| s * motion.length).collect();
-            let mode = spectrum(&motion, Form::Thesis, 2)
+            let mode = spectrum(&motion, LinearisedForm::Thesis, 2)
                 .expect("a spectrum")
                 .modes[1];
-            let shape = mode_shape(&motion, Form::Thesis, mode.value, &places).expect("a belt");
+            let shape =
+                mode_shape(&motion, LinearisedForm::Thesis, mode.value, &places).expect("a belt");
             let largest = shape
                 .iter()
                 .map(|sample| sample.value.norm())

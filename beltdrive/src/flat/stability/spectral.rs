@@ -20,7 +20,7 @@
 //! whose matrix is skew but for outlet and friction, so that its eigenvalues are as exact as its
 //! entries.
 
-use super::Form;
+use super::LinearisedForm;
 use super::polynomials::{gauss, shape_functions};
 use super::scaled::{Scaled, Zone};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
@@ -156,7 +156,7 @@ impl Matrices {
             start = Some(first);
             first += element.degree;
         }
-        if let (Form::Thesis, Some(outlet)) = (scaled.form, start) {
+        if let (LinearisedForm::Thesis, Some(outlet)) = (scaled.form, start) {
             matrices.gyroscopic[(outlet, outlet)] += scaled.mach;
         }
         matrices
@@ -165,7 +165,7 @@ impl Matrices {
     /// Adds the integrals over an element whose shape functions have these `unknowns`.
     fn add(&mut self, scaled: &Scaled, element: &Element, unknowns: &[Option<usize>]) {
         let Element { zone, degree } = *element;
-        let conservative = scaled.form == Form::Conservative;
+        let conservative = scaled.form == LinearisedForm::Conservative;
         for (t, weight) in gauss(degree + 1 + POINTS_FOR_WEIGHT) {
             let (values, derivatives) = shape_functions(degree, t);
             let x = 0.5 * (1.0 + t) * zone.length;
@@ -271,7 +271,7 @@ mod tests {
 
     #[test]
     fn a_rod_vibrates() {
-        let scaled = Scaled::new(&coulomb_at_rest(), Form::Thesis);
+        let scaled = Scaled::new(&coulomb_at_rest(), LinearisedForm::Thesis);
         let values = scaled.spectral_eigenvalues(40).expect("eigenvalues");
         for (n, value) in values.iter().take(40).enumerate() {
             let exact = (n as f64 + 0.5) * PI;

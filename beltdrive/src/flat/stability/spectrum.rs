@@ -1,7 +1,7 @@
 //! The lowest modes, found twice and counted.
 
 use super::scaled::Scaled;
-use super::{AxialMotion, Form};
+use super::{AxialMotion, LinearisedForm};
 use faer::c64;
 
 /// Modes found beyond those asked for, to end the box in the widest of the gaps above them.
@@ -109,7 +109,7 @@ pub(crate) enum StabilityError {
 /// [`StabilityError`]; every spectrum returned has passed all comparisons.
 pub(crate) fn spectrum(
     motion: &AxialMotion,
-    form: Form,
+    form: LinearisedForm,
     count: usize,
 ) -> Result<Spectrum, StabilityError> {
     check(motion)?;
@@ -237,7 +237,7 @@ mod tests {
     #[test]
     fn what_makes_no_sense_is_refused() {
         let good = driven(800.0);
-        let refused = |motion: AxialMotion| spectrum(&motion, Form::Thesis, 3).is_err();
+        let refused = |motion: AxialMotion| spectrum(&motion, LinearisedForm::Thesis, 3).is_err();
         assert!(!refused(good));
         assert!(refused(AxialMotion {
             speed: 880.0,
@@ -261,12 +261,12 @@ mod tests {
             ..good
         };
         assert!(refused(rigid));
-        assert!(spectrum(&good, Form::Thesis, 0).is_err());
+        assert!(spectrum(&good, LinearisedForm::Thesis, 0).is_err());
     }
 
     #[test]
     fn two_starts_at_one_mode_are_noticed() {
-        let scaled = Scaled::new(&driven(800.0), Form::Thesis);
+        let scaled = Scaled::new(&driven(800.0), LinearisedForm::Thesis);
         let values = scaled.spectral_eigenvalues(2).expect("eigenvalues");
         let outcome = polished(&scaled, &[values[0], values[0]]);
         assert!(matches!(

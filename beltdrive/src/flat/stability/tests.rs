@@ -7,13 +7,13 @@ use faer::c64;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-fn modes(motion: &AxialMotion, form: Form, count: usize) -> Vec<Mode> {
+fn modes(motion: &AxialMotion, form: LinearisedForm, count: usize) -> Vec<Mode> {
     spectrum(motion, form, count).expect("a spectrum").modes
 }
 
 #[test]
 fn the_published_eigenvalues_are_met() {
-    let found = modes(&driven(800.0), Form::Thesis, 3);
+    let found = modes(&driven(800.0), LinearisedForm::Thesis, 3);
     let published = [(-128.17, 18740.2), (-12.40, 31072.4), (-32.12, 37919.5)];
     for (mode, (re, im)) in found.iter().zip(published) {
         assert!((mode.value.re - re).abs() < 0.005 && (mode.value.im - im).abs() < 0.05);
@@ -24,7 +24,7 @@ fn the_published_eigenvalues_are_met() {
 fn the_driver_becomes_unstable_at_the_published_load() {
     for angular_speed in [119.1, 120.0] {
         let least_stable = |tight: f64| {
-            let spectrum = spectrum(&driver(tight, angular_speed), Form::Thesis, 6);
+            let spectrum = spectrum(&driver(tight, angular_speed), LinearisedForm::Thesis, 6);
             let spectrum = spectrum.expect("a spectrum");
             let index = spectrum.least_stable;
             (index, spectrum.modes[index].value.re)
@@ -50,9 +50,9 @@ fn conservative_motion_neither_grows_nor_decays() {
             ..driven(800.0)
         },
     ] {
-        let scaled = Scaled::new(&motion, Form::Conservative);
+        let scaled = Scaled::new(&motion, LinearisedForm::Conservative);
         let spectral = scaled.spectral_eigenvalues(20).expect("eigenvalues");
-        let newton = modes(&motion, Form::Conservative, 20);
+        let newton = modes(&motion, LinearisedForm::Conservative, 20);
         let newton = newton.iter().map(|mode| mode.value);
         for value in newton.chain(spectral.into_iter().take(20)) {
             assert!(value.re.abs() <= 1e-10 * value.norm(), "{value}");
@@ -89,7 +89,10 @@ fn an_elastic_zone_alone_is_a_rod_on_springs() {
 #[test]
 fn rigid_friction_leaves_a_rod() {
     let motion = coulomb_at_rest();
-    for (n, mode) in modes(&motion, Form::Thesis, 12).iter().enumerate() {
+    for (n, mode) in modes(&motion, LinearisedForm::Thesis, 12)
+        .iter()
+        .enumerate()
+    {
         let length = motion.length - motion.transition;
         let exact = motion.critical_speed() * (n as f64 + 0.5) * PI / length;
         assert!((mode.value - c64::new(0.0, exact)).norm() < 1e-13 * exact);
@@ -172,7 +175,7 @@ fn zones_may_be_short() {
 
 /// The modes above the first dozen, one by one, up to the number `last`; every one is found from the
 /// place one spacing above the one before.
-fn climb(motion: &AxialMotion, form: Form, last: usize) -> Vec<c64> {
+fn climb(motion: &AxialMotion, form: LinearisedForm, last: usize) -> Vec<c64> {
     let scaled = Scaled::new(motion, form);
     let spacing = PI * scaled.delta;
     let mut found = vec![modes(motion, form, 12)[11].value / scaled.rate];
@@ -194,7 +197,7 @@ fn high_modes_approach_their_limit() {
         speed: 300.0,
         ..driver(1500.0, 120.0)
     };
-    for form in [Form::Thesis, Form::NaturalOutlet] {
+    for form in [LinearisedForm::Thesis, LinearisedForm::NaturalOutlet] {
         for motion in [slow, fast] {
             let limit = motion.high_mode_limit(form);
             let high = climb(&motion, form, 1000);
@@ -217,7 +220,7 @@ fn high_modes_approach_their_limit() {
             assert!((last / limit - 1.0).abs() < 1e-6, "{form:?} {last} {limit}");
         }
     }
-    assert_eq!(fast.high_mode_limit(Form::Conservative), 0.0);
+    assert_eq!(fast.high_mode_limit(LinearisedForm::Conservative), 0.0);
 }
 
 proptest! {

@@ -83,13 +83,13 @@ impl Scaled {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Form;
+    use super::super::LinearisedForm;
     use super::super::examples::coulomb_at_rest;
     use super::*;
 
     #[test]
     fn the_modes_of_a_rod_are_counted() {
-        let scaled = Scaled::new(&coulomb_at_rest(), Form::Thesis);
+        let scaled = Scaled::new(&coulomb_at_rest(), LinearisedForm::Thesis);
         // Zeros at ±i (n − ½) π.
         assert_eq!(scaled.zeros_within(1.0, PI), Some(2));
         assert_eq!(scaled.zeros_within(1.0, 1.5), Some(0));

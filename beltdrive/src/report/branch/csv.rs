@@ -9,7 +9,7 @@ use crate::report::{rows, state_columns::columns_beside, words};
 /// what happens at a state; the other columns are the scalars of the JSON report with the pulley
 /// in front of the name, at full precision.
 pub fn csv(branch: &Branch) -> String {
-    let columns = columns_beside(&[branch.key]);
+    let columns = columns_beside(&branch.drive, &[branch.key]);
     let own = ["arclength", "event", "pulley"].map(str::to_owned);
     let header = std::iter::once(branch.key.column())
         .chain(own)
@@ -32,7 +32,7 @@ pub fn csv(branch: &Branch) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample_branch;
+    use crate::report::{sample_branch, sample_flat};
 
     #[test]
     fn has_one_row_per_state_with_its_event() {
@@ -43,7 +43,7 @@ mod tests {
         let place = |name| header.iter().position(|key| key == name).unwrap();
         assert_eq!(place("tight_tractive_tension_N"), 0);
         // The parameter is no second column, although it is a scalar of the state.
-        assert_eq!(header.len(), 4 + 24);
+        assert_eq!(header.len(), 4 + 26);
         let rows: Vec<_> = reader.records().map(Result::unwrap).collect();
         assert_eq!(rows.len(), branch.rows().len());
         let fold = rows.iter().find(|row| &row[place("event")] == "fold");
@@ -55,5 +55,19 @@ mod tests {
         assert_eq!(fold[speed].parse(), Ok(driven.angular_speed));
         let overhang = rows.iter().find(|row| &row[2] == "overhang");
         assert_eq!(&overhang.unwrap()[3], "driver");
+    }
+
+    #[test]
+    fn a_flat_belt_has_the_columns_of_a_v_belt_first() {
+        let mut branch = sample_flat::branch();
+        for point in &mut branch.points {
+            point.state.driven.entry = None;
+        }
+        let (v, flat) = (csv(&sample_branch::folded()), csv(&branch));
+        let own = flat.lines().next().unwrap();
+        let own = own.strip_prefix(v.lines().next().unwrap()).unwrap();
+        assert_eq!(own.split(',').count(), 1 + 6);
+        assert!(own.starts_with(",driver_reference_tension_N,driver_entry_strain,"));
+        assert!(flat.lines().nth(3).unwrap().ends_with(",765432.1,,,"));
     }
 }

@@ -1,8 +1,12 @@
 //! A branch as JSON: complete, at full precision, every key with its unit.
 
 use crate::input::Key;
-use crate::report::{errors::ErrorReport, json::pretty, scalars::Scalars, value::Named, words};
-use crate::{Branch, BranchEnd, BranchEvent, Pulley, TraceConvergence, TracePoint, ZoneKind};
+use crate::report::{
+    belt::BeltReport, errors::ErrorReport, json::pretty, scalars::Scalars, value::Named, words,
+};
+use crate::{
+    Branch, BranchEnd, BranchEvent, Drive, Pulley, TraceConvergence, TracePoint, ZoneKind,
+};
 use serde::Serialize;
 
 /// The whole branch as pretty-printed JSON.
@@ -14,6 +18,7 @@ pub fn json(branch: &Branch) -> String {
     let key = branch.key;
     pretty(&Report {
         title: branch.drive.title.as_deref(),
+        belt: BeltReport::from(&branch.drive),
         friction_law: branch.drive.law.name(),
         parameter: key.path(),
         unit: key.unit(),
@@ -25,7 +30,7 @@ pub fn json(branch: &Branch) -> String {
         events: branch
             .events
             .iter()
-            .map(|event| EventReport::of(key, event))
+            .map(|event| EventReport::of(&branch.drive, key, event))
             .collect(),
         end: EndReport::from(&branch.end),
         convergence: ConvergenceReport::from(&branch.convergence),
@@ -35,6 +40,8 @@ pub fn json(branch: &Branch) -> String {
 #[derive(Serialize)]
 struct Report<'a> {
     title: Option<&'a str>,
+    #[serde(flatten)]
+    belt: BeltReport,
     friction_law: &'static str,
     parameter: &'static str,
     unit: &'static str,
@@ -80,12 +87,12 @@ struct EventReport {
 }
 
 impl EventReport {
-    fn of(key: Key, event: &BranchEvent) -> Self {
+    fn of(drive: &Drive, key: Key, event: &BranchEvent) -> Self {
         Self {
             kind: words::event_kind(event.kind),
             pulley: words::event_pulley(event.kind),
             zone: words::event_zone(event.kind),
-            description: words::event(event.kind, key),
+            description: words::event(event.kind, key, drive),
             point: PointReport::of(key, &event.point),
             value_error: event.value_error.map(|error| key.reported(error)),
             errors: event.errors.as_ref().map(ErrorReport::from),
@@ -136,7 +143,7 @@ impl From<&TraceConvergence> for ConvergenceReport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample_branch;
+    use crate::report::{sample_branch, sample_flat};
     use serde_json::Value;
 
     fn parsed(branch: &Branch) -> Value {
@@ -184,6 +191,20 @@ mod tests {
         assert_eq!(report["events"][1]["pulley"], "driver");
         assert_eq!(report["end"]["reason"], "target");
         assert_eq!(report["convergence"]["continuation_steps"], 64);
+    }
+
+    #[test]
+    fn a_flat_belt_enters_and_slips_at_every_point() {
+        let report = parsed(&sample_flat::branch());
+        assert_eq!(report["belt_type"], "flat");
+        let point = &report["points"][40]["driven"];
+        assert!(point["slip_arc_deg"].as_f64().unwrap() > 90.0);
+        assert_eq!(point["entry_strain"], 2.5e-7);
+        let appears = &report["events"][1];
+        assert_eq!(appears["kind"], "zone appears");
+        assert_eq!(appears["zone"], "slip");
+        let slips = "the belt slips grossly on the driver";
+        assert_eq!(report["events"][2]["description"], slips);
     }
 
     #[test]

@@ -1,45 +1,41 @@
 //! A branch as a table for a terminal.
 
 use crate::report::{
-    Precision, heading, law,
+    self,
     lines::{self, small},
-    torque_scale, value, words,
+    shown::Shown,
+    table_columns, value, words,
 };
-use crate::{Branch, BranchEvent, PulleySummary, TraceConvergence, TracePoint};
+use crate::{BeltKind, Branch, Drive, TraceConvergence};
 
 /// About so many states are shown besides the events.
 const ROWS: usize = 26;
-
-/// Most significant digits of a scalar.
-const DIGITS: u8 = 6;
 
 /// The branch on lines of at most 100 columns: states at even distances along it, every event with
 /// its place, and why it ends.
 pub fn table(branch: &Branch) -> String {
     lines::text([
-        title(branch),
+        heading(branch),
         states(branch),
         events(branch),
         vec![format!("end of the branch: {}", branch.end)],
-        convergence(&branch.convergence),
+        convergence(&branch.drive, &branch.convergence),
     ])
 }
 
-fn title(branch: &Branch) -> Vec<String> {
+fn heading(branch: &Branch) -> Vec<String> {
     let key = branch.key;
     let ends = [branch.points.first(), branch.points.last()];
     let [first, last] = ends.map(|point| {
         point.map_or_else(String::new, |point| value::quantity(key, point.value, None))
     });
-    vec![
-        heading(&branch.drive),
-        law(&branch.drive, &[key]),
-        format!(
-            "Branch over {}, from {first} to {last}: {} states",
-            key.path(),
-            branch.points.len()
-        ),
-    ]
+    let mut lines = report::title(&branch.drive, &[key]);
+    lines.push(format!(
+        "Branch over {}, from {first} to {last}: {} states",
+        key.path(),
+        branch.points.len()
+    ));
+    lines
 }
 
 fn states(branch: &Branch) -> Vec<String> {
@@ -47,75 +43,33 @@ fn states(branch: &Branch) -> Vec<String> {
         "" => "–",
         unit => unit,
     };
-    let header = [
-        [
-            "parameter",
-            "driven",
-            "speed",
-            "wrap",
-            "angle",
-            "driven",
-            "effi-",
-            "exit of",
-            "",
-        ],
-        [
-            "", "speed", "loss", "driver", "driven", "torque", "ciency", "driver", "",
-        ],
-        [unit, "rad/s", "%", "°", "°", "N·m", "%", "°", "event"],
-    ];
-    let header = header.map(|cells| line(cells.map(str::to_owned)));
+    let columns = table_columns::of_branch(&branch.drive);
+    let leads = ["parameter", "", unit];
+    let trails = ["", "", "event"];
+    let header = (0..table_columns::HEADS).map(|place| {
+        let heads = table_columns::head(columns, place);
+        line(leads[place], &heads, trails[place])
+    });
     let rows = branch.rows();
     let stride = rows.len().div_ceil(ROWS).max(1);
     let shown = rows.iter().enumerate();
     let shown = shown.filter(|(place, (_, event))| place % stride == 0 || event.is_some());
-    header
-        .into_iter()
-        .chain(shown.map(|(_, (point, event))| state(branch, point, *event)))
-        .collect()
+    let states = shown.map(|(_, (point, event))| {
+        let values = [(branch.key, point.value)];
+        let tolerance = branch.convergence.tolerance;
+        let state = Shown::of(&branch.drive, &values, &point.state, tolerance);
+        line(
+            &value::cell(branch.key, point.value, None),
+            &table_columns::cells(columns, &state),
+            &event.map_or_else(String::new, |event| words::event_label(event.kind)),
+        )
+    });
+    header.chain(states).collect()
 }
 
 /// A state on one line.
-fn state(branch: &Branch, point: &TracePoint, event: Option<&BranchEvent>) -> String {
-    let state = &point.state;
-    let error = state.error_estimate.unwrap_or(branch.convergence.tolerance);
-    let precision = Precision::new(error, DIGITS);
-    let percent = |share: f64| precision.show_against(100.0 * share, 100.0);
-    let angle = |value: f64| precision.show_against(value.to_degrees(), 1_f64.to_degrees());
-    let wrap = |pulley: &PulleySummary| angle(pulley.wrap_angle);
-    let mut drive = branch.drive.clone();
-    branch.key.set(&mut drive, point.value);
-    let torque = torque_scale(&drive, state.tight_tension);
-    line([
-        value::cell(branch.key, point.value, None),
-        // The speed may be that of a pulley about to stop.
-        precision.show_against(state.driven.angular_speed, state.driver.angular_speed),
-        percent(state.speed_loss),
-        wrap(&state.driver),
-        wrap(&state.driven),
-        precision.show_against(state.driven.torque, torque),
-        percent(state.efficiency),
-        angle(state.driver.inclination[1]),
-        event.map_or_else(String::new, |event| words::event_label(event.kind)),
-    ])
-}
-
-fn line(
-    [
-        value,
-        speed,
-        loss,
-        driver,
-        driven,
-        torque,
-        efficiency,
-        exit,
-        event,
-    ]: [String; 9],
-) -> String {
-    format!(
-        "{value:>10}{speed:>10}{loss:>9}{driver:>9}{driven:>9}{torque:>9}{efficiency:>9}{exit:>9}  {event}"
-    )
+fn line(value: &str, scalars: &str, event: &str) -> String {
+    format!("{value:>10}{scalars}  {event}")
 }
 
 /// The events in words, with the digits of their places that are known.
@@ -127,28 +81,30 @@ fn events(branch: &Branch) -> Vec<String> {
             Some(error) if error > 0.0 => format!("± {}", value::error(key, error)),
             _ => String::new(),
         };
-        let what = words::event(event.kind, key);
+        let what = words::event(event.kind, key, &branch.drive);
         format!("{place:>14} {error:<9} {:<6} {what}", key.unit())
     });
     located.collect()
 }
 
 /// What tracing took.
-pub(in crate::report) fn convergence(convergence: &TraceConvergence) -> Vec<String> {
-    vec![format!(
-        "relative tolerance {}, {} steps, {} factorisations, {:.1} s",
-        small(convergence.tolerance),
-        convergence.continuation_steps,
-        convergence.factorisations,
-        convergence.seconds
-    )]
+pub(in crate::report) fn convergence(drive: &Drive, convergence: &TraceConvergence) -> Vec<String> {
+    let (steps, seconds) = (convergence.continuation_steps, convergence.seconds);
+    vec![match drive.belt.kind {
+        BeltKind::V(_) => format!(
+            "relative tolerance {}, {steps} steps, {} factorisations, {seconds:.1} s",
+            small(convergence.tolerance),
+            convergence.factorisations,
+        ),
+        BeltKind::Flat { .. } => format!("closed form, {steps} states, {seconds:.3} s"),
+    }]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::input::Key;
-    use crate::report::{lines::WIDTH, sample_branch};
+    use crate::report::{lines::WIDTH, sample_branch, sample_flat};
     use crate::{BranchEnd, EventKind, Pulley, ZoneKind};
 
     #[test]
@@ -166,6 +122,27 @@ mod tests {
             assert!(text.contains(needle), "{needle} is not in\n{text}");
         }
         assert!(text.lines().count() < 50);
+    }
+
+    #[test]
+    fn a_flat_belt_has_slip_arcs() {
+        let mut branch = sample_flat::branch();
+        branch.events[0].kind = EventKind::ZoneVanishes {
+            pulley: Pulley::Driven,
+            kind: ZoneKind::Adhesion,
+        };
+        let text = table(&branch);
+        for needle in [
+            "wrap   angle    slip     arc   driven",
+            "161.689 161.603  69.0000  99.8160  gross slip, driver\n",
+            "  +slip, driven\n",
+            "  −adhesion, driven\n",
+            "closed form, 41 states, 0.002 s",
+        ] {
+            assert!(text.contains(needle), "{needle} is not in\n{text}");
+        }
+        assert!(!text.contains("exit"), "{text}");
+        assert!(text.lines().all(|line| line.chars().count() <= WIDTH));
     }
 
     #[test]

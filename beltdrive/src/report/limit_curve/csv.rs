@@ -8,7 +8,7 @@ use crate::report::{rows, state_columns::columns_beside, words};
 /// The first column is the second parameter, the next one the limit.
 pub fn csv(curve: &LimitCurve) -> String {
     let LimitCurve { key, second, .. } = *curve;
-    let columns = columns_beside(&[key, second]);
+    let columns = columns_beside(&curve.drive, &[key, second]);
     let own = [second.column(), key.column()].into_iter();
     let own = own.chain(["value_error", "reason", "pulley"].map(str::to_owned));
     let header = own.chain(columns.iter().map(|column| column.key.to_owned()));

@@ -1,7 +1,7 @@
 //! A curve of limits as JSON: complete, at full precision, every key with its unit.
 
 use crate::report::branch::{ConvergenceReport, EndReport};
-use crate::report::{json::pretty, scalars::Scalars, value::Named, words};
+use crate::report::{belt::BeltReport, json::pretty, scalars::Scalars, value::Named, words};
 use crate::{LimitCurve, LimitCurvePoint, Pulley};
 use serde::Serialize;
 
@@ -16,6 +16,7 @@ pub fn json(curve: &LimitCurve) -> String {
     };
     pretty(&Report {
         title: curve.drive.title.as_deref(),
+        belt: BeltReport::from(&curve.drive),
         friction_law: curve.drive.law.name(),
         parameter: curve.key.path(),
         unit: curve.key.unit(),
@@ -31,6 +32,8 @@ pub fn json(curve: &LimitCurve) -> String {
 #[derive(Serialize)]
 struct Report<'a> {
     title: Option<&'a str>,
+    #[serde(flatten)]
+    belt: BeltReport,
     friction_law: &'static str,
     parameter: &'static str,
     unit: &'static str,
@@ -80,7 +83,7 @@ impl PointReport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample_branch;
+    use crate::report::{sample_branch, sample_flat};
     use serde_json::Value;
 
     #[test]
@@ -99,5 +102,8 @@ mod tests {
         assert_eq!(found["description"], "the driver slips grossly");
         assert_eq!(found["mass_flow_kg_per_s"], point.state.mass_flow);
         assert_eq!(&report["cusps"][0], found);
+        let report: Value = serde_json::from_str(&json(&sample_flat::curve())).unwrap();
+        assert_eq!(report["normal_force"], "inertia");
+        assert_eq!(report["points"][20]["reason"], "gross slip");
     }
 }

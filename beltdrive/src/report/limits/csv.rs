@@ -6,7 +6,7 @@ use crate::report::{rows, state_columns::columns_beside, words};
 /// One row for the smallest and one for the largest value, with the names of the JSON report.
 pub fn csv(limits: &Limits) -> String {
     let key = limits.branch.key;
-    let columns = columns_beside(&[key]);
+    let columns = columns_beside(&limits.branch.drive, &[key]);
     let own = ["limit", &key.column(), "value_error", "reason", "pulley"].map(str::to_owned);
     let header = own.into_iter();
     let header = header.chain(columns.iter().map(|column| column.key.to_owned()));
@@ -29,7 +29,16 @@ pub fn csv(limits: &Limits) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample_branch;
+    use crate::report::{sample_branch, sample_flat};
+
+    #[test]
+    fn a_flat_belt_slips_on_a_pulley() {
+        let text = csv(&sample_flat::limits());
+        let largest = text.lines().nth(2).unwrap();
+        let row = "largest,560,0.000000001,gross slip,driver,3,";
+        assert!(largest.starts_with(row), "{text}");
+        assert!(largest.ends_with(",0.00000025,765432.1"), "{text}");
+    }
 
     #[test]
     fn has_a_row_for_each_end() {

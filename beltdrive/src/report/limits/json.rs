@@ -2,7 +2,9 @@
 
 use crate::input::Key;
 use crate::report::branch::ConvergenceReport;
-use crate::report::{errors::ErrorReport, json::pretty, scalars::Scalars, value::Named, words};
+use crate::report::{
+    belt::BeltReport, errors::ErrorReport, json::pretty, scalars::Scalars, value::Named, words,
+};
 use crate::{Limit, Limits, Pulley};
 use serde::Serialize;
 
@@ -13,6 +15,7 @@ pub fn json(limits: &Limits) -> String {
     let key = branch.key;
     pretty(&Report {
         title: branch.drive.title.as_deref(),
+        belt: BeltReport::from(&branch.drive),
         friction_law: branch.drive.law.name(),
         parameter: key.path(),
         unit: key.unit(),
@@ -25,6 +28,8 @@ pub fn json(limits: &Limits) -> String {
 #[derive(Serialize)]
 struct Report<'a> {
     title: Option<&'a str>,
+    #[serde(flatten)]
+    belt: BeltReport,
     friction_law: &'static str,
     parameter: &'static str,
     unit: &'static str,
@@ -67,8 +72,18 @@ impl LimitReport {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample_branch;
+    use crate::report::{sample_branch, sample_flat};
     use serde_json::Value;
+
+    #[test]
+    fn a_flat_belt_slips_on_a_pulley() {
+        let text = json(&sample_flat::limits());
+        let report: Value = serde_json::from_str(&text).unwrap();
+        let (largest, belt) = (&report["largest"], &report["belt_type"]);
+        assert_eq!([belt, &largest["reason"]], ["flat", "gross slip"]);
+        assert_eq!(largest["pulley"], "driver");
+        assert!(largest["driver"]["slip_arc_deg"].as_f64().unwrap() > 90.0);
+    }
 
     #[test]
     fn each_end_has_value_reason_and_state() {

@@ -2,12 +2,14 @@
 
 use crate::report::branch::convergence;
 use crate::report::{
-    Precision, heading, law,
+    self, Precision,
     lines::{self, row},
     precision::known,
-    rpm, torque_scale, value, words,
+    rpm, slip_arc, torque_scale, value, words,
 };
-use crate::{Limit, Limits, PulleyErrors, PulleySummary, StateErrors, StateSummary};
+use crate::{
+    BeltKind, Drive, Limit, Limits, PulleyErrors, PulleySummary, StateErrors, StateSummary,
+};
 
 /// Most significant digits of a scalar.
 const DIGITS: u8 = 6;
@@ -18,11 +20,8 @@ pub fn table(limits: &Limits) -> String {
     let branch = &limits.branch;
     let key = branch.key;
     let ends = [&limits.smallest, &limits.largest];
-    let title = vec![
-        heading(&branch.drive),
-        law(&branch.drive, &[key]),
-        format!("Limits of {}", key.path()),
-    ];
+    let mut title = report::title(&branch.drive, &[key]);
+    title.push(format!("Limits of {}", key.path()));
     let reasons = [("smallest", ends[0]), ("largest", ends[1])].map(|(name, limit)| {
         let place = value::quantity(key, limit.value, limit.value_error);
         format!("{name} {place}: {}", limit.reason)
@@ -32,8 +31,8 @@ pub fn table(limits: &Limits) -> String {
         title,
         reasons.to_vec(),
         parameter(limits, ends),
-        states(&columns),
-        convergence(&branch.convergence),
+        states(&branch.drive, &columns),
+        convergence(&branch.drive, &branch.convergence),
     ])
 }
 
@@ -120,7 +119,7 @@ fn scalar(
 }
 
 /// The states side by side.
-fn states(columns: &[Column<'_>; 2]) -> Vec<String> {
+fn states(drive: &Drive, columns: &[Column<'_>; 2]) -> Vec<String> {
     let line = |label, unit, show: fn(&Column<'_>) -> String| scalar(columns, label, unit, show);
     let mut lines = vec![
         line("driven speed", "rad/s", |column| {
@@ -148,12 +147,14 @@ fn states(columns: &[Column<'_>; 2]) -> Vec<String> {
         }),
     ];
     lines.extend(pulley(
+        drive,
         columns,
         "driver",
         |state| &state.driver,
         |errors| &errors.driver,
     ));
     lines.extend(pulley(
+        drive,
         columns,
         "driven",
         |state| &state.driven,
@@ -164,16 +165,17 @@ fn states(columns: &[Column<'_>; 2]) -> Vec<String> {
 
 /// One pulley in both states.
 fn pulley(
+    drive: &Drive,
     columns: &[Column<'_>; 2],
     name: &str,
     of: fn(&StateSummary) -> &PulleySummary,
     errors_of: fn(&StateErrors) -> &PulleyErrors,
-) -> [String; 5] {
+) -> Vec<String> {
     let errors = |column: &Column<'_>| column.errors.map(errors_of).copied();
     let line = |label: &str, unit, show: &dyn Fn(&Column<'_>) -> String| {
         scalar(columns, &format!("{name}: {label}"), unit, show)
     };
-    [
+    let mut lines = vec![
         line("torque", "N·m", &|column| {
             let error = errors(column).map(|errors| errors.torque);
             column.show(of(column.state).torque, error, column.torque)
@@ -182,26 +184,34 @@ fn pulley(
             let error = errors(column).map(|errors| errors.wrap_angle);
             column.angle(of(column.state).wrap_angle, error)
         }),
-        line("penetration", "mm", &|column| {
-            let error = errors(column).map(|errors| 1e3 * errors.max_penetration);
-            let value = 1e3 * of(column.state).max_penetration;
-            column.show(value, error, value)
-        }),
-        line("inclination, entry", "°", &|column| {
-            let error = errors(column).map(|errors| errors.inclination[0]);
-            column.angle(of(column.state).inclination[0], error)
-        }),
-        line("inclination, exit", "°", &|column| {
-            let error = errors(column).map(|errors| errors.inclination[1]);
-            column.angle(of(column.state).inclination[1], error)
-        }),
-    ]
+    ];
+    match drive.belt.kind {
+        BeltKind::V(_) => lines.extend([
+            line("penetration", "mm", &|column| {
+                let error = errors(column).map(|errors| 1e3 * errors.max_penetration);
+                let value = 1e3 * of(column.state).max_penetration;
+                column.show(value, error, value)
+            }),
+            line("inclination, entry", "°", &|column| {
+                let error = errors(column).map(|errors| errors.inclination[0]);
+                column.angle(of(column.state).inclination[0], error)
+            }),
+            line("inclination, exit", "°", &|column| {
+                let error = errors(column).map(|errors| errors.inclination[1]);
+                column.angle(of(column.state).inclination[1], error)
+            }),
+        ]),
+        BeltKind::Flat { .. } => lines.push(line("slip arc", "°", &|column| {
+            column.angle(slip_arc(&of(column.state).zones), None)
+        })),
+    }
+    lines
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample_branch;
+    use crate::report::{lines::WIDTH, sample_branch, sample_flat};
 
     #[test]
     fn states_reasons_values_and_states() {
@@ -217,6 +227,20 @@ mod tests {
         ] {
             assert!(text.contains(needle), "{needle} is not in\n{text}");
         }
+    }
+
+    #[test]
+    fn a_flat_belt_slips_over_an_arc() {
+        let text = table(&sample_flat::limits());
+        for needle in [
+            "N: the belt slips grossly on the driver",
+            "driver: slip arc                                     0                     161.689  °",
+            "driven: slip arc",
+        ] {
+            assert!(text.contains(needle), "{needle} is not in\n{text}");
+        }
+        assert!(!text.contains("penetration") && !text.contains("inclination"));
+        assert!(text.lines().all(|line| line.chars().count() <= WIDTH));
     }
 
     #[test]

@@ -1,0 +1,193 @@
+//! The flat-belt drive as a boundary value problem: an independent check of the closed form.
+//!
+//! The problem is stated in tension, displacement and arc length from the balance of momentum and the
+//! laws of friction ([`formulation`]) and solved by collocation. Of the closed form it takes which kinds
+//! of zones there are on each pulley, and nothing else: lengths of zones, tensions and speeds are
+//! unknowns that start from a rough guess ([`start`]).
+
+mod formulation;
+mod place;
+mod start;
+mod units;
+
+#[cfg(test)]
+mod tests;
+
+pub(crate) use place::{BorderedZone, Place};
+
+use super::closed_form::{ClosedForm, Refusal};
+use super::{DRIVEN, DRIVER};
+use crate::{Drive, FrictionLaw, NormalForce, ZoneKind};
+use bvp::{GlobalError, Options, Scheme, Solution, Stats};
+use formulation::{Formulation, LENGTHS, REFERENCE, SPANS, SPEED};
+use start::Start;
+
+/// Intervals of a zone of the first mesh.
+const INTERVALS: usize = 4;
+
+/// Tolerance of the coarse solution that shows where zones are.
+const COARSE: f64 = 1e-2;
+
+/// The steady state of a flat-belt drive by collocation.
+#[derive(Clone, Debug)]
+pub(crate) struct BoundaryValue {
+    formulation: Formulation,
+    solution: Solution,
+}
+
+/// Why there is no such solution.
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// The closed form knows that there is no steady state.
+    Refused(Refusal),
+    /// The solver failed.
+    Solver(bvp::Error),
+    /// A coarse solution has other zones than the closed form.
+    Unlike,
+    /// Zones of these kinds do not make a steady state: the length of one is negative, m.
+    Zones {
+        /// Pulley of the zone.
+        pulley: usize,
+        /// Its kind.
+        kind: ZoneKind,
+        /// Its length.
+        length: f64,
+    },
+}
+
+impl BoundaryValue {
+    /// The steady state of a flat-belt drive, to this tolerance of defects and errors relative to the
+    /// units of the problem.
+    ///
+    /// # Errors
+    /// [`Failure`].
+    ///
+    /// # Panics
+    /// If the drive is none of those that [`crate::solve`] passes on.
+    pub(crate) fn solve(drive: &Drive, tolerance: f64, scheme: Scheme) -> Result<Self, Failure> {
+        let formulation = formulation_of(drive).map_err(Failure::Refused)?;
+        let start = first_guess(&formulation)?.on_mesh(INTERVALS, tolerance);
+        let options = Options {
+            tolerance,
+            scheme,
+            global_error: GlobalError::HalvedMesh,
+            ..Options::default()
+        };
+        let solution = bvp::solve(&formulation, &start, &options).map_err(Failure::Solver)?;
+        let lengths = &solution.parameters()[LENGTHS..];
+        if let Some((segment, &length)) = lengths.iter().enumerate().find(|(_, l)| **l < 0.0) {
+            let pulley = formulation.pulley(segment);
+            return Err(Failure::Zones {
+                pulley,
+                kind: formulation.kind(segment),
+                length: length * formulation.units.radius[pulley],
+            });
+        }
+        Ok(Self {
+            formulation,
+            solution,
+        })
+    }
+
+    /// Speed c of the unstretched belt, m/s.
+    pub(crate) fn speed(&self) -> f64 {
+        self.solution.parameters()[SPEED] * self.formulation.units.speed
+    }
+
+    /// Angular speed c (1 + `T_o`/EA)/R of a pulley, rad/s.
+    pub(crate) fn angular_speed(&self, pulley: usize) -> f64 {
+        let p = self.solution.parameters();
+        let strain = p[REFERENCE + pulley] * self.formulation.compliance;
+        self.speed() * (1.0 + strain) / self.formulation.units.radius[pulley]
+    }
+
+    /// Tension `T_o` at which the belt would run as fast as the rim of a pulley, N.
+    pub(crate) fn reference(&self, pulley: usize) -> f64 {
+        self.solution.parameters()[REFERENCE + pulley] * self.formulation.units.force
+    }
+
+    /// Belt tension of the slack and of the tight span, N.
+    pub(crate) fn tension(&self) -> [f64; 2] {
+        let p = self.solution.parameters();
+        [p[SPANS], p[SPANS + 1]].map(|tension| tension * self.formulation.units.force)
+    }
+
+    /// The zones of a pulley, in the order in which the belt passes them.
+    pub(crate) fn zones(&self, pulley: usize) -> Vec<BorderedZone> {
+        let segments = self.formulation.zones(pulley);
+        segments
+            .map(|segment| BorderedZone {
+                kind: self.formulation.kind(segment),
+                from: self.place(segment, self.solution.start(segment)).arc_length,
+                to: self.place(segment, self.solution.end(segment)).arc_length,
+            })
+            .collect()
+    }
+
+    /// The belt in a zone of a pulley at a share of the coordinate of the zone, from 0 to 1.
+    ///
+    /// # Panics
+    /// If there is no such zone.
+    pub(crate) fn at(&self, pulley: usize, zone: usize, share: f64) -> Place {
+        let segment = self.formulation.zones(pulley).start + zone;
+        let mut y = [0.0; 3];
+        self.solution.state(segment, share, &mut y);
+        self.place(segment, &y)
+    }
+
+    /// The shares at the nodes of the mesh of a zone, where the solution is most accurate.
+    ///
+    /// # Panics
+    /// If there is no such zone.
+    pub(crate) fn nodes(&self, pulley: usize, zone: usize) -> &[f64] {
+        self.solution
+            .mesh(self.formulation.zones(pulley).start + zone)
+    }
+
+    /// The largest estimated error of all states and parameters, relative to one plus their value in
+    /// the units of the problem.
+    pub(crate) fn error_estimate(&self) -> Option<f64> {
+        self.solution.error_estimate()
+    }
+
+    /// What the solution has cost.
+    pub(crate) fn stats(&self) -> &Stats {
+        self.solution.stats()
+    }
+}
+
+/// The first guess. A belt that sticks, slips and sticks again has soft bristles and thus no thin
+/// layers: a coarse solution without regard to the kinks shows where the zones are.
+fn first_guess(formulation: &Formulation) -> Result<Start, Failure> {
+    if [DRIVEN, DRIVER]
+        .iter()
+        .all(|&pulley| formulation.zones(pulley).len() < 3)
+    {
+        return Ok(Start::new(formulation));
+    }
+    let unzoned = formulation.unzoned();
+    let options = Options {
+        tolerance: COARSE,
+        scheme: Scheme::Gauss { stages: 2 },
+        global_error: GlobalError::Skip,
+        ..Options::default()
+    };
+    let coarse = bvp::solve(&unzoned, &Start::new(&unzoned), &options).map_err(Failure::Solver)?;
+    Start::from_unzoned(formulation, &coarse).ok_or(Failure::Unlike)
+}
+
+/// The problem with the kinds of zones that the closed form finds.
+fn formulation_of(drive: &Drive) -> Result<Formulation, Refusal> {
+    let closed_form = ClosedForm::new(drive)?;
+    let zones = [DRIVEN, DRIVER].map(|pulley| {
+        let zones = closed_form.contact[pulley].zones.iter();
+        zones.map(|zone| zone.friction.kind()).collect()
+    });
+    let convention = match (drive.law, drive.belt.kind) {
+        (FrictionLaw::CreepRate { .. }, _) => NormalForce::Inertia,
+        (_, crate::BeltKind::Flat { normal_force }) => normal_force,
+        (_, crate::BeltKind::V(_)) => panic!("a flat belt was expected"),
+    };
+    let wrap = closed_form.geometry.wrap;
+    Ok(Formulation::new(drive, wrap, convention, &zones))
+}

@@ -1,0 +1,138 @@
+//! The stability of the axial motion of a flat belt on its pulleys.
+
+use crate::{BeltKind, Drive, SolveError, SolveOptions, flat, solve};
+
+pub use flat::LinearisedForm;
+
+/// Whether small axial motions of the belt about the steady state of a drive grow.
+#[derive(Clone, Debug)]
+pub struct Stability {
+    /// The drive.
+    pub drive: Drive,
+    /// Speed of axial waves in the belt at rest, sqrt(EA/m), m/s: no belt runs faster steadily.
+    pub critical_speed: f64,
+    /// On the driver.
+    pub driver: PulleyStability,
+    /// On the driven pulley.
+    pub driven: PulleyStability,
+    /// Wall-clock seconds.
+    pub seconds: f64,
+}
+
+/// The axial motion on one pulley.
+#[derive(Clone, Debug)]
+pub struct PulleyStability {
+    /// Speed of the belt where it enters, m/s.
+    pub belt_speed: f64,
+    /// Length of contact, m.
+    pub contact_length: f64,
+    /// Where slip begins, m from the entry; the length of contact if the belt does not slip.
+    pub transition: f64,
+    /// The spectrum in every form of the linearised problem, in the order of [`LinearisedForm::ALL`].
+    pub forms: [FormStability; 3],
+}
+
+/// The spectrum in one form of the linearised problem.
+#[derive(Clone, Debug)]
+pub struct FormStability {
+    /// The form.
+    pub form: LinearisedForm,
+    /// The lowest modes in order of frequency.
+    pub modes: Vec<AxialMode>,
+    /// Index of the mode that grows most, or decays least, among these.
+    pub least_stable: usize,
+    /// What the rates of growth tend to for high modes, 1/s.
+    pub high_mode_limit: f64,
+    /// Number of eigenvalues in a box about zero by the argument principle, conjugates included;
+    /// equal to the number found.
+    pub counted: usize,
+    /// The box: bounds of |Re λ| and |Im λ|, 1/s.
+    pub within: [f64; 2],
+    /// The load from which on a motion grows; not looked for in the conservative form, in which none
+    /// does.
+    pub onset: Option<Onset>,
+}
+
+/// An eigenvalue λ of the axial motion, which goes as exp(λ t), with its conjugate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AxialMode {
+    /// Rate of growth Re λ, 1/s.
+    pub growth: f64,
+    /// Angular frequency Im λ, rad/s; not negative.
+    pub frequency: f64,
+    /// Relative difference between the two methods by which it was found.
+    pub difference: f64,
+    /// The shape of the motion along the belt; of the first modes only.
+    pub shape: Vec<ShapePoint>,
+}
+
+/// The eigenfunction of a mode at a place. Its largest value is 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShapePoint {
+    /// Arc length from the entry, m.
+    pub arc_length: f64,
+    /// Real and imaginary part.
+    pub value: [f64; 2],
+}
+
+/// Where a drive turns unstable as its load grows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Onset {
+    /// At a load.
+    At {
+        /// The load, N or N·m as [`crate::input::Key::load`].
+        load: f64,
+        /// Number of the mode that grows first, from 1; `None` if it is one of the high modes.
+        mode: Option<usize>,
+    },
+    /// Nowhere up to the largest load that the drive carries.
+    Never,
+}
+
+/// Relative growth |Re λ|/|λ| that is rounding.
+pub(crate) const ROUNDING: f64 = 1e-9;
+
+impl AxialMode {
+    /// Whether the motion grows.
+    pub fn grows(&self) -> bool {
+        self.growth > ROUNDING * self.growth.hypot(self.frequency)
+    }
+}
+
+impl FormStability {
+    /// Whether some motion grows: one of the modes, or the high ones.
+    pub fn is_unstable(&self) -> bool {
+        self.high_mode_limit > 0.0 || self.modes.iter().any(AxialMode::grows)
+    }
+
+    /// The largest rate of growth Re λ among the modes, 1/s.
+    pub fn largest_growth(&self) -> f64 {
+        self.modes[self.least_stable].growth
+    }
+}
+
+/// Finds the lowest `modes` of the axial motion on each pulley of a flat-belt drive, whether they
+/// grow, and from which load on, in each [`LinearisedForm`] of the linearised problem. The zones of the steady
+/// state are held.
+///
+/// Every eigenvalue is found twice, by spectral elements and by Newton's method on the exact
+/// characteristic function, and all are counted by the argument principle. `progress` is called with
+/// the share of the work that is done and what is being done.
+///
+/// # Errors
+/// Those of [`solve`](crate::solve); [`SolveError::NotModelled`] for V-belts, for creep-rate friction,
+/// and where the belt sticks again behind a slip zone; [`SolveError::Stability`] where the methods
+/// disagree.
+pub fn stability(
+    drive: &Drive,
+    modes: usize,
+    progress: &mut dyn FnMut(f64, &str),
+) -> Result<Stability, SolveError> {
+    solve::check(drive, &SolveOptions::default())?;
+    match drive.belt.kind {
+        BeltKind::V(_) => Err(SolveError::NotModelled(
+            "the stability of V-belt drives is not modelled, only that of flat belts",
+        )),
+        BeltKind::Flat { .. } => flat::stability(drive, modes, progress),
+    }
+}
