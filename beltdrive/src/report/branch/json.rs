@@ -203,7 +203,7 @@ mod tests {
         let appears = &report["events"][1];
         assert_eq!(appears["kind"], "zone appears");
         assert_eq!(appears["zone"], "slip");
-        let slips = "the belt slips grossly on the driver";
+        let slips = "the driver slips grossly";
         assert_eq!(report["events"][2]["description"], slips);
     }
 
