@@ -91,3 +91,10 @@ pub(super) fn coulomb_at_rest() -> AxialMotion {
         ..belt(0.0, 0.0)
     }
 }
+
+impl AxialMotion {
+    /// Stiffness of the moving belt D = EA − m v², N.
+    pub(super) fn moving_stiffness(&self) -> f64 {
+        self.axial_stiffness - self.mass_per_length * self.speed * self.speed
+    }
+}
