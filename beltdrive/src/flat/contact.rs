@@ -174,8 +174,9 @@ impl Contact {
                 saturation,
             } => {
                 let creep = Creep::with_logarithm(&self.arc, speed, saturation, logarithm);
-                let velocity = creep.velocity(arc_length);
-                let load = creep.load_to(arc_length);
+                let distance = (1.0 - share) * (zone.end - start.arc_length);
+                let velocity = creep.velocity(distance);
+                let load = creep.load_before(distance);
                 let traction = self.arc.entry * (sense * load).exp();
                 let displacement = saturation / (slip_rate * speed) * load;
                 Place {

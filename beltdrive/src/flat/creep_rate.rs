@@ -32,7 +32,7 @@ pub(super) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
         true => {
             let mut residual = |logarithm: f64| {
                 evaluations += 1;
-                Creep::with_logarithm(&arc, speed, saturation, logarithm).load() - load
+                Creep::with_logarithm(&arc, speed, saturation, logarithm).load(&arc) - load
             };
             let most = saturation.ln();
             let unit = speed * arc.entry / arc.belt.stiffness;
@@ -52,7 +52,7 @@ pub(super) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
         displacement: 0.0,
         friction: arc.slip_rate * arc.entry * creep.entry / saturation,
     };
-    let saturated = creep.saturated().min(arc.length);
+    let saturated = creep.end();
     let mut contact = Contact {
         arc,
         strain: creep.entry / speed,
@@ -60,7 +60,7 @@ pub(super) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
             start,
             end: saturated,
             friction: Friction::Creep {
-                logarithm: creep.logarithm,
+                logarithm: entry,
                 speed,
                 saturation,
             },
@@ -79,37 +79,64 @@ pub(super) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
 }
 
 /// The slip velocity along an arc, until friction is fully developed.
+///
+/// With q = c P(0)/D and the upper sign on the driven pulley it is
+///
+/// ```text
+/// y = B/(exp(x) ∓ 1)     x = ln(q/y(0)) − a B s/v_s     B = q ∓ y(0)
+/// ```
+///
+/// Where `v_s` is small, x is the small difference of large numbers, so that it is counted from the end,
+/// where it is ln(B/`v_s` ± 1) if friction is fully developed there.
 pub(super) struct Creep {
     /// Sense of the friction force, as [`Arc::sense`].
     sense: f64,
-    /// Slip rate a, 1/m, and length of the arc, m.
-    slip_rate: f64,
-    length: f64,
-    /// Slip velocity `v_s` of full friction, m/s.
-    saturation: f64,
-    /// Logarithm of the slip velocity at the entry, in m/s, and the velocity.
-    logarithm: f64,
+    /// Rate a/`v_s`, s/m².
+    rate: f64,
+    /// Slip velocity at the entry, m/s.
     pub(super) entry: f64,
-    /// Velocity c P(0)/D, m/s, and B = c P(0)/D ∓ y(0).
+    /// Velocities q and B, m/s.
     unit: f64,
     b: f64,
+    /// Where friction is fully developed or the arc ends, m.
+    end: f64,
+    /// Slip velocity and x there.
+    last: [f64; 2],
 }
 
 impl Creep {
     /// The slip velocity that begins with a given logarithm.
     pub(super) fn with_logarithm(arc: &Arc, speed: f64, saturation: f64, logarithm: f64) -> Self {
+        let (sense, rate) = (arc.sense, arc.slip_rate / saturation);
         let entry = logarithm.exp();
         let unit = speed * arc.entry / arc.belt.stiffness;
-        Self {
-            sense: arc.sense,
-            slip_rate: arc.slip_rate,
-            length: arc.length,
-            saturation,
-            logarithm,
+        let mut creep = Self {
+            sense,
+            rate,
             entry,
             unit,
-            b: unit - arc.sense * entry,
+            b: unit - sense * entry,
+            end: f64::INFINITY,
+            last: [saturation, f64::NAN],
+        };
+        let first = unit.ln() - logarithm;
+        // B/v_s ± 1, which is negative if the driver never slips so fast.
+        let rest = creep.b / saturation + sense;
+        if creep.is_degenerate() {
+            creep.end = (entry.recip() - saturation.recip()) / rate;
+        } else if rest > 0.0 {
+            creep.last[1] = rest.ln();
+            creep.end = (first - creep.last[1]) / (creep.b * rate);
         }
+        if creep.end >= arc.length {
+            creep.end = arc.length;
+            creep.last[1] = first - creep.b * rate * arc.length;
+            creep.last[0] = match creep.is_degenerate() {
+                true => (entry.recip() - rate * arc.length).recip(),
+                false => creep.velocity(0.0),
+            };
+        }
+        creep
     }
 
     /// Whether B is zero to rounding.
@@ -117,65 +144,50 @@ impl Creep {
         self.b.abs() < 1e-8 * self.unit
     }
 
-    /// The slip velocity y at an arc length s before saturation, m/s:
-    ///
-    /// ```text
-    /// B/y = c P(0)/(D y(0)) exp(−a B s/v_s) ∓ 1
-    /// ```
-    pub(super) fn velocity(&self, arc_length: f64) -> f64 {
-        let travelled = self.slip_rate * arc_length / self.saturation;
+    /// The slip velocity y at a distance before the end, m/s.
+    pub(super) fn velocity(&self, distance: f64) -> f64 {
+        let [velocity, exponent] = self.last;
         if self.is_degenerate() {
-            return (self.entry.recip() - travelled).recip();
+            return (velocity.recip() + self.rate * distance).recip();
         }
-        let exponent = self.unit.ln() - self.logarithm - self.b * travelled;
+        let exponent = exponent + self.b * self.rate * distance;
         match self.sense > 0.0 {
             true => self.b / exponent.exp_m1(),
             false => self.b / (exponent.exp() + 1.0),
         }
     }
 
-    /// Arc length at which friction is fully developed, m; infinite if it never is.
-    pub(super) fn saturated(&self) -> f64 {
-        let scale = self.saturation / self.slip_rate;
-        if self.is_degenerate() {
-            return scale * (self.entry.recip() - self.saturation.recip());
-        }
-        let rest = self.b / self.saturation + self.sense;
-        match rest > 0.0 || self.b < 0.0 {
-            true => scale / self.b * (self.unit.ln() - self.logarithm - rest.abs().ln()),
-            false => f64::INFINITY,
-        }
+    /// Where friction is fully developed or the arc ends, m.
+    pub(super) fn end(&self) -> f64 {
+        self.end
     }
 
-    /// The load |ln(P(s)/P(0))| taken up to an arc length before saturation. With the exponent x of
-    /// [`Creep::velocity`], q = c P(0)/D and the upper sign on the driven pulley, it is
+    /// The load |ln(P(s)/P(0))| taken up to a distance before the end,
     ///
     /// ```text
     /// ± ln(1 ∓ y(0)/q) ∓ ln(1 ∓ exp(−x))  =  a |B| s/v_s ± ln(1 ∓ q/y(0)) ∓ ln(1 ∓ exp(x))
     /// ```
     ///
-    /// of which the first loses no digits for x > 0, the second for x < 0.
-    pub(super) fn load_to(&self, arc_length: f64) -> f64 {
+    /// of which the first form loses no digits for x > 0, the second for x < 0.
+    pub(super) fn load_before(&self, distance: f64) -> f64 {
         let Self { sense, unit, .. } = *self;
         if self.is_degenerate() {
-            let velocity = self.velocity(arc_length);
-            return ((velocity - self.entry) / unit).ln_1p();
+            return ((self.velocity(distance) - self.entry) / unit).ln_1p();
         }
-        let travelled = self.b * self.slip_rate * arc_length / self.saturation;
-        let exponent = unit.ln() - self.logarithm - travelled;
+        let [_, last] = self.last;
+        let exponent = last + self.b * self.rate * distance;
         let logarithm = |value: f64| sense * (-sense * value).ln_1p();
         match exponent > 0.0 {
             true => logarithm(self.entry / unit) - logarithm((-exponent).exp()),
-            false => travelled.abs() + logarithm(unit / self.entry) - logarithm(exponent.exp()),
+            false => {
+                let travelled = self.b.abs() * self.rate * (self.end - distance);
+                travelled + logarithm(unit / self.entry) - logarithm(exponent.exp())
+            }
         }
     }
 
-    /// The load |ln(P(L)/P(0))| of the arc.
-    fn load(&self) -> f64 {
-        let saturated = self.saturated();
-        match saturated < self.length {
-            true => self.load_to(saturated) + self.slip_rate * (self.length - saturated),
-            false => self.load_to(self.length),
-        }
+    /// The load |ln(P(L)/P(0))| of an arc.
+    fn load(&self, arc: &Arc) -> f64 {
+        self.load_before(0.0) + arc.slip_rate * (arc.length - self.end)
     }
 }
