@@ -8,8 +8,8 @@ use super::range::{End, Members};
 use super::solve::refused;
 use crate::input::Key;
 use crate::{
-    Branch, BranchEnd, BranchEvent, Drive, EventKind, LimitReason, Pulley, SolveError,
-    SolveOptions, TraceConvergence, TracePoint, ZoneKind,
+    Branch, BranchEnd, BranchEvent, Drive, EventKind, LimitReason, Pulley, PulleySummary,
+    SolveError, SolveOptions, TraceConvergence, TracePoint, Zone, ZoneKind,
 };
 use std::time::Instant;
 
@@ -17,6 +17,10 @@ use std::time::Instant;
 const INTERVALS: usize = 48;
 /// A range is sampled in equal ratios if its ends have a larger one.
 const WIDE: f64 = 20.0;
+/// An interval is halved, at most so often, where the speed of the driven pulley or a slip arc bends by
+/// more than a share of the speed of the driver or of the wrap.
+const DEPTH: usize = 8;
+const BEND: f64 = 2e-3;
 /// Zones that change within this share of the range from its start are not told apart from it.
 const EDGE: f64 = 1e-9;
 /// Bisections after which two doubles of one sign are neighbours.
@@ -58,6 +62,7 @@ pub(super) fn branch_between(
             break;
         }
         trace.zones_between(last, value);
+        trace.refine(last, value, DEPTH);
         trace.point(value);
         last = value;
     }
@@ -120,6 +125,32 @@ impl Trace<'_> {
         self.points.extend(self.state(value));
     }
 
+    /// Adds points between two values where the branch bends.
+    fn refine(&mut self, from: f64, to: f64, depth: usize) {
+        let middle = 0.5 * (from + to);
+        let shown = |value: f64| {
+            let state = self.members.summary(value)?;
+            let slip = |pulley: &PulleySummary| {
+                let slips = |zone: &&Zone| zone.kind == ZoneKind::Slip;
+                let arcs = pulley.zones.iter().filter(slips);
+                arcs.map(|zone| zone.to - zone.from).sum::<f64>() / pulley.wrap_angle
+            };
+            let speed = state.driven.angular_speed / self.members.drive.driver_speed;
+            Some([speed, slip(&state.driven), slip(&state.driver)])
+        };
+        let (Some(one), Some(between), Some(other)) = (shown(from), shown(middle), shown(to))
+        else {
+            return;
+        };
+        let bends = |i: usize| (between[i] - 0.5 * (one[i] + other[i])).abs() > BEND;
+        if depth == 0 || middle == from || middle == to || !(0..3).any(bends) {
+            return;
+        }
+        self.refine(from, middle, depth - 1);
+        self.point(middle);
+        self.refine(middle, to, depth - 1);
+    }
+
     /// Adds what happens at a value, as a point, too.
     fn event(&mut self, kind: EventKind, value: f64) {
         let located = !matches!(kind, EventKind::Start | EventKind::End);
@@ -148,6 +179,10 @@ impl Trace<'_> {
             return BranchEnd::Target;
         };
         self.zones_between(inside, value);
+        self.refine(inside, value, DEPTH);
+        if value != inside {
+            self.point(value);
+        }
         match refusal {
             Refusal::Slips(reason) => {
                 let pulley = match reason {
