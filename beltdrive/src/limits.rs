@@ -46,7 +46,7 @@ pub enum RangeEnd {
     NotFound,
 }
 
-/// Finds the smallest and the largest value of an entry — by default of the tight tension — that the
+/// Finds the smallest and the largest value of an entry, such as [`Key::load`], that the
 /// drive carries, why the range ends there, and the branch between.
 ///
 /// # Errors

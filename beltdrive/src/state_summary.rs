@@ -24,7 +24,7 @@ pub struct StateSummary {
     /// Speed loss s = 1 − ω₁ R₁ / (ω₂ R₂) of the driven pulley 1 against the driver 2; 0 where the
     /// driver stands still.
     pub speed_loss: f64,
-    /// Power taken by the driven pulley over power given by the driver; 0 where no power flows.
+    /// Power taken by the driven pulley over power given by the driver, as in [`SteadyState`].
     pub efficiency: f64,
     /// Power lost in friction, W.
     pub friction_loss: f64,

@@ -26,7 +26,8 @@ pub struct SteadyState {
     pub slack_tractive_tension: f64,
     /// Tractive tension F = T − G V in the tight span, N.
     pub tight_tractive_tension: f64,
-    /// Power taken by the driven pulley over power given by the driver; 0 where no power flows.
+    /// Power taken by the driven pulley over power given by the driver. Where no power flows it is 0 on
+    /// V-belts, and its limit 1 on flat belts.
     pub efficiency: f64,
     /// Power lost in friction, W; not negative.
     pub friction_loss: f64,

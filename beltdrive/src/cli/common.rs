@@ -15,7 +15,7 @@ pub(super) struct Common {
     file: PathBuf,
     #[command(flatten)]
     pub(super) output: Output,
-    /// Override one entry of the drive file by its dotted path; repeatable
+    /// Override one entry of the drive file by its dotted path, or leave it out (KEY=); repeatable
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
     /// Relative tolerance of each steady state, 1e-12 to 1e-2

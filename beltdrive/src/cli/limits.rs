@@ -17,8 +17,8 @@ Example:
 pub(super) struct Limits {
     #[command(flatten)]
     common: Common,
-    /// Entry of the drive file to look for the limits of, by its dotted path; the tight tension
-    /// unless given
+    /// Entry of the drive file to look for the limits of, by its dotted path; unless given the load:
+    /// the tight tension or the driven torque
     #[arg(long, value_name = "KEY")]
     parameter: Option<String>,
 }

@@ -42,10 +42,8 @@ pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -
         tight_tension: tight,
         slack_tractive_tension: tractive(slack),
         tight_tractive_tension: tractive(tight),
-        efficiency: match powers[DRIVER] > 0.0 {
-            true => powers[DRIVEN] / powers[DRIVER],
-            false => 0.0,
-        },
+        // Both pulleys have the same friction force, so that the powers are as the speeds of the rims.
+        efficiency: solved.rim_speed(drive, DRIVEN) / solved.rim_speed(drive, DRIVER),
         friction_loss: powers[DRIVER] - powers[DRIVEN],
         driver,
         driven,
