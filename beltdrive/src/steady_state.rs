@@ -169,6 +169,11 @@ pub enum Warning {
         /// Largest inclination, rad.
         inclination: f64,
     },
+    /// The belt is stretched by more than a model of small strains stands for.
+    LargeStrain {
+        /// Strain T/EA of the tight span.
+        strain: f64,
+    },
 }
 
 /// A verified invariant.

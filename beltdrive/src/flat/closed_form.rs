@@ -242,7 +242,7 @@ impl<'d> Statement<'d> {
     fn check(&self, loaded: &Loaded) -> Result<(), Refusal> {
         let [driven, driver] = &loaded.arc;
         let tension = loaded.tension;
-        if driven.change < 0.0 {
+        if driven.change < 0.0 && driven.belt.stiffness > 0.0 {
             return Err(Refusal::Backwards { tension });
         }
         if driven.entry <= 0.0 || driven.belt.stiffness <= 0.0 {

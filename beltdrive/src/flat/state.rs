@@ -5,13 +5,16 @@ use super::contact::{Contact, Place};
 use super::{DRIVEN, DRIVER, epp};
 use crate::{
     BeltKind, Check, Convergence, Drive, Entry, FrictionLaw, NormalForce, Profile, PulleyState,
-    SteadyState, Zone,
+    SteadyState, Warning, Zone,
 };
 use std::f64::consts::FRAC_PI_2;
 use std::time::Instant;
 
 /// Points of a profile per panel of a zone.
 const POINTS: usize = 4;
+
+/// From this strain on the friction zones of models with small and with finite strains differ visibly.
+const LARGE_STRAIN: f64 = 0.02;
 
 /// How far an invariant may be off, relative: quadrature has about eleven digits.
 const ALLOWED: f64 = 1e-9;
@@ -47,7 +50,7 @@ pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -
         friction_loss: powers[DRIVER] - powers[DRIVEN],
         driver,
         driven,
-        warnings: Vec::new(),
+        warnings: warnings(drive, tight / axial),
         checks: Vec::new(),
         convergence: Convergence {
             newton_iterations: solved.evaluations,
@@ -59,6 +62,18 @@ pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -
     state.convergence.error_estimate = closing_error(solved);
     state.convergence.seconds = start.elapsed().as_secs_f64();
     state
+}
+
+/// A remark on strains that only matter to elastic friction, which acts per unstretched length.
+fn warnings(drive: &Drive, strain: f64) -> Vec<Warning> {
+    let exact = BeltKind::Flat {
+        normal_force: NormalForce::Exact,
+    };
+    let is_elastic = matches!(drive.law, FrictionLaw::Epp { .. });
+    match is_elastic && drive.belt.kind != exact && strain > LARGE_STRAIN {
+        true => vec![Warning::LargeStrain { strain }],
+        false => Vec::new(),
+    }
 }
 
 /// How far the tractions at the ends of both pulleys are off, relative; at least the rounding of

@@ -83,21 +83,29 @@ impl Serialize for ProfileReport<'_> {
 #[derive(Serialize)]
 struct WarningReport {
     kind: &'static str,
-    pulley: Pulley,
-    inclination_deg: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pulley: Option<Pulley>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    inclination_deg: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    strain: Option<f64>,
     message: String,
 }
 
 impl From<&Warning> for WarningReport {
     fn from(remark: &Warning) -> Self {
-        let Warning::Overhang {
-            pulley,
-            inclination,
-        } = *remark;
+        let (kind, pulley, inclination, strain) = match *remark {
+            Warning::Overhang {
+                pulley,
+                inclination,
+            } => ("overhang", Some(pulley), Some(inclination), None),
+            Warning::LargeStrain { strain } => ("large strain", None, None, Some(strain)),
+        };
         Self {
-            kind: "overhang",
+            kind,
             pulley,
-            inclination_deg: inclination.to_degrees(),
+            inclination_deg: inclination.map(f64::to_degrees),
+            strain,
             message: warning(remark),
         }
     }

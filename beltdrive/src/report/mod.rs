@@ -107,6 +107,11 @@ pub(crate) fn warning(warning: &Warning) -> String {
             pulley.name(),
             inclination.to_degrees()
         ),
+        Warning::LargeStrain { strain } => format!(
+            "the tight span is stretched by {:.2} %, which small strains do not stand for: \
+             normal_force = \"exact\"",
+            100.0 * strain
+        ),
     }
 }
 

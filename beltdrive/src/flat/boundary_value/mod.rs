@@ -3,8 +3,9 @@
 //! The problem is stated in tension, displacement and arc length from the balance of momentum and the
 //! laws of friction ([`formulation`]) and solved by collocation. Of the closed form it takes which kinds
 //! of zones there are on each pulley, and nothing else: lengths of zones, tensions and speeds are
-//! unknowns that start from a rough guess ([`start`]).
+//! unknowns that start from a rough guess ([`start`]). The wrap angles are those of the open belt.
 
+mod coarse;
 mod formulation;
 mod place;
 mod start;
@@ -17,16 +18,13 @@ pub(crate) use place::{BorderedZone, Place};
 
 use super::closed_form::{ClosedForm, Refusal};
 use super::{DRIVEN, DRIVER};
-use crate::{Drive, FrictionLaw, NormalForce, ZoneKind};
-use bvp::{GlobalError, Options, Scheme, Solution, Stats};
+use crate::{BeltKind, Drive, FrictionLaw, NormalForce};
+use bvp::{Options, Scheme, Solution, Stats};
+use coarse::first_guess;
 use formulation::{Formulation, LENGTHS, REFERENCE, SPANS, SPEED};
-use start::Start;
 
 /// Intervals of a zone of the first mesh.
 const INTERVALS: usize = 4;
-
-/// Tolerance of the coarse solution that shows where zones are.
-const COARSE: f64 = 1e-2;
 
 /// The steady state of a flat-belt drive by collocation.
 #[derive(Clone, Debug)]
@@ -36,21 +34,25 @@ pub(crate) struct BoundaryValue {
 }
 
 /// Why there is no such solution.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub(crate) enum Failure {
     /// The closed form knows that there is no steady state.
+    #[error("no steady state: {0:?}")]
     Refused(Refusal),
     /// The solver failed.
-    Solver(bvp::Error),
+    #[error(transparent)]
+    Solver(#[from] bvp::Error),
     /// A coarse solution has other zones than the closed form.
-    Unlike,
-    /// Zones of these kinds do not make a steady state: the length of one is negative, m.
-    Zones {
-        /// Pulley of the zone.
+    #[error("a coarse solution has other zones than the closed form")]
+    OtherZones,
+    /// Zones of these kinds do not make a steady state: one has a negative length.
+    #[error("zone {zone} of pulley {pulley} has the length {length} m")]
+    NegativeLength {
+        /// Index of the pulley.
         pulley: usize,
-        /// Its kind.
-        kind: ZoneKind,
-        /// Its length.
+        /// Index of the zone on the pulley.
+        zone: usize,
+        /// Its length, m.
         length: f64,
     },
 }
@@ -65,21 +67,28 @@ impl BoundaryValue {
     /// # Panics
     /// If the drive is none of those that [`crate::solve`] passes on.
     pub(crate) fn solve(drive: &Drive, tolerance: f64, scheme: Scheme) -> Result<Self, Failure> {
-        let formulation = formulation_of(drive).map_err(Failure::Refused)?;
+        Self::of(
+            formulation_of(drive).map_err(Failure::Refused)?,
+            tolerance,
+            scheme,
+        )
+    }
+
+    /// The solution of a problem.
+    fn of(formulation: Formulation, tolerance: f64, scheme: Scheme) -> Result<Self, Failure> {
         let start = first_guess(&formulation)?.on_mesh(INTERVALS, tolerance);
         let options = Options {
             tolerance,
             scheme,
-            global_error: GlobalError::HalvedMesh,
             ..Options::default()
         };
-        let solution = bvp::solve(&formulation, &start, &options).map_err(Failure::Solver)?;
-        let lengths = &solution.parameters()[LENGTHS..];
-        if let Some((segment, &length)) = lengths.iter().enumerate().find(|(_, l)| **l < 0.0) {
+        let solution = bvp::solve(&formulation, &start, &options)?;
+        let lengths = solution.parameters()[LENGTHS..].iter().enumerate();
+        if let Some((segment, &length)) = lengths.into_iter().find(|(_, length)| **length < 0.0) {
             let pulley = formulation.pulley(segment);
-            return Err(Failure::Zones {
+            return Err(Failure::NegativeLength {
                 pulley,
-                kind: formulation.kind(segment),
+                zone: segment - formulation.zones(pulley).start,
                 length: length * formulation.units.radius[pulley],
             });
         }
@@ -156,27 +165,8 @@ impl BoundaryValue {
     }
 }
 
-/// The first guess. A belt that sticks, slips and sticks again has soft bristles and thus no thin
-/// layers: a coarse solution without regard to the kinks shows where the zones are.
-fn first_guess(formulation: &Formulation) -> Result<Start, Failure> {
-    if [DRIVEN, DRIVER]
-        .iter()
-        .all(|&pulley| formulation.zones(pulley).len() < 3)
-    {
-        return Ok(Start::new(formulation));
-    }
-    let unzoned = formulation.unzoned();
-    let options = Options {
-        tolerance: COARSE,
-        scheme: Scheme::Gauss { stages: 2 },
-        global_error: GlobalError::Skip,
-        ..Options::default()
-    };
-    let coarse = bvp::solve(&unzoned, &Start::new(&unzoned), &options).map_err(Failure::Solver)?;
-    Start::from_unzoned(formulation, &coarse).ok_or(Failure::Unlike)
-}
-
-/// The problem with the kinds of zones that the closed form finds.
+/// The problem with the kinds of zones that the closed form finds, and like it without regard to the
+/// convention where friction grows with the slip velocity.
 fn formulation_of(drive: &Drive) -> Result<Formulation, Refusal> {
     let closed_form = ClosedForm::new(drive)?;
     let zones = [DRIVEN, DRIVER].map(|pulley| {
@@ -185,8 +175,8 @@ fn formulation_of(drive: &Drive) -> Result<Formulation, Refusal> {
     });
     let convention = match (drive.law, drive.belt.kind) {
         (FrictionLaw::CreepRate { .. }, _) => NormalForce::Inertia,
-        (_, crate::BeltKind::Flat { normal_force }) => normal_force,
-        (_, crate::BeltKind::V(_)) => panic!("a flat belt was expected"),
+        (_, BeltKind::Flat { normal_force }) => normal_force,
+        (_, BeltKind::V(_)) => panic!("a flat belt was expected"),
     };
     let wrap = closed_form.geometry.wrap;
     Ok(Formulation::new(drive, wrap, convention, &zones))

@@ -9,36 +9,51 @@ use super::formulation::{
     SPEED,
 };
 use crate::{SpanTension, ZoneKind};
-use bvp::{Guess, Problem, Solution};
+use bvp::{Guess, Problem};
 
 /// Fixed-point steps for the tensions of the spans and the speed of the belt.
 const STEPS: usize = 4;
 /// Slip zones are guessed no shorter and no longer than these shares of the wrap.
 const SLIP: [f64; 2] = [0.05, 0.95];
-/// Places of a pulley at which slip is looked for.
-const PLACES: usize = 100;
+/// Largest share of the load of a pulley that a zone of creep before slip is guessed to carry.
+const LESS: f64 = 0.9;
+/// Exponential functions of lower rates are straight lines.
+const STRAIGHT: f64 = 1e-3;
 /// A zone whose layer is thinner than this share of it starts on a graded mesh.
 const THIN: f64 = 0.1;
 
 /// A guess of the solution.
 #[derive(Clone, Debug)]
 pub(super) struct Start {
-    zones: Vec<Line>,
-    parameters: Vec<f64>,
-    mesh: Option<Vec<Vec<f64>>>,
+    /// The belt on every zone.
+    pub(super) zones: Vec<Line>,
+    /// Parameters of the problem.
+    pub(super) parameters: Vec<f64>,
+    /// The mesh to start on; equal intervals if there is none.
+    pub(super) mesh: Option<Vec<Vec<f64>>>,
 }
 
 /// The belt on a zone: between two states as [exp(r ξ) − 1]/[exp(r) − 1].
 #[derive(Clone, Copy, Debug)]
-struct Line {
+pub(super) struct Line {
     /// Excess of tension, displacement and arc length where the zone begins.
-    from: [f64; 3],
+    pub(super) from: [f64; 3],
     /// Where it ends.
-    to: [f64; 3],
+    pub(super) to: [f64; 3],
     /// Rate r, not negative.
-    rate: f64,
+    pub(super) rate: f64,
     /// Length of the zone.
-    length: f64,
+    pub(super) length: f64,
+}
+
+/// The zones of a pulley, roughly.
+struct Sketch {
+    /// Length of each zone.
+    lengths: Vec<f64>,
+    /// Tension at the end of each zone.
+    ends: Vec<f64>,
+    /// Rate of each zone.
+    rates: Vec<f64>,
 }
 
 impl Start {
@@ -63,73 +78,16 @@ impl Start {
         start
     }
 
-    /// A guess with zones as they are seen in a solution of [`Formulation::unzoned`]; `None` if their
-    /// number differs.
-    pub(super) fn from_unzoned(problem: &Formulation, found: &Solution) -> Option<Self> {
-        let unzoned = problem.unzoned();
-        let p = found.parameters();
-        let mut start = Self {
-            zones: Vec::new(),
-            parameters: p[..LENGTHS].to_vec(),
-            mesh: None,
-        };
-        for pulley in [DRIVEN, DRIVER] {
-            let place = |i: usize| i as f64 / PLACES as f64;
-            let state = |s: f64| {
-                let mut y = [0.0; 3];
-                found.state(pulley, s, &mut y);
-                y
-            };
-            // Elastic friction of a zone is not cut off, that of the unzoned problem is.
-            let slips = |s: f64| {
-                let y = state(s);
-                let elastic = y[DISPLACEMENT].abs() * problem.friction_coefficient;
-                let limit = unzoned.friction(pulley, ZoneKind::Slip, &y, p).abs();
-                elastic > limit
-            };
-            let slips: Vec<_> = (0..=PLACES).map(|i| slips(place(i))).collect();
-            let changes = slips.windows(2).enumerate();
-            let changes = changes.filter(|(_, pair)| pair[0] != pair[1]);
-            let mut borders = vec![0.0];
-            borders.extend(changes.map(|(i, _)| place(i) + 0.5 * place(1)));
-            borders.push(1.0);
-            if borders.len() != problem.zones(pulley).len() + 1 {
-                return None;
-            }
-            for (segment, ends) in problem.zones(pulley).zip(borders.windows(2)) {
-                let units = [ZoneKind::Elastic, problem.kind(segment)].map(|kind| {
-                    let displacement = problem.units.displacement(pulley, kind);
-                    [problem.units.excess(pulley, kind), displacement]
-                });
-                let [from, to] = [ends[0], ends[1]].map(|s| {
-                    let mut y = state(s);
-                    y[EXCESS] *= units[0][0] / units[1][0];
-                    y[DISPLACEMENT] *= units[0][1] / units[1][1];
-                    y
-                });
-                start.zones.push(Line {
-                    from,
-                    to,
-                    rate: 0.0,
-                    length: p[LENGTHS + pulley] * (ends[1] - ends[0]),
-                });
-            }
-        }
-        let lengths = start.zones.iter().map(|zone| zone.length);
-        start.parameters.extend(lengths);
-        Some(start)
-    }
-
-    /// The same guess on a mesh of so many intervals a zone, with those of a zone with a thin layer
-    /// at its end where the exponential function is more than `least`.
+    /// The same guess on a mesh of so many intervals a zone. In a zone with a thin layer at its end they
+    /// are where the slope of the exponential function is more than `least`, and one more is before it.
     pub(super) fn on_mesh(mut self, intervals: usize, least: f64) -> Self {
         let nodes = self.zones.iter().map(|zone| {
-            let depth = -least.ln() / zone.rate;
-            let uniform = |i: usize| i as f64 / intervals as f64;
+            let depth = (zone.rate / least).ln() / zone.rate;
+            let uniform = (0..=intervals).map(|i| i as f64 / intervals as f64);
             match zone.rate * THIN > 1.0 && depth < 1.0 {
-                false => (0..=intervals).map(uniform).collect(),
+                false => uniform.collect(),
                 true => std::iter::once(0.0)
-                    .chain((0..=intervals).map(|i| 1.0 - depth * (1.0 - uniform(i))))
+                    .chain(uniform.map(|place| 1.0 - depth * (1.0 - place)))
                     .collect(),
             }
         });
@@ -137,46 +95,18 @@ impl Start {
         self
     }
 
-    /// The zones of a pulley.
+    /// Adds the zones of a pulley.
     fn add_pulley(&mut self, problem: &Formulation, pulley: usize) {
         let p = &self.parameters;
         let (speed, sense) = (p[SPEED], SENSE[pulley]);
-        let [entry, exit] = [p[SPANS + ENTRY[pulley]], p[SPANS + EXIT[pulley]]];
+        let entry = p[SPANS + ENTRY[pulley]];
         let friction = problem.friction_coefficient;
-        let normal = |tension: f64| problem.normal(tension, speed);
-        let tension = |normal: f64| problem.tension_of_normal(normal, speed);
-        let wrap = problem.wrap[pulley] / problem.stretch(entry);
-        let slip_from = |tension: f64| (normal(exit) / normal(tension)).ln().abs() / friction;
-        let within = |length: f64| length.clamp(SLIP[0] * wrap, SLIP[1] * wrap);
-        let w = problem.stiffness[pulley].sqrt();
         let kinds: Vec<_> = problem.zones(pulley).map(|i| problem.kind(i)).collect();
-        // Lengths, tensions at the borders, rates.
-        let (lengths, mut ends, rates): (Vec<f64>, Vec<f64>, Vec<f64>) = match kinds[..] {
-            [ZoneKind::Elastic] => (vec![wrap], vec![], vec![w * wrap]),
-            [ZoneKind::Creep] => (vec![wrap], vec![], vec![1.0]),
-            [ZoneKind::Elastic, ZoneKind::Slip] => {
-                let johnson = slip_from(entry);
-                let slip = within(johnson - (0.5 * johnson).min(w.recip()));
-                let border = tension(normal(exit) * (-sense * friction * slip).exp());
-                let lengths = vec![wrap - slip, slip];
-                let rates = vec![w * lengths[0], 0.0];
-                (lengths, vec![border], rates)
-            }
-            [ZoneKind::Creep, ZoneKind::Slip] => {
-                let gain = problem.saturation / (problem.compliance * speed);
-                let border = entry + sense * gain.min(0.9 * (exit - entry).abs());
-                let slip = within(slip_from(border));
-                let rate = friction * normal(entry) * (wrap - slip) / gain;
-                (vec![wrap - slip, slip], vec![border], vec![rate, 0.0])
-            }
-            [ZoneKind::Adhesion, ZoneKind::Slip] => {
-                let slip = slip_from(entry).min(wrap);
-                (vec![wrap - slip, slip], vec![entry], vec![0.0; 2])
-            }
-            // No slip; or zones that only `from_unzoned` can tell.
-            _ => (vec![wrap], vec![], vec![0.0]),
-        };
-        ends.push(exit);
+        let Sketch {
+            lengths,
+            ends,
+            rates,
+        } = sketch(problem, pulley, &kinds, p);
         let mut begin = entry;
         let mut from = [0.0; 3];
         for (zone, &kind) in kinds.iter().enumerate() {
@@ -184,7 +114,7 @@ impl Start {
             let free = problem.units.displacement(pulley, ZoneKind::Slip);
             let (length, end) = (lengths[zone], ends[zone]);
             let displacement = match kind {
-                ZoneKind::Elastic if zone + 1 < kinds.len() => sense * normal(end),
+                ZoneKind::Elastic if zone + 1 < kinds.len() => sense * problem.normal(end, speed),
                 ZoneKind::Elastic => {
                     let mean = (end - begin) / (friction * length);
                     mean * (2.0 + rates[zone])
@@ -204,7 +134,7 @@ impl Start {
             self.zones.push(Line {
                 from,
                 to,
-                rate: rates[zone].max(0.0),
+                rate: rates[zone],
                 length,
             });
             (begin, from) = (end, to);
@@ -212,6 +142,48 @@ impl Start {
                 from[DISPLACEMENT] *= unit / problem.units.displacement(pulley, next);
             }
         }
+    }
+}
+
+/// A sketch of the zones of a pulley, from the tensions of the spans.
+fn sketch(problem: &Formulation, pulley: usize, kinds: &[ZoneKind], p: &[f64]) -> Sketch {
+    let (speed, sense) = (p[SPEED], SENSE[pulley]);
+    let [entry, exit] = [p[SPANS + ENTRY[pulley]], p[SPANS + EXIT[pulley]]];
+    let friction = problem.friction_coefficient;
+    let normal = |tension: f64| problem.normal(tension, speed);
+    let wrap = problem.wrap[pulley] / problem.stretch(entry);
+    let slip_from = |tension: f64| (normal(exit) / normal(tension)).ln().abs() / friction;
+    let within = |length: f64| length.clamp(SLIP[0] * wrap, SLIP[1] * wrap);
+    let then_slip = |slip: f64, border: f64, rate: f64| Sketch {
+        lengths: vec![wrap - slip, slip],
+        ends: vec![border, exit],
+        rates: vec![rate, 0.0],
+    };
+    match kinds {
+        [ZoneKind::Elastic, ZoneKind::Slip] => {
+            let (johnson, w) = (slip_from(entry), problem.stiffness[pulley].sqrt());
+            let slip = within(johnson - (0.5 * johnson).min(w.recip()));
+            let border = normal(exit) * (-sense * friction * slip).exp();
+            let border = problem.tension_of_normal(border, speed);
+            then_slip(slip, border, w * (wrap - slip))
+        }
+        [ZoneKind::Creep, ZoneKind::Slip] => {
+            let gain = problem.saturation / (problem.compliance * speed);
+            let border = entry + sense * gain.min(LESS * (exit - entry).abs());
+            let slip = within(slip_from(border));
+            let rate = friction * normal(entry) * (wrap - slip) / gain;
+            then_slip(slip, border, rate)
+        }
+        [ZoneKind::Adhesion, ZoneKind::Slip] => then_slip(slip_from(entry).min(wrap), entry, 0.0),
+        _ => Sketch {
+            lengths: vec![wrap],
+            ends: vec![exit],
+            rates: vec![match kinds {
+                [ZoneKind::Elastic] => problem.stiffness[pulley].sqrt() * wrap,
+                [ZoneKind::Creep] => 1.0,
+                _ => 0.0,
+            }],
+        },
     }
 }
 
@@ -241,7 +213,7 @@ fn spans(problem: &Formulation) -> (f64, [f64; 2]) {
 impl Guess for Start {
     fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
         let zone = &self.zones[segment];
-        let grown = match zone.rate > 1e-3 {
+        let grown = match zone.rate > STRAIGHT {
             true => {
                 let end = -(-zone.rate).exp_m1();
                 ((zone.rate * (s - 1.0)).exp() - (-zone.rate).exp()) / end
