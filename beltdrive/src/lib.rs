@@ -1,25 +1,35 @@
 //! Steady mechanics of belt drives: from a drive to its slip, wrap angles, torque and limits.
 //!
-//! A two-pulley V-belt drive is a string with axial stretch that sinks into the groove of each
-//! pulley. [`solve`] finds its steady state — as a boundary value problem with unknown contact
-//! lengths, closed by the plane geometry of the drive — for Coulomb, elastic/perfectly-plastic and
-//! bristle friction, from nothing but the [`Drive`], and says how accurate it is; a load that no
-//! steady state carries is refused with the limit and its reason ([`SolveError`]).
+//! [`solve`] finds the steady state of a two-pulley drive from nothing but the [`Drive`], and says how
+//! accurate it is; a load that no steady state carries is refused with the limit and its reason
+//! ([`SolveError`]). The [`BeltKind`] decides between two models:
+//!
+//! - A **V-belt** is a string with axial stretch that sinks into the groove of each pulley. Its state
+//!   is the solution of a boundary value problem with unknown contact lengths, closed by the plane
+//!   geometry of the drive, for Coulomb, elastic/perfectly-plastic and bristle friction.
+//! - A **flat belt** is a string on the rims. Its state is known in closed form, for Coulomb,
+//!   elastic/perfectly-plastic and creep-rate friction and three conventions for the normal force
+//!   ([`NormalForce`]). [`stability`](stability()) examines its axial motion.
 //!
 //! # Conventions
 //!
 //! SI units throughout, angles in radians; units exist only in drive files ([`input`]). The driven
 //! pulley has index 1 in formulas, the driver 2. The belt runs driven pulley, tight span, driver,
 //! slack span. On each pulley the arc length s and the angle φ start where the belt enters;
-//! tension is positive in traction, the inclination θ of the belt to the local circle is positive
-//! outward, the penetration x is positive inward. The tractive tension is F = T − G V with the
-//! belt tension T, the mass flow G and the belt speed V.
+//! tension is positive in traction. The tractive tension is F = T − G V with the belt tension T, the
+//! mass flow G and the belt speed V. On V-belts the inclination θ of the belt to the local circle is
+//! positive outward, the penetration x is positive inward.
+//!
+//! A flat belt is displaced by u against the rim, positive forward: u is positive on the driven pulley,
+//! where the belt outruns the rim and the tension grows, and negative on the driver. u′ = (T − `T_o`)/EA
+//! with the tension `T_o` at which the belt would run as fast as the rim ([`Entry`]). Friction forces
+//! are magnitudes.
 //!
 //! # Assumptions
 //!
-//! Steady motion in one plane; a string without bending stiffness; a linear elastic belt, axially
-//! and radially; equal faces of a groove; no thermal effects. Beyond an inclination of 90° the belt
-//! overhangs itself: such states solve the equations and carry a [`Warning`].
+//! Steady motion in one plane; a string without bending stiffness; a linear elastic belt; V-belts also
+//! radially elastic in a groove with equal faces; no thermal effects. Beyond an inclination of 90° a
+//! V-belt overhangs itself: such states solve the equations and carry a [`Warning`].
 //!
 //! # Example
 //!
@@ -35,12 +45,34 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! A flat belt with bristles so stiff that it all but sticks where it enters:
+//!
+//! ```
+//! use beltdrive::{SolveOptions, ZoneKind, examples, input, solve};
+//!
+//! let example = examples::find("kim2009-flat").expect("a shipped example");
+//! let drive = input::parse(example.name, example.text, &[])?;
+//! let state = solve(&drive, &SolveOptions::default())?;
+//! let [elastic, slip] = &state.driven.zones[..] else {
+//!     panic!("two zones")
+//! };
+//! assert_eq!([elastic.kind, slip.kind], [ZoneKind::Elastic, ZoneKind::Slip]);
+//! assert!((elastic.to.to_degrees() - 141.6926).abs() < 1e-4);
+//! // The rims are as fast as the belt at its reference tensions.
+//! let rim = |entry: Option<beltdrive::Entry>| {
+//!     drive.belt.axial_stiffness + entry.map_or(0.0, |entry| entry.reference_tension)
+//! };
+//! let ratio = rim(state.driven.entry) / rim(state.driver.entry);
+//! assert!((state.driven.angular_speed / drive.driver_speed - ratio).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # Branches and limits
 //!
 //! [`trace`] follows the steady states over any numeric entry of the drive file, an
 //! [`input::Key`], around limit points, and locates what happens on the way ([`EventKind`]).
 //! [`limits`] gives both ends of the range of a load and why it ends there, [`limit_curve`] the
-//! limit of one entry over a second one. With less friction the drive above does not carry 3 kN:
+//! limit of one entry over a second one. With less friction the first drive does not carry 3 kN:
 //!
 //! ```
 //! use beltdrive::input::{self, Key};
@@ -63,7 +95,7 @@
 mod branch;
 mod drive;
 pub mod examples;
-mod flat;
+pub mod flat;
 pub mod input;
 mod limit_curve;
 mod limits;

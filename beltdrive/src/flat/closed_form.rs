@@ -7,13 +7,13 @@ use super::traction::Traction;
 use super::{DRIVEN, DRIVER, coulomb, creep_rate, epp};
 use crate::{BeltKind, Drive, FrictionLaw, LimitReason, NormalForce, Pulley, SpanTension};
 
-/// Most steps of the fixed-point iteration for the belt speed, which gains three digits and more a step
-/// unless the driver all but slips.
-const MAX_STEPS: usize = 8;
+/// Most steps of the secant method for the belt speed, which takes three or four unless the driver all
+/// but slips.
+const MAX_STEPS: usize = 12;
 
 /// The steady state of a flat-belt drive in closed form.
 #[derive(Clone, Debug)]
-pub(super) struct ClosedForm {
+pub struct ClosedForm {
     /// The belt around the pulleys.
     pub(super) geometry: OpenBelt,
     /// Speed c = G/m of the unstretched belt, m/s.
@@ -56,31 +56,40 @@ impl ClosedForm {
     ///
     /// # Panics
     /// If the drive is none of those that [`crate::solve`] passes on.
-    pub(super) fn new(drive: &Drive) -> Result<Self, Refusal> {
+    pub(super) fn find(drive: &Drive) -> Result<Self, Refusal> {
         let statement = Statement::new(drive);
         let rim = drive.driver_speed * drive.driver_radius;
-        let axial = drive.belt.axial_stiffness;
         let unslipped = statement.unslipped_speed(rim);
         let loaded = statement.at(unslipped);
         statement.check(&loaded)?;
-        let taken_along = |contact: &Contact| {
-            let reference = contact.arc.belt.tension(contact.reference());
-            rim / (1.0 + reference / axial)
-        };
+        let taken_along =
+            |contact: &Contact| rim / (1.0 + contact.arc.belt.strain(contact.reference()));
         let mut evaluations = 0;
         let mut speed = unslipped;
         let mut settled = false;
+        // The secant method on the fixed point, which begins with an iteration of it.
+        let mut last: Option<[f64; 2]> = None;
         for _ in 0..MAX_STEPS {
             let Some(driver) = statement.contact(&statement.at(speed), DRIVER) else {
                 break;
             };
             evaluations += driver.evaluations;
             let next = taken_along(&driver);
-            settled = (next - speed).abs() <= 2.0 * f64::EPSILON * speed;
-            speed = next;
+            let change = next - speed;
+            settled = change.abs() <= 2.0 * f64::EPSILON * speed;
             if settled {
+                speed = next;
                 break;
             }
+            let here = [speed, change];
+            let slope = last.map_or(-1.0, |[before, changed]| {
+                (change - changed) / (speed - before)
+            });
+            speed = match slope < 0.0 {
+                true => (speed - change / slope).clamp(0.5 * speed, unslipped),
+                false => next,
+            };
+            last = Some(here);
         }
         if !settled {
             // The driver all but slips: the belt lags behind.
@@ -109,17 +118,16 @@ impl ClosedForm {
             contact,
             evaluations,
         };
-        match closed_form.rim_speed(drive, DRIVEN) > 0.0 {
+        match closed_form.rim_speed(DRIVEN) > 0.0 {
             true => Ok(closed_form),
             false => Err(Refusal::Slips(LimitReason::DrivenSlips)),
         }
     }
 
     /// Circumferential speed `c (1 + T_o/EA)` of a pulley, m/s.
-    pub(super) fn rim_speed(&self, drive: &Drive, pulley: usize) -> f64 {
+    pub(super) fn rim_speed(&self, pulley: usize) -> f64 {
         let contact = &self.contact[pulley];
-        let reference = contact.arc.belt.tension(contact.reference());
-        self.speed * (1.0 + reference / drive.belt.axial_stiffness)
+        self.speed * (1.0 + contact.arc.belt.strain(contact.reference()))
     }
 }
 
@@ -164,7 +172,11 @@ impl<'d> Statement<'d> {
         let mut speed = rim;
         for _ in 0..MAX_STEPS {
             let [_, tight] = self.at(speed).tension;
-            speed = rim / (1.0 + tight / axial);
+            let next = rim / (1.0 + tight / axial);
+            if next == speed {
+                break;
+            }
+            speed = next;
         }
         speed
     }

@@ -1,8 +1,13 @@
 //! A flat belt on one pulley: what is given, and the zones of the solution.
 
 use super::creep_rate::Creep;
+use super::quadrature::integral;
 use super::traction::Traction;
 use crate::ZoneKind;
+
+/// Below this growth a y of the logarithm of the traction the integral of its growth is taken by
+/// quadrature: the closed form loses digits there.
+const SHORT: f64 = 0.05;
 
 /// The arc of contact of a pulley, and the traction of the belt at its ends.
 #[derive(Clone, Copy, Debug)]
@@ -202,24 +207,41 @@ impl Contact {
             ..
         } = self.arc;
         let traction = from.traction * (sense * slip_rate * y).exp();
-        let [alpha, beta] = [belt.stretch_offset(), belt.stretch_slope()];
-        let [first, last] = [from.traction, traction].map(|traction| belt.stretch(traction));
-        // σ and the integral of P over it.
-        let coordinate = (y - sense / slip_rate * (last / first).ln()) / alpha;
-        let relative = beta * (traction - from.traction) / first;
-        let logarithm = if relative == 0.0 {
-            1.0
-        } else {
-            relative.ln_1p() / relative
+        // |P − P_o| = |P − P₀| + |P₀ − P_o|, of which the first is small with the square of y.
+        let excess = match slip_rate * y < SHORT {
+            true => integral([0.0, y], |t| {
+                let grown = from.traction * (sense * slip_rate * t).exp_m1();
+                sense * grown / belt.stretch(from.traction + grown)
+            }),
+            false => {
+                let [first, last] =
+                    [from.traction, traction].map(|traction| belt.stretch(traction));
+                let relative = belt.stretch_slope() * (traction - from.traction) / first;
+                let logarithm = if relative == 0.0 {
+                    1.0
+                } else {
+                    relative.ln_1p() / relative
+                };
+                let grown = (traction - from.traction) / (slip_rate * first) * logarithm;
+                grown - sense * from.traction * self.slipped_coordinate(y, last / first)
+            }
         };
-        let integral = sense * (traction - from.traction) / (slip_rate * first) * logarithm;
-        let slid = sense * (integral - self.reference() * coordinate) / belt.stiffness;
+        let ratio = belt.stretch(traction) / belt.stretch(from.traction);
+        let constant = sense * (from.traction - self.reference());
+        let slid = (excess + constant * self.slipped_coordinate(y, ratio)) / belt.stiffness;
         Place {
             arc_length: from.arc_length + y,
             traction,
             displacement: from.displacement + slid,
             friction: slip_rate * traction,
         }
+    }
+
+    /// The coordinate σ over which the belt slips by an arc length `y`, with the ratio of the stretches
+    /// at both ends.
+    fn slipped_coordinate(&self, y: f64, ratio: f64) -> f64 {
+        let Arc { belt, sense, .. } = self.arc;
+        (y - sense / self.arc.slip_rate * ratio.ln()) / belt.stretch_offset()
     }
 
     /// The end of a zone.

@@ -80,8 +80,6 @@ struct Transition {
     coordinate: f64,
     /// The belt there.
     place: Place,
-    /// Strain e at the entry.
-    strain: f64,
 }
 
 impl Bristles {
@@ -110,32 +108,36 @@ impl Bristles {
             return None;
         }
         let displacement = self.arc.friction_limit(traction) / self.stiffness;
-        let [_, strain] = match coordinate {
-            0.0 => [0.0, f64::INFINITY],
-            _ => elastic(self.rate, coordinate, [0.0, displacement], 0.0),
-        };
-        let stretched = match coordinate {
-            0.0 => 0.0,
-            _ => self.arc_length(coordinate, strain, displacement),
-        };
         Some(Transition {
             coordinate,
             place: Place {
-                arc_length: stretched,
+                arc_length: self.arc_length(coordinate, displacement),
                 traction,
                 displacement,
                 friction: self.arc.slip_rate * traction,
             },
-            strain,
         })
     }
 
-    /// Arc length s at σ from the entry, where the displacement is |u|: with the stretch α + β `P_o` at
-    /// the entry less the strain e, s = (α + β `P_o`) σ ± β D |u|.
-    fn arc_length(&self, coordinate: f64, strain: f64, displacement: f64) -> f64 {
+    /// The strain e = w |u|/sinh(w σ) at the entry of an elastic zone that ends at σ with |u|.
+    fn strain(&self, coordinate: f64, displacement: f64) -> f64 {
+        let [_, slope] = elastic(self.rate, coordinate, [0.0, displacement], 0.0);
+        slope
+    }
+
+    /// Arc length s at σ from the entry, where the displacement is |u|: with `P_o = P(0) ∓ D e`,
+    /// s = (α + β `P_o`) σ ± β D |u|.
+    fn arc_length(&self, coordinate: f64, displacement: f64) -> f64 {
         let Arc { belt, sense, .. } = self.arc;
         let slope = sense * belt.stretch_slope() * belt.stiffness;
-        belt.stretch(self.arc.entry) * coordinate - slope * (strain * coordinate - displacement)
+        let entered = belt.stretch(self.arc.entry) * coordinate;
+        match slope == 0.0 || coordinate == 0.0 {
+            true => entered,
+            false => {
+                let strain = self.strain(coordinate, displacement);
+                entered - slope * (strain * coordinate - displacement)
+            }
+        }
     }
 
     /// The last coordinate at which slip can begin: where the arc ends, or where elastic friction only
@@ -203,11 +205,14 @@ impl Bristles {
             slip_rate,
             ..
         } = self.arc;
-        if sense < 0.0 || !transition.strain.is_finite() {
+        // Stiffer bristles follow the limit of friction however fast it rises.
+        let from = transition.place;
+        let steepest = belt.stretch(self.arc.exit()) + belt.stretch_slope() * self.arc.exit();
+        let follows = self.rate >= slip_rate * steepest;
+        if sense < 0.0 || transition.coordinate == 0.0 || follows {
             return None;
         }
         let contact = self.contact(transition);
-        let from = transition.place;
         let slipping = self.arc.length - from.arc_length;
         let reference = contact.reference();
         // Elastic friction over its limit, and the slope of that along the coordinate.
@@ -284,7 +289,7 @@ impl Bristles {
     fn contact(&self, transition: &Transition) -> Contact {
         Contact {
             arc: self.arc,
-            strain: transition.strain,
+            strain: self.strain(transition.coordinate, transition.place.displacement),
             zones: vec![ContactZone {
                 start: self.entrance(),
                 end: transition.place.arc_length,
@@ -312,8 +317,7 @@ impl Bristles {
     fn all_elastic(&self) -> Option<Contact> {
         let Arc { belt, change, .. } = self.arc;
         let end = |x: f64| change / (belt.stiffness * self.rate * (0.5 * self.rate * x).tanh());
-        let strain = |x: f64| elastic(self.rate, x, [0.0, end(x)], 0.0)[1];
-        let beyond = |x: f64| self.arc_length(x, strain(x), end(x)) - self.arc.length;
+        let beyond = |x: f64| self.arc_length(x, end(x)) - self.arc.length;
         let length = match belt.stretch_slope() == 0.0 {
             true => self.arc.length,
             false => {
@@ -329,7 +333,7 @@ impl Bristles {
         };
         Some(Contact {
             arc: self.arc,
-            strain: strain(length),
+            strain: self.strain(length, end(length)),
             zones: vec![ContactZone {
                 start: self.entrance(),
                 end: self.arc.length,

@@ -8,6 +8,8 @@
 //! Mechanics (1985), section 8.2; S. E. Bechtel, S. Vohra, K. I. Jacob and C. D. Carlson, J. Appl. Mech.
 //! 67 (2000); M. J. Leamy and T. M. Wasfy, J. Vib. Acoust. 124 (2002).
 
+mod answers;
+mod boundary_value;
 mod closed_form;
 mod contact;
 mod coulomb;
@@ -25,6 +27,8 @@ mod state;
 mod trace;
 mod traction;
 
+pub use boundary_value::BoundaryValue;
+pub use closed_form::ClosedForm;
 pub(crate) use limit_curve::limit_curve;
 pub(crate) use limits::limits;
 pub(crate) use solve::solve;
@@ -32,10 +36,20 @@ pub use stability::LinearisedForm;
 pub(crate) use stability::stability;
 pub(crate) use trace::trace;
 
+use crate::Pulley;
+
 /// Indices of the pulleys.
 const DRIVEN: usize = 0;
 /// As [`DRIVEN`].
 const DRIVER: usize = 1;
+
+/// The index of a pulley.
+fn index(pulley: Pulley) -> usize {
+    match pulley {
+        Pulley::Driven => DRIVEN,
+        Pulley::Driver => DRIVER,
+    }
+}
 
 #[cfg(test)]
 mod facts;

@@ -59,16 +59,9 @@ impl Contact {
             let place = self.at(zone, share);
             function(&place) * self.arc_per_share(zone, &place)
         };
+        let panels = panels.windows(2);
         panels
-            .windows(2)
-            .map(|panel| {
-                let [middle, half] = [0.5 * (panel[0] + panel[1]), 0.5 * (panel[1] - panel[0])];
-                let nodes = GAUSS.iter().map(|[node, weight]| {
-                    let ends = [middle - half * node, middle + half * node];
-                    weight * ends.map(&integrand).iter().sum::<f64>()
-                });
-                half * nodes.sum::<f64>()
-            })
+            .map(|panel| integral([panel[0], panel[1]], integrand))
             .sum()
     }
 
@@ -79,4 +72,14 @@ impl Contact {
             _ => zone.end - zone.start.arc_length,
         }
     }
+}
+
+/// The integral of a smooth function over a panel.
+pub(super) fn integral([from, to]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
+    let [middle, half] = [0.5 * (from + to), 0.5 * (to - from)];
+    let nodes = GAUSS.iter().map(|[node, weight]| {
+        let ends = [middle - half * node, middle + half * node];
+        weight * ends.map(&function).iter().sum::<f64>()
+    });
+    half * nodes.sum::<f64>()
 }

@@ -47,13 +47,13 @@ impl<'d> Members<'d> {
 
     /// The steady state with a value of the entry.
     pub(super) fn at(&self, value: f64) -> Result<ClosedForm, Refusal> {
-        ClosedForm::new(&self.drive_at(value))
+        ClosedForm::find(&self.drive_at(value))
     }
 
     /// The summary of the steady state with a value of the entry, which the drive carries.
     pub(super) fn summary(&self, value: f64) -> Option<StateSummary> {
         let drive = self.drive_at(value);
-        let solved = ClosedForm::new(&drive).ok()?;
+        let solved = ClosedForm::find(&drive).ok()?;
         let state = super::state::steady_state(&drive, &solved, Instant::now());
         Some(StateSummary::from(&state))
     }
@@ -149,7 +149,7 @@ impl<'d> Members<'d> {
     fn equal(&self, other: SpanTension) -> f64 {
         let mut drive = self.drive.clone();
         (drive.load.slack, drive.load.tight) = (other, other);
-        match ClosedForm::new(&drive) {
+        match ClosedForm::find(&drive) {
             Ok(idle) if self.is_tractive() != matches!(other, SpanTension::Tractive(_)) => {
                 let [tension, _] = idle.tension;
                 let kinetic = drive.belt.mass_per_length * idle.speed * idle.speed;

@@ -10,7 +10,7 @@ use std::time::Instant;
 /// The steady state of a flat-belt drive.
 pub(crate) fn solve(drive: &Drive) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
-    let solved = ClosedForm::new(drive).map_err(|refusal| refused(drive, refusal))?;
+    let solved = ClosedForm::find(drive).map_err(|refusal| refused(drive, refusal))?;
     let state = steady_state(drive, &solved, start);
     let violated = |check: &&Check| check.deviation.is_nan() || check.deviation > check.limit;
     match state.checks.iter().find(violated) {

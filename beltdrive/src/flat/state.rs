@@ -46,7 +46,7 @@ pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -
         slack_tractive_tension: tractive(slack),
         tight_tractive_tension: tractive(tight),
         // Both pulleys have the same friction force, so that the powers are as the speeds of the rims.
-        efficiency: solved.rim_speed(drive, DRIVEN) / solved.rim_speed(drive, DRIVER),
+        efficiency: solved.rim_speed(DRIVEN) / solved.rim_speed(DRIVER),
         friction_loss: powers[DRIVER] - powers[DRIVEN],
         driver,
         driven,
@@ -58,7 +58,7 @@ pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -
         },
         restart: None,
     };
-    state.checks = checks(drive, solved, &state);
+    state.checks = checks(solved, &state);
     state.convergence.error_estimate = closing_error(solved);
     state.convergence.seconds = start.elapsed().as_secs_f64();
     state
@@ -100,7 +100,7 @@ fn pulley_state(drive: &Drive, solved: &ClosedForm, pulley: usize) -> PulleyStat
     PulleyState {
         angular_speed: match pulley {
             DRIVER => drive.driver_speed,
-            _ => solved.rim_speed(drive, pulley) / radius,
+            _ => solved.rim_speed(pulley) / radius,
         },
         torque: arc.change * radius,
         wrap_angle: solved.geometry.wrap[pulley],
@@ -164,7 +164,7 @@ fn profile(drive: &Drive, solved: &ClosedForm, pulley: usize) -> Profile {
 }
 
 /// The invariants, from the friction law along the profile and not from the equations that were solved.
-fn checks(drive: &Drive, solved: &ClosedForm, state: &SteadyState) -> Vec<Check> {
+fn checks(solved: &ClosedForm, state: &SteadyState) -> Vec<Check> {
     let torque = |pulley: usize| {
         let contact = &solved.contact[pulley];
         let friction = contact.integral(|place| place.friction);
@@ -183,11 +183,9 @@ fn checks(drive: &Drive, solved: &ClosedForm, state: &SteadyState) -> Vec<Check>
     // Friction works against the slip velocity |V − R ω|.
     let dissipated = |pulley: usize| {
         let contact = &solved.contact[pulley];
-        let rim = solved.rim_speed(drive, pulley);
-        let slip = |place: &Place| {
-            let tension = contact.arc.belt.tension(place.traction);
-            solved.speed * (1.0 + tension / drive.belt.axial_stiffness) - rim
-        };
+        let rim = solved.rim_speed(pulley);
+        let slip =
+            |place: &Place| solved.speed * (1.0 + contact.arc.belt.strain(place.traction)) - rim;
         contact.integral(|place| place.friction * slip(place).abs())
     };
     let lost = dissipated(DRIVEN) + dissipated(DRIVER);

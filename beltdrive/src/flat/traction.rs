@@ -72,7 +72,12 @@ impl Traction {
 
     /// The tension T of a traction P, N.
     pub(super) fn tension(&self, traction: f64) -> f64 {
-        (traction + self.inertia) * self.axial_stiffness / self.stiffness
+        self.axial_stiffness * self.strain(traction)
+    }
+
+    /// The strain T/EA of the belt at a traction P.
+    pub(super) fn strain(&self, traction: f64) -> f64 {
+        (traction + self.inertia) / self.stiffness
     }
 
     /// Slip rate a on a pulley, 1/m: traction grows in a slip zone as exp(± a s).

@@ -5,6 +5,7 @@
 //! of zones there are on each pulley, and nothing else: lengths of zones, tensions and speeds are
 //! unknowns that start from a rough guess ([`start`]). The wrap angles are those of the open belt.
 
+mod answers;
 mod coarse;
 mod formulation;
 mod place;
@@ -14,7 +15,7 @@ mod units;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use place::{BorderedZone, Place};
+use place::{BorderedZone, Place};
 
 use super::closed_form::{ClosedForm, Refusal};
 use super::{DRIVEN, DRIVER};
@@ -28,14 +29,14 @@ const INTERVALS: usize = 4;
 
 /// The steady state of a flat-belt drive by collocation.
 #[derive(Clone, Debug)]
-pub(crate) struct BoundaryValue {
+pub struct BoundaryValue {
     formulation: Formulation,
     solution: Solution,
 }
 
 /// Why there is no such solution.
 #[derive(Debug, thiserror::Error)]
-pub(crate) enum Failure {
+enum Failure {
     /// The closed form knows that there is no steady state.
     #[error("no steady state: {0:?}")]
     Refused(Refusal),
@@ -66,7 +67,7 @@ impl BoundaryValue {
     ///
     /// # Panics
     /// If the drive is none of those that [`crate::solve`] passes on.
-    pub(crate) fn solve(drive: &Drive, tolerance: f64, scheme: Scheme) -> Result<Self, Failure> {
+    fn solve(drive: &Drive, tolerance: f64, scheme: Scheme) -> Result<Self, Failure> {
         Self::of(
             formulation_of(drive).map_err(Failure::Refused)?,
             tolerance,
@@ -99,30 +100,35 @@ impl BoundaryValue {
     }
 
     /// Speed c of the unstretched belt, m/s.
-    pub(crate) fn speed(&self) -> f64 {
+    pub fn speed(&self) -> f64 {
         self.solution.parameters()[SPEED] * self.formulation.units.speed
     }
 
     /// Angular speed c (1 + `T_o`/EA)/R of a pulley, rad/s.
-    pub(crate) fn angular_speed(&self, pulley: usize) -> f64 {
+    fn turning(&self, pulley: usize) -> f64 {
         let p = self.solution.parameters();
         let strain = p[REFERENCE + pulley] * self.formulation.compliance;
         self.speed() * (1.0 + strain) / self.formulation.units.radius[pulley]
     }
 
     /// Tension `T_o` at which the belt would run as fast as the rim of a pulley, N.
-    pub(crate) fn reference(&self, pulley: usize) -> f64 {
+    fn reference(&self, pulley: usize) -> f64 {
         self.solution.parameters()[REFERENCE + pulley] * self.formulation.units.force
     }
 
     /// Belt tension of the slack and of the tight span, N.
-    pub(crate) fn tension(&self) -> [f64; 2] {
+    pub fn tension(&self) -> [f64; 2] {
         let p = self.solution.parameters();
         [p[SPANS], p[SPANS + 1]].map(|tension| tension * self.formulation.units.force)
     }
 
+    /// Radius of a pulley, m.
+    fn radius(&self, pulley: usize) -> f64 {
+        self.formulation.units.radius[pulley]
+    }
+
     /// The zones of a pulley, in the order in which the belt passes them.
-    pub(crate) fn zones(&self, pulley: usize) -> Vec<BorderedZone> {
+    fn bordered(&self, pulley: usize) -> Vec<BorderedZone> {
         let segments = self.formulation.zones(pulley);
         segments
             .map(|segment| BorderedZone {
@@ -137,7 +143,7 @@ impl BoundaryValue {
     ///
     /// # Panics
     /// If there is no such zone.
-    pub(crate) fn at(&self, pulley: usize, zone: usize, share: f64) -> Place {
+    fn at(&self, pulley: usize, zone: usize, share: f64) -> Place {
         let segment = self.formulation.zones(pulley).start + zone;
         let mut y = [0.0; 3];
         self.solution.state(segment, share, &mut y);
@@ -148,19 +154,19 @@ impl BoundaryValue {
     ///
     /// # Panics
     /// If there is no such zone.
-    pub(crate) fn nodes(&self, pulley: usize, zone: usize) -> &[f64] {
+    fn nodes(&self, pulley: usize, zone: usize) -> &[f64] {
         self.solution
             .mesh(self.formulation.zones(pulley).start + zone)
     }
 
     /// The largest estimated error of all states and parameters, relative to one plus their value in
     /// the units of the problem.
-    pub(crate) fn error_estimate(&self) -> Option<f64> {
+    pub fn error_estimate(&self) -> Option<f64> {
         self.solution.error_estimate()
     }
 
     /// What the solution has cost.
-    pub(crate) fn stats(&self) -> &Stats {
+    pub fn stats(&self) -> &Stats {
         self.solution.stats()
     }
 }
@@ -168,7 +174,7 @@ impl BoundaryValue {
 /// The problem with the kinds of zones that the closed form finds, and like it without regard to the
 /// convention where friction grows with the slip velocity.
 fn formulation_of(drive: &Drive) -> Result<Formulation, Refusal> {
-    let closed_form = ClosedForm::new(drive)?;
+    let closed_form = ClosedForm::find(drive)?;
     let zones = [DRIVEN, DRIVER].map(|pulley| {
         let zones = closed_form.contact[pulley].zones.iter();
         zones.map(|zone| zone.friction.kind()).collect()

@@ -7,28 +7,30 @@ use crate::ZoneKind;
 /// The belt at a place on a pulley, with signs: the displacement and the friction force are positive on
 /// the driven pulley and negative on the driver.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(super) struct Place {
     /// Arc length from the entry, m.
-    pub(crate) arc_length: f64,
+    pub(super) arc_length: f64,
     /// Belt tension T, N.
-    pub(crate) tension: f64,
+    pub(super) tension: f64,
+    /// Tractive tension F = T − G V, N.
+    pub(super) tractive_tension: f64,
     /// Displacement u against the rim, m.
-    pub(crate) displacement: f64,
+    pub(super) displacement: f64,
     /// Normal force n per arc length, N/m.
-    pub(crate) normal: f64,
+    pub(super) normal: f64,
     /// Friction force f per arc length, N/m.
-    pub(crate) friction: f64,
+    pub(super) friction: f64,
 }
 
 /// A zone of a pulley and its borders.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct BorderedZone {
+pub(super) struct BorderedZone {
     /// Kind of friction.
-    pub(crate) kind: ZoneKind,
+    pub(super) kind: ZoneKind,
     /// Arc length where it begins, m.
-    pub(crate) from: f64,
+    pub(super) from: f64,
     /// Arc length where it ends, m.
-    pub(crate) to: f64,
+    pub(super) to: f64,
 }
 
 impl BoundaryValue {
@@ -42,6 +44,7 @@ impl BoundaryValue {
         Place {
             arc_length: y[ARC_LENGTH] * units.radius[pulley],
             tension: tension * units.force,
+            tractive_tension: problem.tractive(tension, p[SPEED]) * units.force,
             displacement: y[DISPLACEMENT] * units.displacement(pulley, kind),
             normal: problem.normal(tension, p[SPEED]) * line_load,
             friction: friction * line_load,

@@ -29,7 +29,7 @@ pub(crate) fn stability(
     progress: &mut dyn FnMut(f64, &str),
 ) -> Result<Stability, SolveError> {
     let start = Instant::now();
-    let solved = ClosedForm::new(drive).map_err(|refusal| refused(drive, refusal))?;
+    let solved = ClosedForm::find(drive).map_err(|refusal| refused(drive, refusal))?;
     let mut done = 0.0;
     let mut pulley = |pulley: usize| {
         let motion = motion(drive, &solved, pulley)?;
@@ -153,7 +153,7 @@ fn onset(drive: &Drive, pulley: usize, form: LinearisedForm) -> Result<Onset, So
     };
     let motion_at = |load: f64| {
         let drive = members.drive_at(load);
-        let solved = ClosedForm::new(&drive).map_err(|refusal| refused(&drive, refusal))?;
+        let solved = ClosedForm::find(&drive).map_err(|refusal| refused(&drive, refusal))?;
         motion(&drive, &solved, pulley)
     };
     // Relative growth beyond rounding, and the mode that grows.

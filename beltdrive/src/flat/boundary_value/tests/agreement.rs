@@ -14,7 +14,7 @@ const FINE: Scheme = Scheme::Gauss { stages: 6 };
 /// The largest relative differences of tension, displacement, normal force, friction, speed of the driven
 /// pulley, reference tensions and borders.
 fn deviations(drive: &Drive, found: &BoundaryValue) -> [f64; 7] {
-    let exact = ClosedForm::new(drive).unwrap();
+    let exact = ClosedForm::find(drive).unwrap();
     let mut worst = [0.0_f64; 7];
     let mut note = |index: usize, difference: f64, scale: f64| {
         let relative = if difference == 0.0 {
@@ -38,9 +38,9 @@ fn deviations(drive: &Drive, found: &BoundaryValue) -> [f64; 7] {
         let belt = |traction: f64| arc.belt.tension(traction);
         let to = belt(contact.reference());
         note(5, found.reference(pulley) - to, to);
-        let omega = exact.rim_speed(drive, pulley) / radius[pulley];
-        note(4, found.angular_speed(pulley) - omega, omega);
-        let zones = found.zones(pulley);
+        let omega = exact.rim_speed(pulley) / radius[pulley];
+        note(4, found.turning(pulley) - omega, omega);
+        let zones = found.bordered(pulley);
         assert_eq!(zones.len(), contact.zones.len());
         for (index, (zone, exact_zone)) in zones.iter().zip(&contact.zones).enumerate() {
             assert_eq!(zone.kind, exact_zone.friction.kind());
@@ -110,7 +110,13 @@ fn closed_form_and_boundary_value_problem_agree() {
     for (name, drive) in &drives {
         let found = BoundaryValue::solve(drive, 1e-11, FINE);
         let found = found.unwrap_or_else(|failure| panic!("{name}: {failure}"));
-        let kinds = |pulley| found.zones(pulley).iter().map(|zone| zone.kind).collect();
+        let kinds = |pulley| {
+            found
+                .bordered(pulley)
+                .iter()
+                .map(|zone| zone.kind)
+                .collect()
+        };
         let kinds: [Vec<_>; 2] = [DRIVEN, DRIVER].map(kinds);
         *structures.entry(format!("{kinds:?}")).or_default() += 1;
         let these = deviations(drive, &found);
@@ -160,7 +166,7 @@ fn without_load_nothing_moves() {
     ] {
         let drive = drive(law, NormalForce::Inertia, Belt(200.0), Belt(200.0));
         let found = BoundaryValue::solve(&drive, 1e-9, Scheme::default()).unwrap();
-        assert!((found.angular_speed(DRIVEN) - drive.driver_speed).abs() < 1e-12);
+        assert!((found.turning(DRIVEN) - drive.driver_speed).abs() < 1e-12);
         assert_eq!(found.tension(), [200.0; 2]);
         assert!((found.reference(DRIVEN) - 200.0).abs() < 1e-12);
     }
@@ -177,7 +183,7 @@ fn small_displacements_are_accurate() {
         Belt(200.02),
     );
     let found = BoundaryValue::solve(&drive, 1e-11, FINE).unwrap();
-    let arc = ClosedForm::new(&drive).unwrap().contact[DRIVEN].arc;
+    let arc = ClosedForm::find(&drive).unwrap().contact[DRIVEN].arc;
     let z = arc.load();
     let second_order = z * z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0 * (1.0 + z / 5.0)));
     let displacement = arc.entry / (arc.slip_rate * arc.belt.stiffness) * second_order;
@@ -207,7 +213,7 @@ fn creep_rate_friction_is_the_same_in_the_exact_convention() {
         for pulley in [DRIVEN, DRIVER] {
             let ratio = exact.reference(pulley) / inertia.reference(pulley);
             assert!((ratio - 1.0).abs() < 1e-12, "{ratio}");
-            for (exact, inertia) in exact.zones(pulley).iter().zip(inertia.zones(pulley)) {
+            for (exact, inertia) in exact.bordered(pulley).iter().zip(inertia.bordered(pulley)) {
                 assert!((exact.to - inertia.to).abs() < 1e-12);
             }
         }

@@ -49,14 +49,14 @@ fn error(problem: &Formulation, found: Solution, exact: &ClosedForm) -> f64 {
     for pulley in [DRIVEN, DRIVER] {
         let contact = &exact.contact[pulley];
         let last = contact.end(&contact.zones[contact.zones.len() - 1]);
-        for (segment, zone) in found.formulation.zones(pulley).zip(found.zones(pulley)) {
+        for (segment, zone) in found.formulation.zones(pulley).zip(found.bordered(pulley)) {
             let nodes = found.solution.mesh(segment);
             for node in 0..nodes.len() {
                 let y = found.solution.node(segment, node);
                 let place = found.place(segment, y);
                 // The same share of the zone, or, where zones are not told apart, the same place.
                 let index = segment - found.formulation.zones(pulley).start;
-                let zoned = found.zones(pulley).len() == contact.zones.len();
+                let zoned = found.bordered(pulley).len() == contact.zones.len();
                 let s = place.arc_length;
                 let expected = match zoned {
                     true => contact.at(
@@ -114,7 +114,7 @@ fn slope(errors: &[(usize, f64)]) -> f64 {
 fn zones_as_segments_keep_the_order_that_a_kink_inside_a_segment_destroys() {
     let law = FrictionLaw::Epp { stiffness: 1e8 };
     let drive = drive(law, NormalForce::Inertia, Belt(156.2), Belt(2500.0));
-    let exact = ClosedForm::new(&drive).unwrap();
+    let exact = ClosedForm::find(&drive).unwrap();
     let zoned = formulation_of(&drive).unwrap();
     assert!([DRIVEN, DRIVER].map(|pulley| zoned.zones(pulley).len()) == [2, 2]);
     let columns = DOUBLING.map(|n| format!("{n:7}")).join(" ");
