@@ -1,7 +1,7 @@
 //! How long does the steady state of a flat-belt drive take, in closed form, with its profiles and
 //! checks, and as a boundary value problem?
 
-use beltdrive::flat::ClosedForm;
+use beltdrive::flat::{BoundaryValue, ClosedForm};
 use beltdrive::input::Key;
 use beltdrive::{Drive, SolveOptions, examples, input, limits, solve, stability};
 use criterion::{BenchmarkId, Criterion};
@@ -42,6 +42,18 @@ fn closed_form(criterion: &mut Criterion) {
     group.finish();
 }
 
+fn boundary_value(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("flat, boundary value problem");
+    let options = SolveOptions::default();
+    for statement in DRIVES {
+        let (drive, name) = (drive(statement), name(statement));
+        group.bench_function(name, |b| {
+            b.iter(|| BoundaryValue::new(black_box(&drive), &options).expect("a solution"));
+        });
+    }
+    group.finish();
+}
+
 fn state(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("flat, with profiles and checks");
     for statement in [DRIVES[1], DRIVES[4]] {
@@ -72,5 +84,5 @@ fn name((law, convention, entry): (&str, &str, &str)) -> BenchmarkId {
     BenchmarkId::new(format!("{law}, {convention}"), entry)
 }
 
-criterion::criterion_group!(benches, closed_form, state, whole_range);
+criterion::criterion_group!(benches, closed_form, boundary_value, state, whole_range);
 criterion::criterion_main!(benches);

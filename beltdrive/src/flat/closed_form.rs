@@ -66,7 +66,7 @@ impl ClosedForm {
             |contact: &Contact| rim / (1.0 + contact.arc.belt.strain(contact.reference()));
         let mut evaluations = 0;
         let mut speed = unslipped;
-        let mut settled = false;
+        let mut settled = None;
         // The secant method on the fixed point, which begins with an iteration of it.
         let mut last: Option<[f64; 2]> = None;
         for _ in 0..MAX_STEPS {
@@ -76,9 +76,8 @@ impl ClosedForm {
             evaluations += driver.evaluations;
             let next = taken_along(&driver);
             let change = next - speed;
-            settled = change.abs() <= 2.0 * f64::EPSILON * speed;
-            if settled {
-                speed = next;
+            if change.abs() <= 2.0 * f64::EPSILON * speed {
+                settled = Some(driver);
                 break;
             }
             let here = [speed, change];
@@ -91,7 +90,7 @@ impl ClosedForm {
             };
             last = Some(here);
         }
-        if !settled {
+        if settled.is_none() {
             // The driver all but slips: the belt lags behind.
             let excess = |speed: f64| {
                 let driver = statement.contact(&statement.at(speed), DRIVER);
@@ -104,12 +103,14 @@ impl ClosedForm {
         }
         let state = statement.at(speed);
         statement.check(&state)?;
-        let contact = |pulley: usize| {
-            let reason = LimitReason::Capstan(PULLEYS[pulley]);
-            let contact = statement.contact(&state, pulley);
-            contact.ok_or(Refusal::Slips(reason))
-        };
-        let contact = [contact(DRIVEN)?, contact(DRIVER)?];
+        let slips = |pulley| Refusal::Slips(LimitReason::Capstan(pulley));
+        let driver = settled.or_else(|| statement.contact(&state, DRIVER));
+        let contact = [
+            statement
+                .contact(&state, DRIVEN)
+                .ok_or(slips(Pulley::Driven))?,
+            driver.ok_or(slips(Pulley::Driver))?,
+        ];
         evaluations += contact[DRIVEN].evaluations;
         let closed_form = Self {
             geometry: statement.geometry,
@@ -130,8 +131,6 @@ impl ClosedForm {
         self.speed * (1.0 + contact.arc.belt.strain(contact.reference()))
     }
 }
-
-const PULLEYS: [Pulley; 2] = [Pulley::Driven, Pulley::Driver];
 
 /// A drive as the closed form needs it.
 struct Statement<'d> {

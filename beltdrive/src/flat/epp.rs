@@ -150,6 +150,9 @@ impl Bristles {
             true => entered,
             false => self.arc.length / belt.stretch_offset(),
         };
+        if belt.stretch_slope() == 0.0 && (sense < 0.0 || self.rate >= self.arc.slip_rate) {
+            return Some(longest);
+        }
         // Slope of elastic friction less that of its limit, over k_f |u₁|.
         let gap = |coordinate: f64| {
             self.transition(coordinate).map_or(-1.0, |transition| {

@@ -52,4 +52,4 @@ fn index(pulley: Pulley) -> usize {
 }
 
 #[cfg(test)]
-mod facts;
+mod reference_values;

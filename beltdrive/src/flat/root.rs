@@ -6,7 +6,7 @@ const MAX_EVALUATIONS: usize = 200;
 /// The root of a continuous function between two places at which its values have opposite signs, to
 /// the last digits of a double; `None` if the signs are equal or a value is not a number.
 ///
-/// Inverse quadratic interpolation where the last three values make it safe, bisection elsewhere
+/// First the secant, then inverse quadratic interpolation where the last three values make it safe, bisection elsewhere
 /// (T. R. Chandrupatla, Advances in Engineering Software 28, 1997).
 pub(super) fn bracketed(
     mut function: impl FnMut(f64) -> f64,
@@ -18,7 +18,8 @@ pub(super) fn bracketed(
     if fa.is_nan() || fb.is_nan() || fa * fb > 0.0 {
         return None;
     }
-    let mut t = 0.5;
+    // Most functions here are nearly straight.
+    let mut t = (fa / (fa - fb)).clamp(0.01, 0.99);
     for _ in 0..MAX_EVALUATIONS {
         let x = a + t * (b - a);
         let fx = function(x);

@@ -1,0 +1,59 @@
+//! `beltdrive stability`: whether small axial motions of a flat belt on its pulleys grow.
+
+use super::{failure::Failure, output::Output, output::Report, progress::with_bar, read::read};
+use beltdrive::{Stability, input, plot, report};
+use clap::{Args, value_parser};
+use std::path::{Path, PathBuf};
+
+const HELP: &str = "\
+Example:
+  beltdrive stability kim2009-flat.toml --set load.tight_tension='2 kN' --plot figures
+
+Every eigenvalue is found by two methods, and all are counted. --csv writes one row per pulley, form
+and mode, --json the shapes of the first modes too.";
+
+/// Not [`Common`](super::common::Common): nothing here has a tolerance.
+#[derive(Args)]
+#[command(after_help = HELP)]
+pub(super) struct Command {
+    /// Drive file in TOML; - for standard input
+    file: PathBuf,
+    #[command(flatten)]
+    output: Output,
+    /// Override one entry of the drive file by its dotted path, or leave it out (KEY=); repeatable
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<String>,
+    /// Number of modes on each pulley, 1 to 60
+    #[arg(long, value_name = "N", default_value = "12", value_parser = value_parser!(u8).range(1..=60))]
+    modes: u8,
+}
+
+impl Command {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        self.output.check()?;
+        let (name, text) = read(&self.file)?;
+        let drive = input::parse(&name, &text, &self.overrides).map_err(Failure::usage)?;
+        let stability = with_bar(self.output.quiet, |progress| {
+            beltdrive::stability(&drive, self.modes.into(), progress)
+        })?;
+        self.output.write(&stability)
+    }
+}
+
+impl Report for Stability {
+    fn table(&self) -> String {
+        report::stability::table(self)
+    }
+
+    fn json(&self) -> String {
+        report::stability::json(self)
+    }
+
+    fn csv(&self) -> String {
+        report::stability::csv(self)
+    }
+
+    fn plot(&self, directory: &Path) -> Result<Vec<PathBuf>, plot::Error> {
+        plot::write_stability(self, directory)
+    }
+}

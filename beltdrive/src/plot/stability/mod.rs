@@ -1,0 +1,14 @@
+//! The axial modes of a flat belt and their eigenvalues.
+
+mod modes;
+mod spectrum;
+
+use crate::Stability;
+
+/// The figures, each with the name of its file.
+pub(super) fn figures(stability: &Stability) -> [(&'static str, String); 2] {
+    [
+        ("modes.svg", modes::figure(stability)),
+        ("spectrum.svg", spectrum::figure(stability)),
+    ]
+}
