@@ -2,6 +2,7 @@
 
 use super::limits::{LargestLoad, largest_load};
 use super::range::Members;
+use super::trace::samples;
 use crate::input::Key;
 use crate::{
     BranchEnd, Drive, LimitCurve, LimitCurvePoint, SolveError, SolveOptions, TraceConvergence,
@@ -22,7 +23,7 @@ pub(crate) fn limit_curve(
     options: &SolveOptions,
 ) -> Result<LimitCurve, SolveError> {
     let start = Instant::now();
-    let [from, to] = range;
+    let [from, _] = range;
     let curve = Curve {
         drive,
         key: *key,
@@ -30,11 +31,7 @@ pub(crate) fn limit_curve(
     };
     let mut points = vec![curve.point(from).ok_or_else(|| curve.unlimited(from))?];
     let mut end = BranchEnd::Target;
-    for sample in 1..=INTERVALS {
-        let value = match sample {
-            INTERVALS => to,
-            _ => from + (to - from) * sample as f64 / INTERVALS as f64,
-        };
+    for value in samples(range, INTERVALS) {
         let Some(point) = curve.point(value) else {
             let cause = curve.unlimited(value).to_string();
             end = BranchEnd::NotConverged { cause };

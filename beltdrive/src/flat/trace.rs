@@ -56,7 +56,7 @@ pub(super) fn branch_between(
     trace.event(EventKind::Start, from);
     let mut last = from;
     let mut end = BranchEnd::Target;
-    for value in samples(range) {
+    for value in samples(range, INTERVALS) {
         if members.at(value).is_err() {
             end = trace.stop(last, value);
             break;
@@ -86,13 +86,13 @@ pub(super) fn branch_between(
 }
 
 /// The values of a range after its first, in equal differences or ratios.
-fn samples([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
+pub(super) fn samples([from, to]: [f64; 2], intervals: usize) -> impl Iterator<Item = f64> {
     let ratio = to / from;
     let is_wide = ratio.is_normal() && ratio.max(ratio.recip()) > WIDE;
-    (1..=INTERVALS).map(move |sample| {
-        let share = sample as f64 / INTERVALS as f64;
+    (1..=intervals).map(move |sample| {
+        let share = sample as f64 / intervals as f64;
         match sample {
-            INTERVALS => to,
+            _ if sample == intervals => to,
             _ if is_wide => from * ratio.powf(share),
             _ => from + share * (to - from),
         }

@@ -8,7 +8,9 @@ use crate::report::{
     lines::{self, WIDTH},
     six_digits, value,
 };
-use crate::{AxialMode, Drive, FormStability, LinearisedForm, Onset, PulleyStability, Stability};
+use crate::{
+    AxialMode, Drive, FormStability, LinearisedForm, Onset, Pulley, PulleyStability, Stability,
+};
 use std::f64::consts::TAU;
 
 /// The eigenvalues on both pulleys, in every form, on lines of at most 100 columns, and what they
@@ -26,7 +28,7 @@ pub fn table(stability: &Stability) -> String {
     );
     let mut blocks = vec![title, vec![critical], legend()];
     for (pulley, on) in pulleys(stability) {
-        blocks.push(modes(pulley.name(), drive, on));
+        blocks.push(modes(pulley, drive, on));
         blocks.push(summary(key, on));
     }
     blocks.push(wrapped(&meaning(stability)));
@@ -40,10 +42,10 @@ fn legend() -> Vec<String> {
 }
 
 /// The modes on a pulley.
-fn modes(name: &str, drive: &Drive, on: &PulleyStability) -> Vec<String> {
-    let radius = match name {
-        "driver" => drive.driver_radius,
-        _ => drive.driven_radius,
+fn modes(pulley: Pulley, drive: &Drive, on: &PulleyStability) -> Vec<String> {
+    let radius = match pulley {
+        Pulley::Driver => drive.driver_radius,
+        Pulley::Driven => drive.driven_radius,
     };
     let degrees = |length: f64| format!("{:.3}°", (length / radius).to_degrees());
     let slips = if on.transition < on.contact_length {
@@ -52,7 +54,8 @@ fn modes(name: &str, drive: &Drive, on: &PulleyStability) -> Vec<String> {
         "no slip".to_owned()
     };
     let heading = format!(
-        "{name}: belt speed {:.4} m/s, contact over {}, {slips}",
+        "{}: belt speed {:.4} m/s, contact over {}, {slips}",
+        pulley.name(),
         on.belt_speed,
         degrees(on.contact_length),
     );
@@ -164,8 +167,8 @@ mod tests {
             "critical belt speed √(EA/m) = 1291 m/s",
             "driver: belt speed 25.0500 m/s, contact over 171.887°, slip from 114.592° on",
             "   1    -40.0000   10000.0  1591.55      3.2500",
-            "largest Re λ in 1/s             -14.2188, mode 4",
-            "480 N, mode 2       150.5 N, high modes                   never",
+            "largest Re λ in 1/s                 -14.2188, mode 4",
+            "480 N, mode 2     150.5 N, high modes                   never",
             "none found",
             "2.0e-12",
             "driver turns unstable at a tight tractive tension of 480 N",
