@@ -82,7 +82,7 @@ pub enum Onset {
     At {
         /// The load, N or N·m as [`crate::input::Key::load`].
         load: f64,
-        /// Number of the mode that grows first, from 1; `None` if it is one of the high modes.
+        /// Number of the mode that grows first, from 1; `None` if high modes grow as soon.
         mode: Option<usize>,
     },
     /// Nowhere up to the largest load that the drive carries.

@@ -9,6 +9,7 @@ mod parameter;
 mod progress;
 mod read;
 mod solve;
+mod stability;
 mod trace;
 
 use clap::{Parser, Subcommand};
@@ -40,6 +41,8 @@ enum Command {
     Trace(trace::Trace),
     /// Find the smallest and the largest load that a drive carries, and why the range ends there
     Limits(limits::Limits),
+    /// Find out whether small axial motions of a flat belt grow, and from which load on
+    Stability(stability::Command),
     /// List the drive files that come with the program, or print one
     Examples(examples::Examples),
 }
@@ -50,6 +53,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Solve(command) => command.run(),
         Command::Trace(command) => command.run(),
         Command::Limits(command) => command.run(),
+        Command::Stability(command) => command.run(),
         Command::Examples(command) => command.run(),
     };
     match outcome {

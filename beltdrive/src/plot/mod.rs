@@ -9,9 +9,10 @@ mod limit_curve;
 mod panel;
 mod profile_figures;
 mod profiles;
+mod stability;
 mod style;
 
-use crate::{Branch, LimitCurve, SteadyState};
+use crate::{Branch, LimitCurve, Stability, SteadyState};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -70,6 +71,15 @@ pub fn write_branch(branch: &Branch, directory: &Path) -> Result<Vec<PathBuf>, E
 pub fn write_limit_curve(curve: &LimitCurve, directory: &Path) -> Result<Vec<PathBuf>, Error> {
     let figure = ("limit_curve.svg", limit_curve::figure(curve));
     write(std::iter::once(figure), directory)
+}
+
+/// Writes `modes.svg`, the first axial modes of a flat belt on both pulleys, and `spectrum.svg`, their
+/// eigenvalues in every form of the linearised problem, into a directory, as [`write_all`] does.
+///
+/// # Errors
+/// As [`write_all`].
+pub fn write_stability(stability: &Stability, directory: &Path) -> Result<Vec<PathBuf>, Error> {
+    write(stability::figures(stability).into_iter(), directory)
 }
 
 fn write(

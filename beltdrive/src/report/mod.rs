@@ -1,7 +1,7 @@
 //! Results as text: a table for people, JSON and CSV for programs.
 //!
-//! [`table()`], [`json()`] and [`csv()`] are of a steady state; [`branch`], [`limits`] and
-//! [`limit_curve`] have their own.
+//! [`table()`], [`json()`] and [`csv()`] are of a steady state; [`branch`], [`limits`],
+//! [`limit_curve`] and [`stability`] have their own.
 
 mod belt;
 pub mod branch;
@@ -23,6 +23,7 @@ pub(crate) mod sample_flat;
 mod scalars;
 mod shown;
 mod slip_arc;
+pub mod stability;
 mod state_columns;
 mod table;
 mod table_columns;

@@ -9,7 +9,8 @@ const SPEED: &str = "the thesis has the speed from its finite-element model; her
 const TORQUE: &str = "the thesis contradicts itself: its tensions have the torque \
                       (716.7 N − 155.1 N) R = 45.6 N·m";
 const STIFFNESS: &str = "computed at the smallest stiffness at which the driven pulley slips, which the \
-                         thesis prints rounded";
+                         thesis prints rounded: the arcs of the driven pulley are then no test, the \
+                         other numbers are";
 
 /// A column of the table.
 struct Column {

@@ -163,12 +163,13 @@ fn onset(drive: &Drive, pulley: usize, form: LinearisedForm) -> Result<Onset, So
         let mode = found.modes[found.least_stable].value;
         let highest = motion.high_mode_limit(form) / mode.norm();
         let lowest = mode.re / mode.norm();
-        let number = (lowest >= highest).then_some(found.least_stable + 1);
+        // Under rigid friction all modes may grow alike.
+        let number = (lowest > highest + ROUNDING).then_some(found.least_stable + 1);
         Ok::<_, SolveError>((lowest.max(highest) - ROUNDING, number))
     };
     let load = |share: f64| low + (limit.value - low) * share * share;
     let mut before = low;
-    for step in 1..LOADS {
+    for step in 1..=LOADS {
         let after = load(step as f64 / LOADS as f64);
         let (excess, _) = growth(after)?;
         if excess > 0.0 {

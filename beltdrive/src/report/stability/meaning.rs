@@ -103,7 +103,7 @@ fn place(drive: &Drive, load: f64) -> String {
 fn first(mode: Option<usize>) -> String {
     match mode {
         Some(mode) => format!(" (mode {mode} first)"),
-        None => " (high modes first)".to_owned(),
+        None => " (high modes as soon as any)".to_owned(),
     }
 }
 
@@ -169,7 +169,7 @@ mod tests {
             stability.driven.forms[0].onset = Some(Onset::At { load, mode: None });
         });
         assert!(text.contains("(mode 2 first) and on the driven pulley, as it is from"));
-        assert!(text.contains("490 N on (high modes first); with"), "{text}");
+        assert!(text.contains("490 N on (high modes as soon as any); with"), "{text}");
         assert!(text.contains("so that this growth comes from"), "{text}");
     }
 

@@ -6,20 +6,29 @@ use crate::verify::Comparison;
 /// What stands in place of a number that there is not.
 const NONE: &str = "–";
 
-/// The computed number.
+/// A deviation that is a smaller share of the published number is one of rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// The computed number, to six digits; beside a published zero, its magnitude.
 pub(super) fn computed(comparison: &Comparison) -> String {
-    comparison
-        .computed
-        .as_ref()
-        .map_or_else(|_| NONE.to_owned(), |number| six_digits(*number))
+    let text = |number: &f64| match comparison.published.value() == 0.0 && *number != 0.0 {
+        true => format!("{number:.0e}"),
+        false => six_digits(*number),
+    };
+    let computed = comparison.computed.as_ref();
+    computed.map_or_else(|_| NONE.to_owned(), text)
 }
 
 /// Computed less published, to two digits.
 pub(super) fn deviation(comparison: &Comparison) -> String {
+    let rounding = ROUNDING * comparison.published.value().abs();
     signed(comparison.deviation(), |deviation| {
-        let sign = if deviation < 0.0 { '-' } else { '+' };
-        let rounded = format!("{:.1e}", deviation.abs()).parse();
-        format!("{sign}{}", six_digits(rounded.unwrap_or(deviation.abs())))
+        let two_digits = format!("{deviation:+.1e}");
+        match deviation.abs() {
+            size if size <= rounding => "0".to_owned(),
+            1e-3..1e4 => format!("{:+}", two_digits.parse().unwrap_or(deviation)),
+            _ => two_digits,
+        }
     })
 }
 
@@ -47,7 +56,9 @@ mod tests {
         let texts = |row: Comparison| [computed(&row), deviation(&row), relative(&row)];
         let found = row("2.34", Ok(2.343_494_6));
         assert_eq!(texts(found), ["2.34349", "+0.0035", "+0.149 %"]);
-        assert_eq!(texts(row("0", Ok(-1e-9))), ["-1e-9", "-1e-9", "–"]);
+        assert_eq!(texts(row("0", Ok(-1e-9))), ["-1e-9", "-1.0e-9", "–"]);
+        assert_eq!(texts(row("2.8e7", Ok(2.768e7)))[1], "-3.2e5");
+        assert_eq!(texts(row("1", Ok(1.0 + 1e-15)))[1..], ["0", "+0.000 %"]);
         assert_eq!(texts(row("1", Err(String::new()))), ["–"; 3]);
     }
 }

@@ -138,7 +138,7 @@ mod tests {
         | transition | rad | 2.34 | 2.3435 | +0.0035 | +0.150 % | agrees to the printed digits |
         | driven speed | rad/s | 11.34 | 11.308 | -0.032 | -0.282 % | agrees within the stated band |
         | load | N | 380 | 373.205 | -6.8 | -1.788 % | differs, known why[^1] |
-        | wrap angle | ° | 180 | 180 | +0 | +0.000 % | agrees to the printed digits[^2] |
+        | wrap angle | ° | 180 | 180 | 0 | +0.000 % | agrees to the printed digits[^2] |
 
         ## Other (2002)
 

@@ -152,7 +152,7 @@ mod tests {
           transition                            rad        2.34     2.3435   +0.0035   +0.150 % agrees
           driven speed                          rad/s     11.34     11.308    -0.032   -0.282 % in band
           load                                  N           380    373.205      -6.8   -1.788 % known [1]
-          wrap angle                            °           180        180        +0   +0.000 % agrees [2]
+          wrap angle                            °           180        180         0   +0.000 % agrees [2]
 
         [1]  read off a plot
         [2]  of the driver
