@@ -106,6 +106,7 @@ mod stability;
 mod state_summary;
 mod steady_state;
 mod vbelt;
+pub mod verify;
 
 pub use branch::{Branch, BranchEnd, BranchEvent, EventKind, TraceConvergence, TracePoint, trace};
 pub use drive::{Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SpanTension, VBelt};
@@ -120,6 +121,7 @@ pub use state_summary::{PulleyErrors, PulleySummary, StateErrors, StateSummary};
 pub use steady_state::{
     Check, Convergence, Entry, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind,
 };
+pub use verify::{Verification, verify};
 
 /// The examples of the README are tests.
 #[cfg(doctest)]

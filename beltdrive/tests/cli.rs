@@ -72,6 +72,8 @@ fn help_carries_examples() {
         &["solve", "--help"],
         &["trace", "--help"],
         &["limits", "--help"],
+        &["stability", "--help"],
+        &["verify", "--help"],
         &["examples", "--help"],
     ] {
         let output = run(args);

@@ -11,6 +11,7 @@ mod read;
 mod solve;
 mod stability;
 mod trace;
+mod verify;
 
 use clap::{Parser, Subcommand};
 use failure::Failure;
@@ -43,6 +44,8 @@ enum Command {
     Limits(limits::Limits),
     /// Find out whether small axial motions of a flat belt grow, and from which load on
     Stability(stability::Command),
+    /// Recompute the published results that the program stands on
+    Verify(verify::Verify),
     /// List the drive files that come with the program, or print one
     Examples(examples::Examples),
 }
@@ -54,6 +57,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Trace(command) => command.run(),
         Command::Limits(command) => command.run(),
         Command::Stability(command) => command.run(),
+        Command::Verify(command) => command.run(),
         Command::Examples(command) => command.run(),
     };
     match outcome {

@@ -81,7 +81,7 @@ impl Output {
 }
 
 /// Writes a text to a file, which it returns, or to standard output.
-fn write_text(path: &Path, text: &str) -> Result<Option<PathBuf>, Failure> {
+pub(super) fn write_text(path: &Path, text: &str) -> Result<Option<PathBuf>, Failure> {
     if is_stream(path) {
         print(text)?;
         return Ok(None);

@@ -1,7 +1,7 @@
 //! Results as text: a table for people, JSON and CSV for programs.
 //!
 //! [`table()`], [`json()`] and [`csv()`] are of a steady state; [`branch`], [`limits`],
-//! [`limit_curve`] and [`stability`] have their own.
+//! [`limit_curve`], [`stability`] and [`verification`] have their own.
 
 mod belt;
 pub mod branch;
@@ -28,6 +28,7 @@ mod state_columns;
 mod table;
 mod table_columns;
 pub(crate) mod value;
+pub mod verification;
 pub(crate) mod words;
 
 pub use self::csv::csv;

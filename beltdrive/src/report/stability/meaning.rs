@@ -169,7 +169,10 @@ mod tests {
             stability.driven.forms[0].onset = Some(Onset::At { load, mode: None });
         });
         assert!(text.contains("(mode 2 first) and on the driven pulley, as it is from"));
-        assert!(text.contains("490 N on (high modes as soon as any); with"), "{text}");
+        assert!(
+            text.contains("490 N on (high modes as soon as any); with"),
+            "{text}"
+        );
         assert!(text.contains("so that this growth comes from"), "{text}");
     }
 
