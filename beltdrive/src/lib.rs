@@ -9,7 +9,10 @@
 //!   geometry of the drive, for Coulomb, elastic/perfectly-plastic and bristle friction.
 //! - A **flat belt** is a string on the rims. Its state is known in closed form, for Coulomb,
 //!   elastic/perfectly-plastic and creep-rate friction and three conventions for the normal force
-//!   ([`NormalForce`]). [`stability`](stability()) examines its axial motion.
+//!   ([`NormalForce`]). [`flat::ClosedForm`] gives it without profiles, [`flat::BoundaryValue`] by
+//!   another way. [`stability`](stability()) examines its axial motion.
+//!
+//! [`mod@verify`] computes published results again.
 //!
 //! # Conventions
 //!
