@@ -61,9 +61,9 @@ pub enum SolveError {
     },
     /// A flat belt does not press on the pulleys: it is too slack for its speed.
     #[error(
-        "no steady state: the slack tension {} N does not hold the belt on the pulleys at \
-         {} m/s, where the tension of a belt without friction is G V = {} N",
-        six_digits(*.tension), six_digits(*.speed), six_digits(*.centrifugal)
+        "no steady state: at {} m/s centrifugal force takes up G V = {} N, and the slack tension of \
+         {} N leaves nothing to press the belt on the pulleys",
+        six_digits(*.speed), six_digits(*.centrifugal), six_digits(*.tension)
     )]
     LiftsOff {
         /// Belt tension of the slack span, N.
@@ -144,7 +144,7 @@ pub fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, Solve
     check(drive, options)?;
     match drive.belt.kind {
         BeltKind::V(_) => vbelt::solve(drive, options),
-        BeltKind::Flat { .. } => flat::solve(drive),
+        BeltKind::Flat { .. } => flat::solve(drive, options),
     }
 }
 
@@ -162,7 +162,7 @@ pub fn solve_from(
     check(drive, options)?;
     match drive.belt.kind {
         BeltKind::V(_) => vbelt::solve_from(neighbour, drive, options),
-        BeltKind::Flat { .. } => flat::solve(drive),
+        BeltKind::Flat { .. } => flat::solve(drive, options),
     }
 }
 

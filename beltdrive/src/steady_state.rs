@@ -45,6 +45,14 @@ pub struct SteadyState {
     pub(crate) restart: Option<Arc<Solved>>,
 }
 
+impl SteadyState {
+    /// The first invariant that the state violates.
+    pub(crate) fn violated(&self) -> Option<&Check> {
+        let violated = |check: &&Check| check.deviation.is_nan() || check.deviation > check.limit;
+        self.checks.iter().find(violated)
+    }
+}
+
 /// The state of one pulley and of the belt on it.
 #[derive(Clone, Debug)]
 pub struct PulleyState {
@@ -77,8 +85,8 @@ pub struct Entry {
     /// Strain u′(0) of the belt against the rim; positive on the driven pulley, negative on the
     /// driver.
     pub strain: f64,
-    /// Friction stiffness below which friction stays elastic over the whole arc at this load, N/m²;
-    /// only for EPP friction, and only if there is one.
+    /// Friction stiffness below which friction stays elastic over the whole arc at the tractions of
+    /// this state, N/m²; only for EPP friction, and only if there is one.
     pub smallest_stiffness: Option<f64>,
 }
 
@@ -171,7 +179,7 @@ pub enum Warning {
     },
     /// The belt is stretched by more than a model of small strains stands for.
     LargeStrain {
-        /// Strain T/EA of the tight span.
+        /// The largest of the strain T/EA of the tight span and those of the belt against the rims.
         strain: f64,
     },
 }

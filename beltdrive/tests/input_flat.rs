@@ -176,12 +176,14 @@ fn wrong_torques() {
        |                     ^
     expected: a torque, e.g. "45 N*m"
     "#);
-    assert_snapshot!(flat_error(&["load.driven_torque=0"]), @r#"
-    error: `load.driven_torque` must be positive
+    let no_load = flat(&["load.driven_torque=0"]).unwrap().load.tight;
+    assert_eq!(no_load, SpanTension::DrivenTorque(0.0));
+    assert_snapshot!(flat_error(&["load.driven_torque=-5"]), @r#"
+    error: `load.driven_torque` must not be negative
       --> command line:1:26
       |
-    1 | --set load.driven_torque=0
-      |                          ^
+    1 | --set load.driven_torque=-5
+      |                          ^^
     expected: a torque, e.g. "45 N*m"
     "#);
     assert_snapshot!(error("driven_torque = ", "torque = "), @r#"

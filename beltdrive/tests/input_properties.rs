@@ -1,7 +1,7 @@
 //! Properties of reading: whatever the text, the answer is a drive or one diagnostic; and a quantity
 //! is the same in every unit.
 
-use beltdrive::{BeltKind, Drive, VBelt, examples, input};
+use beltdrive::{BeltKind, Drive, SpanTension, VBelt, examples, input};
 use proptest::{prelude::*, sample::Index};
 use std::f64::consts::TAU;
 
@@ -140,9 +140,12 @@ fn is_sound(drive: &Drive) -> bool {
         drive.driver_speed,
         drive.driven_radius,
         drive.centre_distance - drive.driver_radius - drive.driven_radius,
-        drive.load.slack.value(),
-        drive.load.tight.value(),
     ];
+    let loads = [drive.load.slack, drive.load.tight].map(|span| match span {
+        // No torque is a load, too.
+        SpanTension::DrivenTorque(torque) => torque >= 0.0 && torque.is_finite(),
+        tension => tension.value() > 0.0 && tension.value().is_finite(),
+    });
     let of_kind = match drive.belt.kind {
         BeltKind::V(belt) => vec![belt.radial_stiffness, belt.half_angle],
         BeltKind::Flat { .. } => Vec::new(),
@@ -151,6 +154,7 @@ fn is_sound(drive: &Drive) -> bool {
         .iter()
         .chain(&of_kind)
         .all(|value| value.is_finite() && *value > 0.0)
+        && loads == [true; 2]
 }
 
 proptest! {

@@ -233,18 +233,18 @@ impl<'d> Statement<'d> {
         };
         let low = moving.of_tension(slack);
         let radius = [drive.driven_radius, drive.driver_radius];
-        let arc = |pulley: usize, sense, entry| Arc {
+        let arc = |pulley: usize, sense| Arc {
             belt: moving,
             sense,
             slip_rate: moving.slip_rate(drive.friction_coefficient, radius[pulley]),
             length: radius[pulley] * self.geometry.wrap[pulley],
-            entry,
+            low,
             change,
         };
         Loaded {
             speed,
             tension: [slack, moving.tension(low + change)],
-            arc: [arc(DRIVEN, 1.0, low), arc(DRIVER, -1.0, low + change)],
+            arc: [arc(DRIVEN, 1.0), arc(DRIVER, -1.0)],
         }
     }
 
@@ -256,7 +256,7 @@ impl<'d> Statement<'d> {
         if driven.change < 0.0 && driven.belt.stiffness > 0.0 {
             return Err(Refusal::Backwards { tension });
         }
-        if driven.entry <= 0.0 || driven.belt.stiffness <= 0.0 {
+        if driven.low <= 0.0 || driven.belt.stiffness <= 0.0 {
             let belt = self.drive.belt;
             let [tension, _] = tension;
             let speed = loaded.speed * (1.0 + tension / belt.axial_stiffness);

@@ -21,21 +21,32 @@ pub(super) struct Arc {
     pub(super) slip_rate: f64,
     /// Length L of the arc, m.
     pub(super) length: f64,
-    /// Traction P where the belt enters, N; positive.
-    pub(super) entry: f64,
-    /// |P(L) − P(0)|, N; not negative.
+    /// The smaller of the tractions P where the belt enters and leaves, N; positive.
+    pub(super) low: f64,
+    /// The difference of the two, N; not negative.
     pub(super) change: f64,
 }
 
 impl Arc {
+    /// The traction where the belt enters, N.
+    pub(super) fn entry(&self) -> f64 {
+        match self.sense > 0.0 {
+            true => self.low,
+            false => self.low + self.change,
+        }
+    }
+
     /// The traction where the belt leaves, N.
     pub(super) fn exit(&self) -> f64 {
-        self.entry + self.sense * self.change
+        match self.sense > 0.0 {
+            true => self.low + self.change,
+            false => self.low,
+        }
     }
 
     /// The load |ln(P(L)/P(0))|. The arc carries less than a L.
     pub(super) fn load(&self) -> f64 {
-        (self.change / self.entry.min(self.exit())).ln_1p()
+        (self.change / self.low).ln_1p()
     }
 
     /// The largest load, a L: the belt then slips on the whole arc.
@@ -132,7 +143,7 @@ impl Friction {
 impl Contact {
     /// Traction `P_o` at which the belt would run as fast as the rim, N.
     pub(super) fn reference(&self) -> f64 {
-        self.arc.entry - self.arc.sense * self.arc.belt.stiffness * self.strain
+        self.arc.entry() - self.arc.sense * self.arc.belt.stiffness * self.strain
     }
 
     /// The belt at a share of a zone, from 0 where it begins to 1 where it ends. Shares are those of
@@ -182,7 +193,7 @@ impl Contact {
                 let distance = (1.0 - share) * (zone.end - start.arc_length);
                 let velocity = creep.velocity(distance);
                 let load = creep.load_before(distance);
-                let traction = self.arc.entry * (sense * load).exp();
+                let traction = self.arc.entry() * (sense * load).exp();
                 let displacement = saturation / (slip_rate * speed) * load;
                 Place {
                     arc_length,

@@ -12,7 +12,7 @@ pub(super) fn solve(arc: Arc) -> Option<Contact> {
     }
     let start = Place {
         arc_length: 0.0,
-        traction: arc.entry,
+        traction: arc.entry(),
         displacement: 0.0,
         friction: 0.0,
     };

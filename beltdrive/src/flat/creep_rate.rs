@@ -35,7 +35,7 @@ pub(super) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
                 Creep::with_logarithm(&arc, speed, saturation, logarithm).load(&arc) - load
             };
             let most = saturation.ln();
-            let unit = speed * arc.entry / arc.belt.stiffness;
+            let unit = speed * arc.entry() / arc.belt.stiffness;
             // The slip velocity grows at most by exp(a L (B ± v_s)/v_s) over the arc.
             let growth = arc.capacity() * (unit + 2.0 * saturation) / saturation;
             let least = (unit * load.min(1.0)).ln() - growth - LEAST;
@@ -48,9 +48,9 @@ pub(super) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
     let creep = Creep::with_logarithm(&arc, speed, saturation, entry);
     let start = Place {
         arc_length: 0.0,
-        traction: arc.entry,
+        traction: arc.entry(),
         displacement: 0.0,
-        friction: arc.slip_rate * arc.entry * creep.entry / saturation,
+        friction: arc.slip_rate * arc.entry() * creep.entry / saturation,
     };
     let saturated = creep.end();
     let mut contact = Contact {
@@ -109,7 +109,7 @@ impl Creep {
     pub(super) fn with_logarithm(arc: &Arc, speed: f64, saturation: f64, logarithm: f64) -> Self {
         let (sense, rate) = (arc.sense, arc.slip_rate / saturation);
         let entry = logarithm.exp();
-        let unit = speed * arc.entry / arc.belt.stiffness;
+        let unit = speed * arc.entry() / arc.belt.stiffness;
         let mut creep = Self {
             sense,
             rate,

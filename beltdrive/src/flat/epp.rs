@@ -101,8 +101,8 @@ impl Bristles {
         let reach = sense * self.arc.slip_rate / self.rate * (0.5 * self.rate * coordinate).tanh();
         let square = reach * belt.stretch_slope();
         let linear = 1.0 - reach * belt.stretch_offset();
-        let root = (linear * linear - 4.0 * square * self.arc.entry).sqrt();
-        let traction = 2.0 * self.arc.entry / (linear + root);
+        let root = (linear * linear - 4.0 * square * self.arc.entry()).sqrt();
+        let traction = 2.0 * self.arc.entry() / (linear + root);
         // Not a number included.
         if !(traction > 0.0 && traction.is_finite()) {
             return None;
@@ -130,7 +130,7 @@ impl Bristles {
     fn arc_length(&self, coordinate: f64, displacement: f64) -> f64 {
         let Arc { belt, sense, .. } = self.arc;
         let slope = sense * belt.stretch_slope() * belt.stiffness;
-        let entered = belt.stretch(self.arc.entry) * coordinate;
+        let entered = belt.stretch(self.arc.entry()) * coordinate;
         match slope == 0.0 || coordinate == 0.0 {
             true => entered,
             false => {
@@ -144,7 +144,7 @@ impl Bristles {
     /// touches its limit.
     fn last_transition(&self) -> Option<f64> {
         let Arc { belt, sense, .. } = self.arc;
-        let entered = self.arc.length / belt.stretch(self.arc.entry);
+        let entered = self.arc.length / belt.stretch(self.arc.entry());
         // The belt contracts on the driver, at most to P = 0.
         let longest = match sense > 0.0 {
             true => entered,
@@ -185,7 +185,8 @@ impl Bristles {
     /// The load |ln(P(L)/P(0))| if slip begins at σ₁.
     fn load(&self, coordinate: f64) -> Option<f64> {
         let transition = self.transition(coordinate)?;
-        let Arc { sense, entry, .. } = self.arc;
+        let Arc { sense, .. } = self.arc;
+        let entry = self.arc.entry();
         let gained = |traction: f64| (sense * ((traction - entry) / entry).ln_1p()).max(0.0);
         let first = gained(transition.place.traction);
         match self.stick(&transition) {
@@ -324,7 +325,7 @@ impl Bristles {
         let length = match belt.stretch_slope() == 0.0 {
             true => self.arc.length,
             false => {
-                let [one, other] = [self.arc.entry, self.arc.exit()]
+                let [one, other] = [self.arc.entry(), self.arc.exit()]
                     .map(|traction| self.arc.length / belt.stretch(traction));
                 // A load of rounding errors leaves no room between the two.
                 let ends = [
@@ -350,7 +351,7 @@ impl Bristles {
     fn entrance(&self) -> Place {
         Place {
             arc_length: 0.0,
-            traction: self.arc.entry,
+            traction: self.arc.entry(),
             displacement: 0.0,
             friction: 0.0,
         }

@@ -25,7 +25,7 @@ impl Contact {
             Friction::Creep {
                 speed, saturation, ..
             } => {
-                let unit = speed * self.arc.entry / self.arc.belt.stiffness;
+                let unit = speed * self.arc.entry() / self.arc.belt.stiffness;
                 self.arc.slip_rate * extent * (unit + 2.0 * saturation) / saturation
             }
         };

@@ -5,7 +5,8 @@ use super::contact::{Arc, Contact};
 use super::traction::Traction;
 use super::{DRIVEN, DRIVER, epp, solve};
 use crate::{
-    Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SpanTension, SteadyState, ZoneKind,
+    Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SolveOptions, SpanTension, SteadyState,
+    ZoneKind,
 };
 use std::f64::consts::PI;
 
@@ -25,7 +26,7 @@ fn thesis_arc(sense: f64, slack: f64, tight: f64) -> Arc {
         sense,
         slip_rate: belt.slip_rate(FRICTION, RADIUS),
         length: PI * RADIUS,
-        entry: if sense > 0.0 { low } else { high },
+        low,
         change: high - low,
     }
 }
@@ -207,7 +208,7 @@ fn finite_element_drive(friction_coefficient: f64) -> SteadyState {
     for _ in 0..40 {
         drive.load.slack = SpanTension::Belt(slack);
         drive.load.tight = SpanTension::DrivenTorque(25.0 + 2.0 * speed);
-        let solved = solve(&drive).unwrap();
+        let solved = solve(&drive, &SolveOptions::default()).unwrap();
         speed = solved.driven.angular_speed;
         slack *= solved.belt_length / length;
         slack += 7600.0 * (solved.belt_length / length - 1.0);

@@ -4,16 +4,16 @@ use super::closed_form::{ClosedForm, Refusal};
 use super::limits::largest_load;
 use super::state::steady_state;
 use crate::input::Key;
-use crate::{Check, Drive, SolveError, SteadyState};
+use crate::{Drive, SolveError, SolveOptions, SteadyState};
 use std::time::Instant;
 
 /// The steady state of a flat-belt drive.
-pub(crate) fn solve(drive: &Drive) -> Result<SteadyState, SolveError> {
+pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
     let solved = ClosedForm::find(drive).map_err(|refusal| refused(drive, refusal))?;
-    let state = steady_state(drive, &solved, start);
-    let violated = |check: &&Check| check.deviation.is_nan() || check.deviation > check.limit;
-    match state.checks.iter().find(violated) {
+    let mut state = steady_state(drive, &solved, start);
+    state.convergence.tolerance = options.tolerance;
+    match state.violated() {
         Some(check) => Err(SolveError::Violated(check.clone())),
         None => Ok(state),
     }

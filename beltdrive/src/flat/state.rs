@@ -10,8 +10,9 @@ use crate::{
 use std::f64::consts::FRAC_PI_2;
 use std::time::Instant;
 
-/// Points of a profile per panel of a zone.
-const POINTS: usize = 4;
+/// Points of a profile: at least so many on a pulley, and in a panel of a zone.
+const POINTS: usize = 240;
+const PANEL_POINTS: usize = 4;
 
 /// From this strain on the friction zones of models with small and with finite strains differ visibly.
 const LARGE_STRAIN: f64 = 0.02;
@@ -50,7 +51,7 @@ pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -
         friction_loss: powers[DRIVER] - powers[DRIVEN],
         driver,
         driven,
-        warnings: warnings(drive, tight / axial),
+        warnings: warnings(drive, solved),
         checks: Vec::new(),
         convergence: Convergence {
             newton_iterations: solved.evaluations,
@@ -64,8 +65,12 @@ pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -
     state
 }
 
-/// A remark on strains that only matter to elastic friction, which acts per unstretched length.
-fn warnings(drive: &Drive, strain: f64) -> Vec<Warning> {
+/// A remark on strains, of the tight span or against a rim, that only matter to elastic friction, which
+/// acts per unstretched length.
+fn warnings(drive: &Drive, solved: &ClosedForm) -> Vec<Warning> {
+    let [_, tight] = solved.tension;
+    let against_rim = solved.contact.iter().map(|contact| contact.strain);
+    let strain = against_rim.fold(tight / drive.belt.axial_stiffness, f64::max);
     let exact = BeltKind::Flat {
         normal_force: NormalForce::Exact,
     };
@@ -151,11 +156,18 @@ fn profile(drive: &Drive, solved: &ClosedForm, pulley: usize) -> Profile {
         profile.normal_force.push(pressing / radius);
         profile.friction_force.push(place.friction);
     };
-    for zone in &contact.zones {
+    let panels: Vec<_> = contact
+        .zones
+        .iter()
+        .map(|zone| contact.panels(zone))
+        .collect();
+    let count: usize = panels.iter().map(|panels| panels.len() - 1).sum();
+    let points = POINTS.div_ceil(count).max(PANEL_POINTS);
+    for (zone, panels) in contact.zones.iter().zip(&panels) {
         push(&contact.at(zone, 0.0));
-        for panel in contact.panels(zone).windows(2) {
-            for point in 1..=POINTS {
-                let share = point as f64 / POINTS as f64;
+        for panel in panels.windows(2) {
+            for point in 1..=points {
+                let share = point as f64 / points as f64;
                 push(&contact.at(zone, panel[0] + share * (panel[1] - panel[0])));
             }
         }
@@ -168,7 +180,7 @@ fn checks(solved: &ClosedForm, state: &SteadyState) -> Vec<Check> {
     let torque = |pulley: usize| {
         let contact = &solved.contact[pulley];
         let friction = contact.integral(|place| place.friction);
-        (friction - contact.arc.change).abs() / contact.arc.entry.max(contact.arc.exit())
+        (friction - contact.arc.change).abs() / contact.arc.entry().max(contact.arc.exit())
     };
     let driven = Check {
         name: "torque of the driven pulley from its friction",

@@ -48,9 +48,9 @@ impl Argument<'_> {
         let QuantityRule {
             rule,
             dimension,
-            below,
+            range,
         } = rule.expect("a key is a quantity of the schema");
-        let value = check::number(rule, dimension, below, &entry, &source)?;
+        let value = check::number(rule, dimension, range, &entry, &source)?;
         let mut drive = drive.clone();
         key.set(&mut drive, value);
         let is_free = |path: &&str| free.is_some_and(|free| free.path() == *path);

@@ -63,11 +63,11 @@ pub(super) fn word<'e>(
     )
 }
 
-/// Checks a positive quantity, which may have to stay below a limit, and gives it in SI units.
+/// Checks a quantity and its range, and gives it in SI units.
 pub(super) fn number(
     rule: &Rule,
     dimension: Dimension,
-    below: Option<(f64, &str)>,
+    range: schema::Range,
     entry: &Entry,
     source: &Source,
 ) -> Result<f64, Finding> {
@@ -87,28 +87,35 @@ pub(super) fn number(
         _ => return Err(wrong_type(rule.path, "a quantity", entry).expected(expected)),
     };
     let is_bare = unit.is_none();
-    if let Some((found, range)) = unit
+    if let Some((found, place)) = unit
         && found != dimension
     {
         let message = format!("wrong dimension: expected {dimension}, got {found}");
-        let finding = Finding::new(range, message).expected(expected);
+        let finding = Finding::new(place, message).expected(expected);
         return Err(match found.times(Dimension::ANGLE, 1) == dimension {
             true => finding.help("write what turns by: an angle in rad, deg or rev"),
             false => finding,
         });
     }
-    let limit = below.map_or(f64::INFINITY, |(limit, _)| limit);
-    if value > 0.0 && value < limit {
+    let is_within = match range {
+        schema::Range::Positive => value > 0.0,
+        schema::Range::NotNegative => value >= 0.0,
+        schema::Range::Below(limit, _) => value > 0.0 && value < limit,
+    };
+    if is_within && value.is_finite() {
         return Ok(value);
     }
-    let fault = match below {
+    let fault = match range {
         _ if !value.is_finite() => "is not a finite number".to_owned(),
-        Some((_, limit)) => format!("must lie between 0 and {limit}"),
-        None => "must be positive".to_owned(),
+        schema::Range::Positive => "must be positive".to_owned(),
+        schema::Range::NotNegative => "must not be negative".to_owned(),
+        schema::Range::Below(_, limit) => format!("must lie between 0 and {limit}"),
     };
     let finding = Finding::new(entry.place.clone(), format!("`{}` {fault}", rule.path));
-    Err(match below {
-        Some(_) if is_bare => finding.help("a bare number is in SI units: an angle in rad"),
+    Err(match range {
+        schema::Range::Below(..) if is_bare => {
+            finding.help("a bare number is in SI units: an angle in rad")
+        }
         _ => finding,
     }
     .expected(expected))

@@ -26,12 +26,12 @@ pub(super) enum Kind {
         /// The words.
         words: &'static [&'static str],
     },
-    /// A positive number of a dimension.
+    /// A number of a dimension.
     Quantity {
         /// Its dimension.
         dimension: Dimension,
-        /// The number it stays below, in SI units and in words.
-        below: Option<(f64, &'static str)>,
+        /// Its range.
+        range: Range,
     },
     /// Nothing: the entry may not be given.
     Refused {
@@ -42,13 +42,24 @@ pub(super) enum Kind {
     },
 }
 
+/// The range of a quantity.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Range {
+    /// Positive.
+    Positive,
+    /// Positive or zero.
+    NotNegative,
+    /// Positive and below a number, in SI units and in words.
+    Below(f64, &'static str),
+}
+
 const fn quantity(path: &'static str, example: &'static str, dimension: Dimension) -> Rule {
     Rule {
         path,
         example,
         kind: Kind::Quantity {
             dimension,
-            below: None,
+            range: Range::Positive,
         },
     }
 }
@@ -109,7 +120,7 @@ const RULES: [Rule; 27] = [
         example: "\"18 deg\"",
         kind: Kind::Quantity {
             dimension: Dimension::ANGLE,
-            below: Some((FRAC_PI_2, "90 deg")),
+            range: Range::Below(FRAC_PI_2, "90 deg"),
         },
     },
     word("friction.law", "\"coulomb\"", "friction law", &LAWS),
@@ -143,7 +154,14 @@ const RULES: [Rule; 27] = [
     quantity("load.slack_tension", "\"110 N\"", Dimension::FORCE),
     quantity("load.tight_tractive_tension", "\"700 N\"", Dimension::FORCE),
     quantity("load.tight_tension", "\"710 N\"", Dimension::FORCE),
-    quantity(TORQUE, "\"45 N*m\"", Dimension::TORQUE),
+    Rule {
+        path: TORQUE,
+        example: "\"45 N*m\"",
+        kind: Kind::Quantity {
+            dimension: Dimension::TORQUE,
+            range: Range::NotNegative,
+        },
+    },
     refused(
         "load.torque",
         "\"45 N*m\"",
@@ -210,18 +228,18 @@ pub(super) struct QuantityRule {
     pub(super) rule: &'static Rule,
     /// The dimension of the quantity.
     pub(super) dimension: Dimension,
-    /// The number it stays below, in SI units and in words.
-    pub(super) below: Option<(f64, &'static str)>,
+    /// Its range.
+    pub(super) range: Range,
 }
 
 /// The rule for the quantity at `path`, if it is one.
 pub(super) fn quantity_rule(path: &str) -> Option<QuantityRule> {
     let rule = rule(path)?;
     match rule.kind {
-        Kind::Quantity { dimension, below } => Some(QuantityRule {
+        Kind::Quantity { dimension, range } => Some(QuantityRule {
             rule,
             dimension,
-            below,
+            range,
         }),
         _ => None,
     }

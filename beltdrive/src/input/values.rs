@@ -95,8 +95,8 @@ impl<'d> Values<'d> {
 
     fn insert(&mut self, rule: &Rule, entry: &Entry, source: &Source) -> Result<(), Finding> {
         match rule.kind {
-            Kind::Quantity { dimension, below } => {
-                let value = check::number(rule, dimension, below, entry, source)?;
+            Kind::Quantity { dimension, range } => {
+                let value = check::number(rule, dimension, range, entry, source)?;
                 self.numbers.insert(rule.path, value);
             }
             Kind::Word { what, words } => {

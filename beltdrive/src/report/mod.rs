@@ -110,8 +110,8 @@ pub(crate) fn warning(warning: &Warning) -> String {
             inclination.to_degrees()
         ),
         Warning::LargeStrain { strain } => format!(
-            "the tight span is stretched by {:.2} %, which small strains do not stand for: \
-             normal_force = \"exact\"",
+            "the belt is stretched by {:.2} %, too much for small strains: choose normal_force = \
+             \"exact\"",
             100.0 * strain
         ),
     }

@@ -15,7 +15,6 @@ use super::curve::Curve;
 use super::family::{DriveFamily, Entry};
 use super::path::{Path, Solved};
 use super::piece::{discretisation, steps};
-use super::solve::violated;
 use super::state::describe;
 use super::zones::Split;
 use super::{DRIVER, DriveProblem, INCLINATION};
@@ -306,7 +305,7 @@ impl<'a> Walk<'a, '_, '_> {
         };
         let drive = self.family.drive(scaled);
         let state = describe(&Path::new(&drive, self.chart.tolerance), &here);
-        if violated(&state).is_some() {
+        if state.violated().is_some() {
             return None;
         }
         let error = point.error.map(|error| error.states);

@@ -6,7 +6,6 @@ use super::curve::Curve;
 use super::family::{DriveFamily, Entry};
 use super::laws::{GREAT_STEP, with_epsilon};
 use super::path::{Effort, Path, Solved, Stuck};
-use super::solve::violated;
 use super::state::describe;
 use super::tracer::{Tracer, Until};
 use super::watched::{FIRST_ZONE, RATIO, RATIOS};
@@ -217,7 +216,7 @@ impl Tracer<'_> {
         if regular && here.problem.is_split() && Split::of(here).is_some() {
             return Some(self.next_piece(point, here.clone(), &drive));
         }
-        if let Some(check) = violated(&state) {
+        if let Some(check) = state.violated() {
             let cause = format!("a state violates an invariant, {}", check.name);
             return Some(PieceEnd::Branch(BranchEnd::NotConverged { cause }));
         }

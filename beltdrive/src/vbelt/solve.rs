@@ -3,7 +3,7 @@
 use super::limit::Found;
 use super::path::{Path, Solved, Stuck};
 use super::state::steady_state;
-use crate::{Check, Drive, SolveError, SolveOptions, SpanTension, SteadyState};
+use crate::{Drive, SolveError, SolveOptions, SpanTension, SteadyState};
 use std::time::Instant;
 
 /// The steady state of a V-belt drive, from nothing but the drive.
@@ -57,16 +57,10 @@ fn conclude(
 ) -> Result<SteadyState, SolveError> {
     let solved = carried(&path, found)?;
     let state = steady_state(&path, solved, start);
-    match violated(&state) {
+    match state.violated() {
         Some(check) => Err(SolveError::Violated(check.clone())),
         None => Ok(state),
     }
-}
-
-/// The first invariant that a state violates.
-pub(super) fn violated(state: &SteadyState) -> Option<&Check> {
-    let violated = |check: &&Check| check.deviation.is_nan() || check.deviation > check.limit;
-    state.checks.iter().find(violated)
 }
 
 /// The state found, or the reason why the load is not carried or not reached.

@@ -21,6 +21,8 @@ const POINTS: usize = 401;
 /// Modes among which the first that grows is looked for, and the loads tried.
 const ONSET_MODES: usize = 8;
 const LOADS: usize = 24;
+/// Share of the largest load that is hardly any.
+const FIRST: f64 = 1e-6;
 
 /// The stability of a flat-belt drive.
 pub(crate) fn stability(
@@ -80,7 +82,7 @@ fn motion(drive: &Drive, solved: &ClosedForm, pulley: usize) -> Result<AxialMoti
             ));
         }
     };
-    let tension = arc.belt.tension(arc.entry);
+    let tension = arc.belt.tension(arc.entry());
     let radius = [drive.driven_radius, drive.driver_radius][pulley];
     Ok(AxialMotion {
         mass_per_length: drive.belt.mass_per_length,
@@ -167,6 +169,11 @@ fn onset(drive: &Drive, pulley: usize, form: LinearisedForm) -> Result<Onset, So
         let number = (lowest > highest + ROUNDING).then_some(found.least_stable + 1);
         Ok::<_, SolveError>((lowest.max(highest) - ROUNDING, number))
     };
+    // Rigid friction lets the belt move as soon as it slips, however little.
+    let (excess, mode) = growth(low + FIRST * (limit.value - low))?;
+    if excess > 0.0 {
+        return Ok(Onset::At { load: low, mode });
+    }
     let load = |share: f64| low + (limit.value - low) * share * share;
     let mut before = low;
     for step in 1..=LOADS {

@@ -186,7 +186,7 @@ fn small_displacements_are_accurate() {
     let arc = ClosedForm::find(&drive).unwrap().contact[DRIVEN].arc;
     let z = arc.load();
     let second_order = z * z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0 * (1.0 + z / 5.0)));
-    let displacement = arc.entry / (arc.slip_rate * arc.belt.stiffness) * second_order;
+    let displacement = arc.entry() / (arc.slip_rate * arc.belt.stiffness) * second_order;
     let relative = found.at(DRIVEN, 1, 1.0).displacement / displacement - 1.0;
     assert!(relative.abs() < 1e-11, "{relative:e}");
 }
