@@ -232,6 +232,7 @@ pub use homotopy::homotopy;
 pub use limit_point_curve::LimitPointCurve;
 pub use options::{Options, Parameterisation, Predictor};
 pub use point::{DiscretisationError, Kind, Point};
+pub use root::root;
 pub use stop::Stop;
 pub use switching::Leg;
 pub use system::{Cause, System, TwoParameter};

@@ -3,12 +3,21 @@
 /// The most evaluations; bisection alone needs as many as there are bits.
 const EVALUATIONS: usize = 100;
 
-/// Finds x between two points of different sign with f(x) = 0, to `tolerance` or to rounding, by
-/// inverse quadratic interpolation where that is safe and bisection elsewhere. T. R. Chandrupatla,
+/// Finds x between two points (x, f(x)) of different sign with f(x) = 0, to `tolerance` or to rounding,
+/// by inverse quadratic interpolation where that is safe and bisection elsewhere. T. R. Chandrupatla,
 /// "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without
 /// using derivatives", Adv. Eng. Softw. 28 (1997) 145-149. It ends when the interpolation moves no
 /// further than that, which spares the evaluation that closes the bracket.
-pub(crate) fn root<E>(
+///
+/// ```
+/// let f = |x: f64| Ok::<f64, ()>(x.exp() - 3.0);
+/// let x = continuation::root(f, (0.0, -2.0), (2.0, 2_f64.exp() - 3.0), 0.0).unwrap();
+/// assert!((x - 3_f64.ln()).abs() < 1e-15);
+/// ```
+///
+/// # Errors
+/// Those of the function.
+pub fn root<E>(
     mut f: impl FnMut(f64) -> Result<f64, E>,
     (mut b, mut fb): (f64, f64),
     (mut a, mut fa): (f64, f64),
