@@ -114,7 +114,8 @@ fn pulley_state(drive: &Drive, solved: &ClosedForm, pulley: usize) -> PulleyStat
         zones: zones.collect(),
         entry: Some(Entry {
             reference_tension: arc.belt.tension(contact.reference()),
-            strain: arc.sense * contact.strain,
+            // No strain has no sign.
+            strain: arc.sense * contact.strain + 0.0,
             smallest_stiffness: match drive.law {
                 FrictionLaw::Epp { .. } => epp::smallest_stiffness(arc),
                 _ => None,
