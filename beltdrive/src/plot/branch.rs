@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, Scale};
 use super::diagrams::{self, Curve, DRIVEN, DRIVER, Diagram};
+use super::labels::{self, Frame, Label};
 use super::panel::{Chart, Panel};
 use super::style::{self, Canvas, Drawn, Header, Legend, Stroke, px};
 use crate::input::Key;
@@ -29,7 +30,7 @@ pub(super) fn figure(branch: &Branch) -> String {
         caption: &caption,
         warnings: &[],
     };
-    let top = header.height();
+    let top = header.height(WIDTH);
     let height = top + PANELS + LINE * branch.events.len() as f64 + BELOW;
     let view = View::of(branch);
     style::render([WIDTH, height], |canvas| {
@@ -94,22 +95,52 @@ impl<'a> View<'a> {
         let panel = Panel {
             title: diagram.title,
             axes: &[
-                Axis::spanning(across, Scale::Decimal).padded(),
+                Axis::spanning(across, self.scale()).padded(),
                 Axis::spanning(up, diagram.scale).padded(),
             ],
             descriptions: [&parameter, diagram.axis],
         };
         let chart = panel.draw(canvas, iter::empty())?;
-        for curve in diagram.curves {
-            self.curve(&chart, curve)?;
+        for (curve, labels) in diagram.curves.iter().zip(self.labels(&chart, diagram)) {
+            self.curve(&chart, curve, &labels)?;
         }
         Ok(())
     }
 
-    /// A curve with the numbered events on it.
-    fn curve(&self, chart: &Chart<'_, '_>, curve: &Curve) -> Drawn {
+    /// The scale of the parameter: decimal where it turns back, which has to be seen.
+    fn scale(&self) -> Scale {
+        match self.branch.first_limit_point() {
+            Some(_) => Scale::Decimal,
+            None => Scale::Parameter,
+        }
+    }
+
+    /// The labels of the events on every curve of a panel.
+    fn labels(&self, chart: &Chart<'_, '_>, diagram: &Diagram) -> Vec<Vec<Option<Label>>> {
         let area = chart.plotting_area();
-        let at = |point: &TracePoint| (self.across(point), (curve.quantity)(&point.state));
+        let dots = diagram.curves.iter().map(|curve| {
+            let events = self.branch.events.iter();
+            let at = events.map(|event| self.at(curve, &event.point));
+            at.map(|at| style::in_px(area.map_coordinate(&at)))
+                .collect()
+        });
+        let (across, down) = area.get_pixel_range();
+        let frame = Frame {
+            from: style::in_px((across.start, down.start)),
+            to: style::in_px((across.end, down.end)),
+        };
+        labels::place(&dots.collect::<Vec<_>>(), frame)
+    }
+
+    /// Where a point is on a curve.
+    fn at(&self, curve: &Curve, point: &TracePoint) -> (f64, f64) {
+        (self.across(point), (curve.quantity)(&point.state))
+    }
+
+    /// A curve with the events on it.
+    fn curve(&self, chart: &Chart<'_, '_>, curve: &Curve, labels: &[Option<Label>]) -> Drawn {
+        let area = chart.plotting_area();
+        let at = |point| self.at(curve, point);
         let [before, behind] = &self.sides;
         for (side, stroke) in [
             (before, Stroke::solid(curve.color, curve.width)),
@@ -120,12 +151,14 @@ impl<'a> View<'a> {
             }
         }
         let face = style::face(style::SMALL, curve.color, HPos::Center);
-        for (number, event) in (1..).zip(&self.branch.events) {
-            let offset = [9.0, -9.0].map(px).into();
+        for (event, label) in self.branch.events.iter().zip(labels) {
             let dot = EmptyElement::at(at(&event.point))
-                + Circle::new((0, 0), px(style::DOT), curve.color.filled())
-                + Text::new(number.to_string(), offset, face.clone());
+                + Circle::new((0, 0), px(style::DOT), curve.color.filled());
             area.draw(&dot)?;
+            if let Some(Label { text, offset }) = label {
+                let text = Text::new(text.clone(), offset.map(px).into(), face.clone());
+                area.draw(&(EmptyElement::at(at(&event.point)) + text))?;
+            }
         }
         Ok(())
     }
@@ -164,6 +197,25 @@ mod tests {
         branch.events.remove(2);
         assert_eq!(View::of(&branch).sides[1], [] as [&TracePoint; 0]);
         assert_eq!(View::of(&branch).legend().len(), 3);
+    }
+
+    #[test]
+    fn a_parameter_over_decades_has_powers_of_ten_unless_it_turns_back() {
+        let mut branch = sample_branch::folded();
+        for point in &mut branch.points {
+            point.value = 1e5 * 10_f64.powf(5.0 * point.arclength);
+        }
+        let stiffness = |branch: &Branch| figure(branch).contains("\n1e5\n");
+        assert!(!stiffness(&branch));
+        branch.events.clear();
+        assert!(stiffness(&branch));
+    }
+
+    #[test]
+    fn events_at_one_place_have_one_label() {
+        let mut branch = sample_branch::folded();
+        branch.events[1].point = branch.events[0].point.clone();
+        assert!(figure(&branch).contains("\n1, 2\n"));
     }
 
     #[test]

@@ -71,7 +71,7 @@ impl View {
         let larger = driver.radius.max(driven.radius);
         let length = driver.radius + driven.centre.x + driven.radius;
         let scale = ((WIDTH - 2.0 * SIDE) / length).min(TALLEST / (2.0 * larger));
-        let top = Header::of(state, CAPTION).height() + ABOVE;
+        let top = Header::of(state, CAPTION).height(WIDTH) + ABOVE;
         let penetration = state
             .driver
             .max_penetration

@@ -25,7 +25,7 @@ pub(super) fn figure(curve: &LimitCurve) -> String {
     };
     style::render(SIZE, |canvas| {
         style::header(canvas, &header, &legend(curve))?;
-        let (_, below) = canvas.split_vertically(px(header.height()));
+        let (_, below) = canvas.split_vertically(px(header.height(SIZE[0])));
         chart(&below, curve)
     })
 }
@@ -65,7 +65,7 @@ fn chart(canvas: &Canvas<'_>, curve: &LimitCurve) -> Drawn {
     let panel = Panel {
         title: "",
         axes: &[
-            Axis::spanning(points().map(|(across, _)| across), Scale::Decimal).padded(),
+            Axis::spanning(points().map(|(across, _)| across), Scale::Parameter).padded(),
             Axis::spanning(points().map(|(_, up)| up), Scale::Decimal).padded(),
         ],
         descriptions: descriptions.each_ref().map(String::as_str),
@@ -117,6 +117,18 @@ mod tests {
         curve.cusps = vec![curve.points[3].clone()];
         assert_eq!(legend(&curve).len(), 3);
         assert!(figure(&curve).contains("cusp"));
+    }
+
+    #[test]
+    fn a_parameter_over_decades_has_powers_of_ten() {
+        let mut curve = sample_branch::curve();
+        for (power, point) in (0..).zip(&mut curve.points) {
+            point.second = 1e4 * 10_f64.powf(0.2 * f64::from(power));
+        }
+        let text = figure(&curve);
+        for tick in ["1e4", "1e5", "1e6", "1e7", "1e8"] {
+            assert!(text.contains(&format!("\n{tick}\n")), "{tick}");
+        }
     }
 
     #[test]

@@ -5,6 +5,7 @@ mod branch;
 mod diagrams;
 mod drive;
 mod geometry;
+mod labels;
 mod limit_curve;
 mod panel;
 mod profile_figures;

@@ -38,7 +38,7 @@ impl Figure {
         style::render(SIZE, |canvas| {
             let header = Header::of(state, self.title);
             style::header(canvas, &header, &self.legend(state))?;
-            let (_, below) = canvas.split_vertically(px(header.height()));
+            let (_, below) = canvas.split_vertically(px(header.height(SIZE[0])));
             let panels = below.split_evenly((2, 1));
             let pulleys = [("driver", &state.driver), ("driven pulley", &state.driven)];
             for (panel, (name, pulley)) in panels.iter().zip(pulleys) {

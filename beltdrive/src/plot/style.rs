@@ -1,7 +1,7 @@
 //! What all figures have in common: canvas, colours, text, header and legend.
 
 use crate::input::Key;
-use crate::report::{convention, heading, law, warning};
+use crate::report::{convention, folded, heading, law, warning};
 use crate::{Drive, SteadyState, Warning, ZoneKind};
 use plotters::coord::{CoordTranslate, Shift};
 use plotters::drawing::DrawingAreaErrorKind;
@@ -55,6 +55,11 @@ const UNITS: f64 = 10.0;
 )]
 pub(super) fn px(length: f64) -> i32 {
     (length * UNITS).round() as i32
+}
+
+/// A place in px from one in units of the backend.
+pub(super) fn in_px((across, down): (i32, i32)) -> [f64; 2] {
+    [across, down].map(|length| f64::from(length) / UNITS)
 }
 
 /// A sheet of a width and height in px with what `draw` puts on it, as SVG.
@@ -172,7 +177,7 @@ pub(super) fn write(canvas: &Canvas<'_>, text: &str, style: &TextStyle<'_>, at: 
 }
 
 /// About the width that a text takes in common sans-serif fonts, px.
-fn text_width(characters: usize, size: f64) -> f64 {
+pub(super) fn text_width(characters: usize, size: f64) -> f64 {
     0.55 * size * characters as f64
 }
 
@@ -209,40 +214,63 @@ impl<'a> Header<'a> {
         }
     }
 
-    /// Its height with the legend, px.
-    pub(super) fn height(&self) -> f64 {
-        let convention = usize::from(convention(self.drive).is_some());
-        98.0 + LINE * (convention + self.warnings.len()) as f64
+    /// Its height with the legend on a sheet of a width, px.
+    pub(super) fn height(&self, width: f64) -> f64 {
+        let lines = self.lines(width);
+        46.0 + lines.iter().map(|line| line.advance).sum::<f64>()
     }
+
+    /// Its lines of text on a sheet of a width, px.
+    fn lines(&self, width: f64) -> Vec<HeaderLine> {
+        let room = width - 2.0 * MARGIN;
+        let title = broken(&heading(self.drive), TITLE, room);
+        let law = law(self.drive, self.varied);
+        let together = format!("{} — {law}", self.caption);
+        let captions = if text_width(together.chars().count(), BODY) <= room {
+            vec![together]
+        } else {
+            [self.caption, &law]
+                .map(|text| broken(text, BODY, room))
+                .concat()
+        };
+        let convention = convention(self.drive).map(|text| broken(text, BODY, room));
+        let warnings = self.warnings.iter();
+        let warnings = warnings.map(|remark| format!("Warning: {}", warning(remark)));
+        let line = |size, color, advance| {
+            move |text| HeaderLine {
+                text,
+                size,
+                color,
+                advance,
+            }
+        };
+        let mut lines: Vec<_> = title.into_iter().map(line(TITLE, INK, 26.0)).collect();
+        let first = lines.len();
+        lines.extend(captions.into_iter().map(line(BODY, GREY, LINE)));
+        lines[first].advance = 26.0;
+        lines.extend(convention.into_iter().flatten().map(line(BODY, GREY, LINE)));
+        let warnings = warnings.flat_map(|text| broken(&text, BODY, room));
+        lines.extend(warnings.map(line(BODY, VERMILION, LINE)));
+        lines
+    }
+}
+
+/// A line of a header: text, its size, its colour, and how far below the last one it stands, px.
+struct HeaderLine {
+    text: String,
+    size: f64,
+    color: RGBColor,
+    advance: f64,
 }
 
 /// Writes what the drive is, what the figure shows, what to beware of, and the legend.
 pub(super) fn header(canvas: &Canvas<'_>, header: &Header<'_>, legend: &[Legend]) -> Drawn {
     let width = f64::from(canvas.dim_in_pixel().0) / UNITS;
     let mut bottom = 0.0;
-    let mut line = |text: &str, size: f64, color, advance: f64| {
-        bottom += advance;
-        let room = width - 2.0 * MARGIN;
-        let style = face(size, color, HPos::Left);
-        write(canvas, &fitted(text, size, room), &style, [MARGIN, bottom])
-    };
-    line(&heading(header.drive), TITLE, INK, 26.0)?;
-    line(
-        &format!("{} — {}", header.caption, law(header.drive, header.varied)),
-        BODY,
-        GREY,
-        26.0,
-    )?;
-    if let Some(convention) = convention(header.drive) {
-        line(convention, BODY, GREY, LINE)?;
-    }
-    for remark in header.warnings {
-        line(
-            &format!("Warning: {}", warning(remark)),
-            BODY,
-            VERMILION,
-            LINE,
-        )?;
+    for line in header.lines(width) {
+        bottom += line.advance;
+        let face = face(line.size, line.color, HPos::Left);
+        write(canvas, &line.text, &face, [MARGIN, bottom])?;
     }
     bottom += 26.0;
     let mut left = MARGIN;
@@ -290,15 +318,10 @@ fn entry(
     Ok(right + 32.0 + text_width(label.chars().count(), BODY))
 }
 
-/// The text, cut where it would be wider than the room, px.
-fn fitted(text: &str, size: f64, room: f64) -> String {
+/// The text on lines that are no wider than the room, px.
+fn broken(text: &str, size: f64, room: f64) -> Vec<String> {
     let fits = (1..=text.chars().count()).take_while(|&count| text_width(count, size) <= room);
-    match fits.last() {
-        Some(count) if count < text.chars().count() => {
-            text.chars().take(count - 1).chain(['…']).collect()
-        }
-        _ => text.to_owned(),
-    }
+    folded(text, fits.last().unwrap_or(1), 0)
 }
 
 #[cfg(test)]
@@ -307,12 +330,28 @@ mod tests {
     use crate::report::{sample, sample_flat};
 
     #[test]
-    fn long_titles_are_cut() {
-        assert_eq!(fitted("drive", 10.0, 100.0), "drive");
-        assert_eq!(
-            fitted("a drive with a very long title", 10.0, 55.0),
-            "a drive w…"
-        );
+    fn long_titles_are_broken() {
+        assert_eq!(broken("drive", 10.0, 100.0), ["drive"]);
+        let text = "a drive with a very long title";
+        let lines = ["a drive", "with a", "very long", "title"];
+        assert_eq!(broken(text, 10.0, 55.0), lines);
+        assert_eq!(broken("", 10.0, 55.0), [""]);
+    }
+
+    #[test]
+    fn no_line_of_a_header_is_lost() {
+        let mut state = sample_flat::epp();
+        let caption = "Limit of the tight tractive tension over the friction stiffness";
+        let header = Header::of(&state, caption);
+        let [wide, narrow] = [1100.0, 900.0].map(|width| header.lines(width));
+        let texts: Vec<_> = narrow.iter().map(|line| line.text.as_str()).collect();
+        assert_eq!(texts[1], caption);
+        assert_eq!(texts[2], law(&state.drive, &[]));
+        assert_eq!((wide.len(), narrow.len()), (3, 4));
+        assert_eq!(header.height(900.0), header.height(1100.0) + LINE);
+        state.warnings = vec![Warning::LargeStrain { strain: 0.1 }];
+        let lines = Header::of(&state, caption).lines(700.0);
+        assert!(lines.last().unwrap().text.ends_with("\"exact\""));
     }
 
     #[test]

@@ -34,6 +34,7 @@ pub(crate) mod words;
 pub use self::csv::csv;
 pub(crate) use belt::convention;
 pub use json::json;
+pub(crate) use lines::folded;
 pub(crate) use precision::Precision;
 pub(crate) use slip_arc::slip_arc;
 pub use table::table;
@@ -110,8 +111,8 @@ pub(crate) fn warning(warning: &Warning) -> String {
             inclination.to_degrees()
         ),
         Warning::LargeStrain { strain } => format!(
-            "the belt is stretched by {:.2} %, too much for small strains: choose normal_force = \
-             \"exact\"",
+            "the belt is stretched by {:.2} %, too much for small strains: choose \
+             normal_force=\"exact\"",
             100.0 * strain
         ),
     }

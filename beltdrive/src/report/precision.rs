@@ -66,9 +66,20 @@ impl Precision {
 /// A value with the digits that an absolute error leaves, and no more than so many.
 pub(super) fn known(value: f64, error: f64, digits: f64) -> String {
     let known = (-error.log10()).floor();
-    let useful = digits - 1.0 - value.abs().log10().floor();
-    rounded(value, known.min(useful))
+    let power = value.abs().log10().floor();
+    let decimals = known.min(digits - 1.0 - power);
+    if value != 0.0 && value.abs() < SMALL && decimals > PLACES && decimals + power >= 0.0 {
+        #[expect(clippy::cast_possible_truncation, reason = "below the digits")]
+        let places = (decimals + power) as usize;
+        format!("{value:.places$e}")
+    } else {
+        rounded(value, decimals)
+    }
 }
+
+/// A smaller number that needs more decimals is shown as a power of ten.
+const SMALL: f64 = 1e-3;
+const PLACES: f64 = 9.0;
 
 /// The value rounded to a number of decimals, or of tens when this is negative.
 fn rounded(value: f64, decimals: f64) -> String {
@@ -76,7 +87,7 @@ fn rounded(value: f64, decimals: f64) -> String {
         return "not known".to_owned();
     }
     #[expect(clippy::cast_possible_truncation, reason = "clamped to 0 … 9")]
-    let places = decimals.clamp(0.0, 9.0) as usize;
+    let places = decimals.clamp(0.0, PLACES) as usize;
     let unit = 10_f64.powf((-decimals).max(0.0));
     let value = if unit > 1.0 {
         (value / unit).round() * unit
@@ -157,6 +168,14 @@ mod tests {
         assert_eq!(precision(0.0).show(0.0), "0");
         assert_eq!(precision(f64::NAN).show(1.5), "1.50000");
         assert_eq!(precision(0.0).show(f64::NAN), "not known");
+    }
+
+    #[test]
+    fn small_numbers_are_powers_of_ten() {
+        let shown = [2.5e-4, -1.234_567_8e-7, 3.77e-26].map(|value| precision(0.0).show(value));
+        assert_eq!(shown, ["0.000250000", "-1.23457e-7", "3.77000e-26"]);
+        assert_eq!(known(3.77e-26, 1e-27, 6.0), "3.8e-26");
+        assert_eq!(known(3.77e-26, 1e-24, 6.0), "0");
     }
 
     #[test]

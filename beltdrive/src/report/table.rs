@@ -18,7 +18,7 @@ pub fn table(state: &SteadyState) -> String {
     let precision = Precision::of(&state.convergence, DIGITS);
     let summary = StateSummary::from(state);
     let remarks = state.warnings.iter();
-    let warnings = remarks.map(|remark| vec![format!("WARNING: {}", warning(remark))]);
+    let warnings = remarks.map(|remark| lines::wrapped("WARNING: ", &warning(remark)));
     let blocks = [
         pulleys(state, &summary, precision),
         spans(state, precision),
@@ -113,15 +113,15 @@ fn rim(state: &SteadyState, pulleys: [&PulleySummary; 2], precision: Precision) 
         }
     };
     let tension = state.tight_tension;
-    let strain = tension / state.drive.belt.axial_stiffness;
     line(
         "reference tension T_o",
         "N",
         |entry| Some(entry.reference_tension),
         &|value| precision.show_against(value, tension),
     );
+    // It decays along the elastic zone, so that its error is relative to itself however small it is.
     line("entry strain", "", |entry| Some(entry.strain), &|value| {
-        precision.show_power(value, strain, STRAIN_DIGITS)
+        precision.show_power(value, value, STRAIN_DIGITS)
     });
     line(
         "smallest k_f with slip",
@@ -246,8 +246,8 @@ fn check(check: &Check) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::NormalForce;
     use crate::report::{lines::WIDTH, sample, sample_flat};
+    use crate::{NormalForce, Warning};
 
     #[test]
     fn is_no_wider_than_a_terminal() {
@@ -303,22 +303,38 @@ mod tests {
     }
 
     #[test]
+    fn the_advice_of_a_warning_is_not_lost() {
+        let mut state = sample_flat::epp();
+        // So large that the line does not hold it.
+        state.warnings = vec![Warning::LargeStrain { strain: 1e4 }];
+        let text = table(&state);
+        let mut lines = text.lines().skip_while(|line| !line.starts_with("WARNING"));
+        let [first, second] = [lines.next(), lines.next()].map(Option::unwrap);
+        assert!(first.ends_with("for small strains: choose"), "{text}");
+        assert_eq!(second, "         normal_force=\"exact\"");
+    }
+
+    #[test]
     fn a_flat_belt_creeps_along_the_rim() {
-        let text = table(&sample_flat::epp());
+        let mut state = sample_flat::epp();
+        let entry = state.driver.entry.as_mut().unwrap();
+        entry.strain = -3.77e-26;
+        let text = table(&state);
         for needle in [
             "N/m², normal force n = (T − G V)/R\n",
             "slip arc",
-            "-2.50e-7",
+            "2.50e-7",
             "reference tension T_o",
             "smallest k_f with slip                       7.65432e5",
             "elastic 0 – 36.2218",
             "closed form\n",
+            "-3.77e-26",
             "1.2e-14",
             "holds",
         ] {
             assert!(text.contains(needle), "{needle} is not in\n{text}");
         }
-        let mut short = sample_flat::epp();
+        let mut short = state;
         short.driver.entry = None;
         assert!(table(&short).contains("  –  "), "one pulley has an entry");
         short.driven.entry = None;

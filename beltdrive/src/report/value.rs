@@ -10,6 +10,9 @@ const DIGITS: f64 = 10.0;
 /// Digits of a value without an error in a column.
 const CELL_DIGITS: f64 = 6.0;
 
+/// A longer value in a column is shown as a power of ten.
+const CELL: usize = 10;
+
 /// A value of an entry in the unit of reports, without the unit.
 pub(crate) fn number(key: Key, value: f64, error: Option<f64>) -> String {
     let value = key.reported(value);
@@ -24,7 +27,14 @@ pub(crate) fn number(key: Key, value: f64, error: Option<f64>) -> String {
 pub(super) fn cell(key: Key, value: f64, error: Option<f64>) -> String {
     match error {
         Some(error) if error > 0.0 => number(key, value, Some(error)),
-        _ => known(key.reported(value), 0.0, CELL_DIGITS),
+        _ => {
+            let value = key.reported(value);
+            let text = known(value, 0.0, CELL_DIGITS);
+            match text.chars().count() {
+                0..=CELL => text,
+                _ => format!("{value:.5e}"),
+            }
+        }
     }
 }
 
@@ -79,6 +89,8 @@ mod tests {
         assert_eq!(quantity(tight, 700.0, None), "700 N");
         assert_eq!(quantity(tight, 700.0, Some(0.0)), "700 N");
         assert_eq!(cell(tight, 700.0, None), "700.000");
+        assert_eq!(cell(tight, 6_189_658_189.0, None), "6189660000");
+        assert_eq!(cell(tight, 1e10, None), "1.00000e10");
         assert_eq!(error(tight, 0.004_3), "0.004");
         let coefficient = find("friction.coefficient");
         assert_eq!(quantity(coefficient, 0.4, None), "0.4");

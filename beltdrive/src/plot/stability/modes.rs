@@ -29,7 +29,7 @@ pub(super) fn figure(stability: &Stability) -> String {
     ];
     let rows = pulleys.iter().map(|(_, on, _)| shapes(on).count()).min();
     let rows = rows.unwrap_or(0);
-    let top = header.height();
+    let top = header.height(WIDTH);
     style::render([WIDTH, top + ROW * rows.max(1) as f64], |canvas| {
         style::header(
             canvas,

@@ -31,7 +31,7 @@ pub(super) fn figure(stability: &Stability) -> String {
         caption: "Eigenvalues λ of the axial motion",
         warnings: &[],
     };
-    let top = header.height();
+    let top = header.height(WIDTH);
     style::render([WIDTH, top + PANELS], |canvas| {
         style::header(canvas, &header, &[])?;
         legend(canvas, top - LEGEND)?;

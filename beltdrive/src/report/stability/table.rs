@@ -3,11 +3,7 @@
 use super::meaning::meaning;
 use super::words::{form_description, form_label, frequency, growth, least_stable, pulleys, rate};
 use crate::input::Key;
-use crate::report::{
-    self,
-    lines::{self, WIDTH},
-    six_digits, value,
-};
+use crate::report::{self, lines, six_digits, value};
 use crate::{
     AxialMode, Drive, FormStability, LinearisedForm, Onset, Pulley, PulleyStability, Stability,
 };
@@ -31,7 +27,7 @@ pub fn table(stability: &Stability) -> String {
         blocks.push(modes(pulley, drive, on));
         blocks.push(summary(key, on));
     }
-    blocks.push(wrapped(&meaning(stability)));
+    blocks.push(lines::wrapped("", &meaning(stability)));
     lines::text(blocks)
 }
 
@@ -140,25 +136,11 @@ fn onset(key: Key, onset: Option<Onset>) -> String {
     }
 }
 
-/// A text on lines that are not too wide.
-fn wrapped(text: &str) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
-        match lines.last_mut() {
-            Some(line) if line.chars().count() + 1 + word.chars().count() <= WIDTH => {
-                line.push(' ');
-                line.push_str(word);
-            }
-            _ => lines.push(word.to_owned()),
-        }
-    }
-    lines
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::sample;
     use super::*;
+    use crate::report::lines::WIDTH;
 
     #[test]
     fn shows_modes_summary_and_meaning() {

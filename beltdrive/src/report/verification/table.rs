@@ -2,7 +2,7 @@
 
 use super::notes::Notes;
 use super::{figures, words};
-use crate::report::lines::{self, WIDTH};
+use crate::report::lines::{self, wrapped};
 use crate::verify::{Comparison, Section, Source, Verdict, Verification};
 
 /// Every published number beside the computed one, by source, with numbered notes, on lines of at most
@@ -106,30 +106,6 @@ fn legend() -> Vec<String> {
     .to_vec()
 }
 
-/// A text on lines that fit; the first has a label, and the others are indented by its width.
-fn wrapped(label: &str, text: &str) -> Vec<String> {
-    let indent = label.chars().count();
-    let mut lines = Vec::new();
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        let width = line.chars().count() + 1 + word.chars().count();
-        if !line.is_empty() && indent + width > WIDTH {
-            lines.push(std::mem::take(&mut line));
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    lines.push(line);
-    let blank = " ".repeat(indent);
-    let labels = std::iter::once(label).chain(std::iter::repeat(blank.as_str()));
-    let labelled = labels
-        .zip(&lines)
-        .map(|(label, line)| format!("{label}{line}"));
-    labelled.collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -177,12 +153,5 @@ mod tests {
 
         2 agree to the printed digits, 1 within a stated band, 1 known why, 2 unexplained
         ");
-    }
-
-    #[test]
-    fn long_texts_are_wrapped() {
-        let lines = wrapped("[1]  ", &"word ".repeat(40));
-        assert!(lines.len() == 3 && lines.iter().all(|line| line.chars().count() <= WIDTH));
-        assert!(lines[0].starts_with("[1]  word") && lines[1].starts_with("     word"));
     }
 }
