@@ -1,13 +1,14 @@
 //! The profiles of a steady state as comma-separated values.
 
 use super::columns::COLUMNS;
-use crate::SteadyState;
+use crate::{BeltKind, SteadyState};
 use std::error::Error;
 
 /// The profiles of both pulleys, one row per point of the belt, first along the driver.
 ///
 /// The first column, `pulley`, is `driver` or `driven`; the others have the names and units of
-/// the profiles in the JSON report, at full precision.
+/// the profiles in the JSON report, at full precision; the last one, of a flat belt, is the convention
+/// for its normal force.
 ///
 /// # Panics
 /// Never: writing numbers into memory cannot fail.
@@ -17,15 +18,19 @@ pub fn csv(state: &SteadyState) -> String {
 
 fn write(state: &SteadyState) -> Result<String, Box<dyn Error>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(
-        ["pulley"]
-            .into_iter()
-            .chain(COLUMNS.map(|column| column.key)),
-    )?;
+    let convention = match state.drive.belt.kind {
+        BeltKind::V(_) => None,
+        BeltKind::Flat { normal_force } => Some(normal_force.name()),
+    };
+    let names = COLUMNS.iter().map(|column| column.key);
+    let header = ["pulley"].into_iter().chain(names);
+    writer.write_record(header.chain(convention.map(|_| "normal_force")))?;
     for (name, pulley) in [("driver", &state.driver), ("driven", &state.driven)] {
         let columns = COLUMNS.map(|column| column.values(&pulley.profile));
         for point in 0..pulley.profile.angle.len() {
-            writer.serialize((name, columns.each_ref().map(|column| column[point])))?;
+            let values = columns.iter().map(|column| column[point].to_string());
+            let values = [name.to_owned()].into_iter().chain(values);
+            writer.write_record(values.chain(convention.map(str::to_owned)))?;
         }
     }
     Ok(String::from_utf8(writer.into_inner()?)?)

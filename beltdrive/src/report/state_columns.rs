@@ -19,6 +19,8 @@ enum Quantity {
     Known(fn(&StateSummary) -> f64),
     /// There may be none.
     Optional(fn(&StateSummary) -> Option<f64>),
+    /// A word about the drive, the same for all states.
+    Word(&'static str),
 }
 
 impl StateColumn {
@@ -27,6 +29,7 @@ impl StateColumn {
         rows::optional(match self.quantity {
             Quantity::Known(quantity) => Some(quantity(state)),
             Quantity::Optional(quantity) => quantity(state),
+            Quantity::Word(word) => return word.to_owned(),
         })
     }
 }
@@ -41,15 +44,23 @@ const fn optional(key: &'static str, quantity: fn(&StateSummary) -> Option<f64>)
     StateColumn { key, quantity }
 }
 
-/// The scalars of the states of a drive without those that are entries with columns of their own.
+/// The scalars of the states of a drive without those that are entries with columns of their own; of a
+/// flat belt with the convention for its normal force.
 pub(super) fn columns_beside(drive: &Drive, keys: &[Key]) -> Vec<StateColumn> {
-    let of_kind: &[StateColumn] = match drive.belt.kind {
-        BeltKind::V(_) => &[],
-        BeltKind::Flat { .. } => &ENTRY_COLUMNS,
+    let of_kind = match drive.belt.kind {
+        BeltKind::V(_) => Vec::new(),
+        BeltKind::Flat { normal_force } => {
+            let quantity = Quantity::Word(normal_force.name());
+            let convention = StateColumn {
+                key: "normal_force",
+                quantity,
+            };
+            [ENTRY_COLUMNS.as_slice(), &[convention]].concat()
+        }
     };
     let own: Vec<_> = keys.iter().map(Key::column).collect();
     let beside = |column: &StateColumn| own.iter().all(|own| own != column.key);
-    let all = STATE_COLUMNS.iter().chain(of_kind).copied();
+    let all = STATE_COLUMNS.into_iter().chain(of_kind);
     all.filter(beside).collect()
 }
 

@@ -66,8 +66,13 @@ mod tests {
         let (v, flat) = (csv(&sample_branch::folded()), csv(&branch));
         let own = flat.lines().next().unwrap();
         let own = own.strip_prefix(v.lines().next().unwrap()).unwrap();
-        assert_eq!(own.split(',').count(), 1 + 6);
+        assert_eq!(own.split(',').count(), 1 + 7);
         assert!(own.starts_with(",driver_reference_tension_N,driver_entry_strain,"));
-        assert!(flat.lines().nth(3).unwrap().ends_with(",765432.1,,,"));
+        assert!(
+            flat.lines()
+                .nth(3)
+                .unwrap()
+                .ends_with(",765432.1,,,,inertia")
+        );
     }
 }

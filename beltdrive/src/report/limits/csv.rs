@@ -37,7 +37,7 @@ mod tests {
         let largest = text.lines().nth(2).unwrap();
         let row = "largest,560,0.000000001,gross slip,driver,3,";
         assert!(largest.starts_with(row), "{text}");
-        assert!(largest.ends_with(",0.00000025,765432.1"), "{text}");
+        assert!(largest.ends_with(",0.00000025,765432.1,inertia"), "{text}");
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! The eigenvalues of the axial motion as comma-separated values.
 
 use super::words::{form_word, pulleys};
-use crate::Stability;
 use crate::report::{rows, words::pulley_word};
+use crate::{BeltKind, Stability};
 use std::f64::consts::TAU;
 
-const COLUMNS: [&str; 8] = [
+const COLUMNS: [&str; 9] = [
     "pulley",
     "form",
     "mode",
@@ -14,10 +14,15 @@ const COLUMNS: [&str; 8] = [
     "frequency_Hz",
     "method_difference",
     "grows",
+    "normal_force",
 ];
 
 /// One row per pulley, form of the linearised problem and mode, with the names of the JSON report.
 pub fn csv(stability: &Stability) -> String {
+    let convention = match stability.drive.belt.kind {
+        BeltKind::V(_) => "",
+        BeltKind::Flat { normal_force } => normal_force.name(),
+    };
     let mut lines = Vec::new();
     for (pulley, on) in pulleys(stability) {
         for form in &on.forms {
@@ -32,6 +37,7 @@ pub fn csv(stability: &Stability) -> String {
                     (mode.frequency / TAU).to_string(),
                     mode.difference.to_string(),
                     mode.grows().to_string(),
+                    convention.to_owned(),
                 ]);
             }
         }
@@ -54,7 +60,7 @@ mod tests {
             lines[1].starts_with("driver,thesis,1,-40,10000,1591.54"),
             "{text}"
         );
-        assert!(lines[1].ends_with(",false"));
+        assert!(lines[1].ends_with(",false,inertia"));
         let last = lines[lines.len() - 1];
         assert!(last.starts_with("driven,conservative,4,"), "{text}");
     }
