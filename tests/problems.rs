@@ -11,7 +11,8 @@
 //! cases named T are those of the test set of Cash, Wright and Mazzia under their own numbers, in
 //! up to three degrees of difficulty; the cases named E come from the examples of other codes and
 //! textbooks and from this project. [`exact_problems`] lists smooth problems whose solution is a
-//! function to be evaluated anywhere, for convergence orders.
+//! function to be evaluated anywhere, for convergence orders. An [`Attempt`] is a case solved once,
+//! with its true error and cost.
 //!
 //! ```
 //! use reference_problems::{case, scaled_error};
@@ -54,12 +55,19 @@ mod systems;
 #[path = "problems/turning_points.rs"]
 mod turning_points;
 
+mod attempt;
 mod curve;
+mod statistics;
 
+pub use attempt::{Attempt, FALSE_FROM, Outcome, max_or_nan, true_error};
 use bvp::{Ends, Equations, Real, Segment};
 pub use curve::Curve;
 pub use exact::{ExactProblem, exact_problems};
 pub use reference::Reference;
+pub use statistics::{geometric_mean, quantile};
+
+/// The tolerances that the cases are tested and timed at.
+pub const TOLERANCES: [f64; 3] = [1e-3, 1e-6, 1e-9];
 
 /// An initial guess: writes the states at x of a segment into the slice.
 pub type Guess = Box<dyn Fn(usize, f64, &mut [f64]) + Send + Sync>;

@@ -3,21 +3,22 @@
 //! `cargo test -p reference-problems --test reference -- --nocapture` prints the tables.
 
 use bvp::{Options, Scheme, Solution, solve};
-use reference_problems::{Case, all, scaled_error};
+use reference_problems::{Attempt, Outcome, TOLERANCES, all, max_or_nan, scaled_error, true_error};
 
-/// The tolerances and schemes that every case is solved with.
-const SETTINGS: [(f64, Scheme); 3] = [
-    (1e-3, Scheme::Gauss { stages: 4 }),
-    (1e-6, Scheme::Gauss { stages: 4 }),
-    (1e-9, Scheme::Gauss { stages: 6 }),
-];
-
-/// Cases that are not solved from their guess, with the reason.
+/// Cases that are not solved from their guess at any tolerance, with the reason.
 const KNOWN_FAILURES: [(&str, &str); 1] = [(
     "E04a",
     "the path of Newton's method from the guess (0, 0, 1), which is no solution of y′ = y₂, \
      y₂′ = y₃, ends at a singular Jacobian with y″(0) ≈ 0.47 on every mesh and with every scheme; \
      from (0, 0, 0) or (x²/2, x, 1) the case is solved",
+)];
+
+/// Cases whose true error with the default scheme may exceed the tolerance, with the reason.
+const KNOWN_INACCURACIES: [(&str, f64, &str); 1] = [(
+    "T09c",
+    1e-9,
+    "6 tolerances, while the estimate is 0.13: rounding, for the error grows with the intervals, from \
+     0.9e-9 on 873 to 6e-9 on 2075; six stages come to 0.2e-9 on 211",
 )];
 
 /// The estimate is within this factor of the true error. Measured: 0.61 to 2.2 of it, all but three
@@ -28,77 +29,76 @@ const NEAR: f64 = 3.0;
 /// Errors below are rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// Solves a case from its guess on its initial mesh.
-fn attempt(case: &Case, tolerance: f64, scheme: Scheme) -> Result<Solution, bvp::Error> {
-    let options = Options {
+/// The default options at a tolerance.
+fn defaults(tolerance: f64) -> Options {
+    Options {
         tolerance,
-        scheme,
         ..Options::default()
+    }
+}
+
+/// What an attempt is worth: nothing if it is as it should be, else a complaint.
+fn complaint(attempt: &Attempt, allowed: f64) -> Option<String> {
+    let known = KNOWN_FAILURES.iter().any(|(id, _)| *id == attempt.case);
+    let accurate = attempt.true_error <= allowed;
+    let what = match &attempt.outcome {
+        Outcome::Failed(_) if known => return None,
+        Outcome::Failed(error) => error.clone(),
+        Outcome::Solved if known => "solved by now".to_owned(),
+        Outcome::Solved if accurate && !attempt.is_false_success() => return None,
+        Outcome::Solved => format!("false, true error {:e}", attempt.true_error),
     };
-    solve(&*case.equations, case, &options)
+    Some(format!(
+        "{} at {:e}: {what}",
+        attempt.case, attempt.tolerance
+    ))
 }
 
-/// The true error of a solution: at the points of the reference table, and of its parameters.
-fn table_error(case: &Case, solution: &Solution) -> f64 {
-    let reference = &case.reference;
-    let of_parameters = scaled_error(solution.parameters(), &reference.parameters);
-    let of_points = reference.points.iter().map(|(segment, x, y)| {
-        let mut found = vec![f64::NAN; y.len()];
-        solution.state(*segment, *x, &mut found);
-        scaled_error(&found, y)
-    });
-    of_points.fold(of_parameters, max_or_nan)
-}
-
-/// The larger of two numbers, NaN if either is.
-fn max_or_nan(a: f64, b: f64) -> f64 {
-    if b <= a || a.is_nan() { a } else { b }
-}
-
-/// Intervals of the mesh of a solution, over all segments.
-fn intervals(solution: &Solution) -> usize {
-    let segments = 0..solution.segments().len();
-    segments.map(|i| solution.mesh(i).len() - 1).sum()
+/// Solves every case and returns what is not as it should be; whether those known to be inaccurate
+/// may be so.
+fn complaints(options: &Options, inaccuracies: bool) -> Vec<String> {
+    let tolerance = options.tolerance;
+    println!("\n{:?}, tolerance {tolerance:e}", options.scheme);
+    println!("case   intervals  steps     rhs  estimate  true error");
+    let mut complaints = Vec::new();
+    for case in all() {
+        let attempt = Attempt::new(&case, options);
+        match &attempt.outcome {
+            Outcome::Failed(error) => println!("{:6} {error}", case.id),
+            Outcome::Solved => println!(
+                "{:6} {:9} {:6} {:7}  {:8.1e}  {:10.1e}",
+                case.id,
+                attempt.intervals,
+                attempt.newton_steps,
+                attempt.rhs_evaluations,
+                attempt.estimate.unwrap_or(f64::NAN),
+                attempt.true_error,
+            ),
+        }
+        let mut known = KNOWN_INACCURACIES.iter();
+        let inaccurate = inaccuracies && known.any(|k| (k.0, k.1) == (case.id, tolerance));
+        let allowed = if inaccurate { f64::INFINITY } else { tolerance };
+        complaints.extend(complaint(&attempt, allowed));
+    }
+    complaints
 }
 
 #[test]
-fn every_case_is_solved_and_no_success_is_false() {
-    let mut complaints = Vec::new();
-    for (tolerance, scheme) in SETTINGS {
-        println!("\n{scheme:?}, tolerance {tolerance:e}");
-        println!("case   intervals  steps     rhs  estimate  true error");
-        for case in all() {
-            let id = case.id;
-            let known = KNOWN_FAILURES.iter().any(|(failure, _)| *failure == id);
-            match attempt(&case, tolerance, scheme) {
-                Ok(solution) => {
-                    let error = table_error(&case, &solution);
-                    let (stats, estimate) = (solution.stats(), solution.error_estimate());
-                    println!(
-                        "{id:6} {:9} {:6} {:7}  {:8.1e}  {error:10.1e}",
-                        intervals(&solution),
-                        stats.newton_steps,
-                        stats.rhs_evaluations,
-                        estimate.unwrap_or(f64::NAN),
-                    );
-                    if error.is_nan() || error > tolerance {
-                        complaints.push(format!(
-                            "{id} at {tolerance:e}: false, true error {error:e}"
-                        ));
-                    }
-                    if known {
-                        complaints.push(format!("{id} at {tolerance:e}: solved by now"));
-                    }
-                }
-                Err(error) => {
-                    println!("{id:6} {error}");
-                    if !known {
-                        complaints.push(format!("{id} at {tolerance:e}: {error}"));
-                    }
-                }
-            }
-        }
-    }
+fn every_case_is_solved_by_default_and_no_success_is_false() {
+    let all: Vec<String> = TOLERANCES
+        .iter()
+        .flat_map(|&tolerance| complaints(&defaults(tolerance), true))
+        .collect();
+    assert!(all.is_empty(), "{all:#?}");
+}
+
+#[test]
+fn six_stages_reach_the_finest_tolerance_everywhere() {
+    let options = Options {
+        scheme: Scheme::Gauss { stages: 6 },
+        ..defaults(1e-9)
+    };
+    let complaints = complaints(&options, false);
     assert!(complaints.is_empty(), "{complaints:#?}");
 }
 
@@ -110,7 +110,7 @@ fn a_known_failure_is_solved_from_a_consistent_guess() {
         parameters: vec![],
     };
     let solution = solve(&*case.equations, &guess, &Options::default()).unwrap();
-    assert!(table_error(&case, &solution) < 1e-6);
+    assert!(true_error(&case, &solution) < 1e-6);
 }
 
 /// The largest difference of two solutions on the mesh of the first, at the nodes and at 10 places
@@ -133,10 +133,10 @@ fn difference(solution: &Solution, fine: &Solution) -> f64 {
 
 #[test]
 fn the_error_estimate_is_near_the_true_error() {
-    for (tolerance, scheme) in [SETTINGS[0], SETTINGS[1]] {
-        println!("\n{scheme:?}, tolerance {tolerance:e}: estimate / true error");
+    for tolerance in [1e-3, 1e-6] {
+        println!("\ntolerance {tolerance:e}: estimate / true error");
         for case in all() {
-            let Ok(solution) = attempt(&case, tolerance, scheme) else {
+            let Ok(solution) = solve(&*case.equations, &case, &defaults(tolerance)) else {
                 continue;
             };
             // The solution itself is the guess: no other solution of the problem is found.
