@@ -239,7 +239,7 @@ pub use equations::Equations;
 pub use error::Error;
 pub use family::Family;
 pub use guess::{Constant, Function, Guess, Table};
-pub use options::{GlobalError, Options};
+pub use options::{Control, GlobalError, Options};
 pub use problem::{Ends, Problem, Segment};
 pub use real::Real;
 pub use scheme::Scheme;

@@ -28,6 +28,18 @@ pub struct Options {
     pub retries: usize,
     /// How the global error is estimated; default on a halved mesh.
     pub global_error: GlobalError,
+    /// What the mesh is chosen for; default the defect.
+    pub control: Control,
+}
+
+/// What the mesh is chosen for, and brought to the tolerance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Control {
+    /// The defect, and the estimated global error where it is larger, which is rare: the defect of m
+    /// stages is of order m, the error of order m + 1 and, at the nodes, 2 m.
+    Defect,
+    /// The estimated global error alone. Takes far fewer intervals, and an estimate on every mesh.
+    Error,
 }
 
 /// How the global error of a solution is estimated.
@@ -50,11 +62,28 @@ impl Default for Options {
             max_newton_steps: 60,
             retries: 2,
             global_error: GlobalError::HalvedMesh,
+            control: Control::Defect,
         }
     }
 }
 
 impl Options {
+    /// The settings that take the least time to a tolerance: the mesh is chosen for the error, and the
+    /// scheme, of Gauss, has the more stages the smaller the tolerance is.
+    ///
+    /// ```
+    /// let options = bvp::Options::to(1e-9);
+    /// assert_eq!(options.scheme.order(), 14);
+    /// ```
+    pub fn to(tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            scheme: Scheme::for_tolerance(tolerance),
+            control: Control::Error,
+            ..Self::default()
+        }
+    }
+
     /// Checks every setting.
     ///
     /// # Errors

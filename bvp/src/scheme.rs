@@ -41,6 +41,18 @@ impl Default for Scheme {
 }
 
 impl Scheme {
+    /// The scheme of Gauss that takes the least time to a tolerance, as measured over the reference
+    /// problems.
+    pub fn for_tolerance(tolerance: f64) -> Self {
+        let stages = match tolerance {
+            _ if tolerance >= 3e-5 => 4,
+            _ if tolerance >= 1e-7 => 5,
+            _ if tolerance >= 1e-8 => 6,
+            _ => 7,
+        };
+        Self::Gauss { stages }
+    }
+
     /// Number of stages m.
     pub fn stages(self) -> usize {
         match self {

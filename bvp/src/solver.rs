@@ -12,13 +12,16 @@ use crate::newton::{Failure, Newton};
 use crate::scheme::Tableau;
 use crate::solution::Quality;
 use crate::statement::{check_guess, check_statement, first_mesh};
-use crate::{Equations, Error, GlobalError, Guess, Options, Solution, Stats};
+use crate::{Control, Equations, Error, GlobalError, Guess, Options, Solution, Stats};
 use std::sync::Arc;
 use std::time::Instant;
 
 /// Newton's method stops when its corrections are this fraction of the tolerance, so that what is
 /// left of them is invisible beside the discretisation error.
 const NEWTON_FRACTION: f64 = 0.01;
+/// With a larger relative defect than this a mesh does not resolve the solution, and its error is not
+/// worth an estimate.
+const UNRESOLVED: f64 = 0.5;
 /// Meshes tried before the tolerance is declared out of reach.
 const MAX_MESHES: usize = 40;
 
@@ -95,21 +98,8 @@ impl Run<'_> {
                 return Err(numerical(failure, best, newton_tolerance));
             }
             let mut solution = self.assess(collocation, x).map_err(|error| *error)?;
-            let resolved = solution.defect() <= tolerance;
-            let finer = if !resolved {
-                let defects = &solution.quality.defects;
-                next_mesh(&solution.mesh, defects, tolerance, self.tableau.stages)
-            } else if self.options.global_error == GlobalError::Skip {
+            let Some(finer) = self.better_mesh(&mut solution) else {
                 return Ok(self.finish(solution));
-            } else {
-                let stats = &mut self.stats;
-                solution.quality.errors = global_errors(self.equations, &solution, stats);
-                let error = solution.error_estimate().unwrap_or(f64::INFINITY);
-                if error <= tolerance {
-                    return Ok(self.finish(solution));
-                }
-                let order = self.options.scheme.dense_order();
-                denser(&solution.mesh, error, tolerance, order)
             };
             let solution = self.finish(solution);
             check_mesh(&finer, self.options, &solution)?;
@@ -119,6 +109,41 @@ impl Run<'_> {
             previous = Some(solution);
             mesh = finer;
         }
+    }
+
+    /// The mesh to go on with, unless the solution is within the tolerance.
+    fn better_mesh(&mut self, solution: &mut Solution) -> Option<Mesh> {
+        let (tolerance, m) = (self.options.tolerance, self.tableau.stages);
+        let defect = solution.defect();
+        let by_defect = |solution: &Solution, wanted: f64| {
+            next_mesh(&solution.mesh, &solution.quality.defects, wanted, m)
+        };
+        let wanted = match self.options.control {
+            _ if self.options.global_error == GlobalError::Skip => tolerance,
+            Control::Defect => tolerance,
+            Control::Error => UNRESOLVED,
+        };
+        if defect > wanted || defect.is_nan() {
+            return Some(by_defect(solution, wanted));
+        }
+        if self.options.global_error == GlobalError::Skip {
+            return None;
+        }
+        solution.quality.errors = global_errors(self.equations, solution, &mut self.stats);
+        let error = solution.error_estimate().unwrap_or(f64::INFINITY);
+        if error <= tolerance {
+            return None;
+        }
+        let order = self.options.scheme.dense_order();
+        Some(match self.options.control {
+            Control::Defect => denser(&solution.mesh, error, tolerance, order),
+            Control::Error => {
+                // The defect is of order m, the error of this order: so much less of the one is as
+                // much less of the other as is wanted.
+                let less = (tolerance / error).powf(m as f64 / order as f64);
+                by_defect(solution, defect * less)
+            }
+        })
     }
 
     /// The solution with its defects and conditions, from a converged iterate; an error where a

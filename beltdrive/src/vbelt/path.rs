@@ -4,7 +4,7 @@
 use super::carried::Carried;
 use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, Guess, Scales};
 use crate::{Drive, FrictionLaw};
-use bvp::{Function, GlobalError, Options, Scheme, Solution, Stats};
+use bvp::{Control, Function, GlobalError, Options, Scheme, Solution, Stats};
 
 /// A solve with at most so many Newton steps lets the next step of a homotopy be twice as long.
 const EASY: usize = 8;
@@ -160,6 +160,7 @@ impl<'a> Path<'a> {
                 Effort::Final => GlobalError::HalvedMesh,
                 _ => GlobalError::Skip,
             },
+            control: Control::Defect,
         };
         self.problems += 1;
         let outcome = bvp::solve(&problem, guess, &options);
