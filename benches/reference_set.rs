@@ -6,8 +6,8 @@
 //! cargo bench -p benches --bench reference_set -- --scipy FILE  beside `SciPy`'s times
 //! ```
 //!
-//! Prints Markdown. Every case is solved from its stated guess on its stated mesh with the default
-//! options at three tolerances, until both 5 runs are done and 20 ms have passed. Ratios are those of
+//! Prints Markdown. Every case is solved from its stated guess on its stated mesh with
+//! `Options::to` at three tolerances, until both 5 runs are done and 20 ms have passed. Ratios are those of
 //! the fastest run, which other work on the machine disturbs least, to the other code's time. Native
 //! codes: `reference_set/native_times.csv`. `SciPy`: FILE as written by `scipy/run.sh`, a path from here
 //! or from the root of the workspace.
@@ -95,10 +95,7 @@ fn seconds(case: &Case, options: &Options) -> Vec<f64> {
 
 /// One case at one tolerance.
 fn row(case: &Case, tolerance: f64, native: &Times, scipy: Option<&Times>) -> Row {
-    let options = Options {
-        tolerance,
-        ..Options::default()
-    };
+    let options = Options::to(tolerance);
     // The first run warms the caches.
     let attempt = Attempt::new(case, &options);
     let seconds = seconds(case, &options);

@@ -155,13 +155,15 @@
 //! decaying modes with coupled ends, where row pivoting is not.
 //!
 //! **Mesh selection.** The defect S' − f(s, S, p) of the polynomials S, measured on every interval,
-//! decides where nodes are added, moved and removed.
+//! decides where nodes are added, moved and removed; the tolerance is one for the defect, or for the
+//! error alone ([`Control`]). [`Options::to`] chooses the scheme and the mesh for the least time.
 //!
 //! # What success means
 //!
 //! [`solve`] returns `Ok` only if all of these are at most [`Options::tolerance`]:
 //!
-//! * the defect of every interval relative to 1 + |f|, root mean square over the interval;
+//! * the defect of every interval relative to 1 + |f|, root mean square over the interval
+//!   ([`Control::Error`] omits it);
 //! * the residual of every condition, relative to the size of its terms where that exceeds one;
 //! * the estimated global error of every state and parameter relative to 1 + |value|, from one
 //!   Newton correction on the mesh with every interval halved ([`GlobalError::Skip`] omits it).

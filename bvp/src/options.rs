@@ -12,7 +12,7 @@ pub struct Options {
     /// The defect of the solution in the differential equations relative to 1 + |f|, the residuals
     /// of the conditions (relative to the size of their terms where that exceeds one), and, unless
     /// skipped, the estimated global error relative to 1 + |y| are all brought to at most this
-    /// number. Between 1e-13 and 1e-1; default 1e-6.
+    /// number; not the defect if the mesh is chosen for the error. Between 1e-13 and 1e-1; default 1e-6.
     pub tolerance: f64,
     /// The collocation scheme; default Gauss with 4 stages.
     pub scheme: Scheme,
@@ -38,7 +38,8 @@ pub enum Control {
     /// The defect, and the estimated global error where it is larger, which is rare: the defect of m
     /// stages is of order m, the error of order m + 1 and, at the nodes, 2 m.
     Defect,
-    /// The estimated global error alone. Takes far fewer intervals, and an estimate on every mesh.
+    /// The estimated global error alone. Takes far fewer intervals, and an estimate on every mesh; without
+    /// estimates, as [`Control::Defect`].
     Error,
 }
 

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use std::f64::consts::PI;
 
 /// The true counterpart of [`Solution::error_estimate`], at 40 places per interval.
-fn true_error(problem: &Exact, solution: &Solution) -> f64 {
+pub(crate) fn true_error(problem: &Exact, solution: &Solution) -> f64 {
     let relative = |exact: f64, found: f64| (exact - found).abs() / (1.0 + exact.abs());
     let parameters = problem.parameters.iter().zip(solution.parameters());
     let mut largest = parameters.fold(0.0f64, |m, (a, b)| m.max(relative(*a, *b)));

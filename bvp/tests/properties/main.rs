@@ -1,5 +1,6 @@
 //! What the solver promises, one property per file.
 
+mod control;
 mod end_to_end;
 mod exact;
 mod failures;
