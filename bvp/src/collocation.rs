@@ -14,9 +14,9 @@
 
 use crate::almost_block_diagonal::{AlmostBlockDiagonal, Singular};
 use crate::condensation::Condensation;
-use crate::dense::{SingularRow, all_finite};
+use crate::dense::{SingularRow, add_scaled, all_finite};
 use crate::held::Held;
-use crate::iterate::{Interval, Iterate, NonFinite, Residual};
+use crate::iterate::{Interval, Iterate, NonFinite, Residual, SegmentIterate};
 use crate::mesh::Mesh;
 use crate::scheme::Tableau;
 use crate::{Ends, Equations, Guess, Segment, Stats};
@@ -101,6 +101,37 @@ impl<'a> Collocation<'a> {
         let k = self.equations.parameters();
         let segments = self.equations.segments();
         Iterate::interpolate(segments, &self.mesh, &self.tableau, k, guess)
+    }
+
+    /// One step of Picard's iteration from a guess: its slopes are replaced by f along it and integrated
+    /// from the beginning of every segment. A guess that is no solution at all, such as a constant,
+    /// becomes one with consistent slopes.
+    pub(crate) fn swept(
+        &mut self,
+        guess: &dyn Guess,
+        stats: &mut Stats,
+    ) -> Result<Iterate, NonFinite> {
+        let x = self.interpolate(guess);
+        let mut swept = x.clone();
+        let mut residual = self.residual_buffer();
+        self.residual(&x, &mut residual, stats)?;
+        let (t, m) = (&*self.tableau, self.tableau.stages);
+        for (index, segment) in self.equations.segments().iter().enumerate() {
+            let n = segment.states;
+            let SegmentIterate { nodes, stages } = &mut swept.segments[index];
+            // The residual of a stage is what its slope is over f.
+            for (stage, over) in stages.iter_mut().zip(&residual.equations[index].stages) {
+                *stage -= over;
+            }
+            for (i, pair) in self.mesh[index].windows(2).enumerate() {
+                let (before, after) = nodes.split_at_mut((i + 1) * n);
+                after[..n].copy_from_slice(&before[i * n..]);
+                for (slope, weight) in stages[i * m * n..][..m * n].chunks_exact(n).zip(&t.b) {
+                    add_scaled(&mut after[..n], weight * (pair[1] - pair[0]), slope);
+                }
+            }
+        }
+        Ok(swept)
     }
 
     /// Evaluates the residual of `x`.

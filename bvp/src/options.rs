@@ -24,7 +24,8 @@ pub struct Options {
     /// Largest number of Newton steps on one mesh; default 60.
     pub max_newton_steps: usize,
     /// How often, after a failure of Newton's method, the mesh is halved and the guess taken again;
-    /// default 2. Callers that have a better answer to a failure set 0.
+    /// default 2. Before that the guess is tried with its slopes replaced by f along it and integrated,
+    /// one step of Picard's iteration. Callers that have a better answer to a failure set 0.
     pub retries: usize,
     /// How the global error is estimated; default on a halved mesh.
     pub global_error: GlobalError,

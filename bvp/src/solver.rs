@@ -79,13 +79,20 @@ impl Run<'_> {
             self.stats.meshes += 1;
             let mut newton = Newton::new(&collocation);
             let newton_tolerance = (NEWTON_FRACTION * tolerance).max(100.0 * f64::EPSILON);
-            let outcome = newton.iterate(
-                &mut collocation,
-                &mut x,
-                newton_tolerance,
-                self.options.max_newton_steps,
-                &mut self.stats,
-            );
+            let mut iterate =
+                |x: &mut Iterate, collocation: &mut Collocation<'_>, stats: &mut Stats| {
+                    let steps = self.options.max_newton_steps;
+                    newton.iterate(collocation, x, newton_tolerance, steps, stats)
+                };
+            let mut outcome = iterate(&mut x, &mut collocation, &mut self.stats);
+            if outcome.is_err()
+                && self.options.retries > 0
+                && previous.is_none()
+                && let Ok(swept) = collocation.swept(guess, &mut self.stats)
+            {
+                x = swept;
+                outcome = iterate(&mut x, &mut collocation, &mut self.stats);
+            }
             if let Err(failure) = outcome {
                 let finer = halved(&collocation.mesh);
                 if retries < self.options.retries && intervals(&finer) <= limit {
