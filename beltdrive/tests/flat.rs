@@ -117,6 +117,19 @@ fn the_largest_load_is_the_capstan_limit_of_the_pulley_with_less_wrap() {
 }
 
 #[test]
+fn the_limits_of_a_load_are_found_from_no_load() {
+    let loaded = plain(FrictionLaw::Epp { stiffness: 1e8 }, NormalForce::Inertia);
+    let mut idle = loaded.clone();
+    let load = Key::load(&loaded);
+    load.set(&mut idle, 0.0);
+    let [of_loaded, of_idle] = [&loaded, &idle]
+        .map(|drive| limits(drive, &load, &SolveOptions::default(), &mut |_, _| {}).unwrap());
+    assert_eq!(of_idle.smallest.reason, RangeEnd::NoLoad);
+    let share = of_idle.largest.value / of_loaded.largest.value;
+    assert!((share - 1.0).abs() < 1e-13, "{share}");
+}
+
+#[test]
 fn a_belt_that_is_too_slack_for_its_speed_lifts_off() {
     let mut drive = plain(FrictionLaw::Coulomb, NormalForce::Inertia);
     drive.load.slack = SpanTension::Belt(0.25 * 15.0 * 15.0 * 0.99);

@@ -163,14 +163,28 @@ impl<'d> Members<'d> {
         }
     }
 
+    /// A driven torque that changes the tension of a span by a thousandth, N·m.
+    fn small_torque(&self) -> f64 {
+        let spans = [self.drive.load.slack, self.drive.load.tight];
+        let tensions = spans.map(|span| match span {
+            SpanTension::DrivenTorque(_) => 0.0,
+            tension => tension.value(),
+        });
+        1e-3 * tensions[0].max(tensions[1]) * self.drive.driven_radius
+    }
+
     /// Whether the entry is a tractive tension.
     fn is_tractive(&self) -> bool {
         self.key.path().contains("tractive")
     }
 
-    /// A value between the ends of the range: that of the drive, or one that is easier to carry.
+    /// A value between the ends of the range: that of the drive, or one that is easier to carry. Steps
+    /// of equal ratios do not lead away from no torque: a small one takes its place.
     pub(super) fn carried(&self) -> Result<f64, Refusal> {
-        let value = self.key.get(self.drive);
+        let value = match self.key.get(self.drive) {
+            0.0 => self.small_torque(),
+            value => value,
+        };
         let refusal = match self.at(value) {
             Ok(_) => return Ok(value),
             Err(refusal) => refusal,
