@@ -2,8 +2,9 @@
 
 use beltdrive::input::Key;
 use beltdrive::{
-    Belt, BeltKind, Check, Drive, FrictionLaw, LimitReason, Load, NormalForce, Pulley, PulleyState,
-    RangeEnd, SolveError, SolveOptions, SpanTension, SteadyState, ZoneKind, limits, solve,
+    Belt, BeltKind, BranchEnd, Check, Drive, FrictionLaw, LimitReason, Load, NormalForce, Pulley,
+    PulleyState, RangeEnd, SolveError, SolveOptions, SpanTension, SteadyState, ZoneKind,
+    limit_curve, limits, solve,
 };
 use proptest::prelude::*;
 
@@ -147,6 +148,36 @@ fn a_belt_that_is_too_slack_for_its_speed_lifts_off() {
         RangeEnd::Limit(LimitReason::Capstan(_))
     ));
     assert!(found.largest.state.slack_tractive_tension > 0.0);
+}
+
+#[test]
+fn a_chart_over_the_speed_ends_where_the_belt_lifts_off() {
+    let drive = plain(FrictionLaw::Coulomb, NormalForce::Inertia);
+    let load = Key::load(&drive);
+    let mut keys = Key::all(&drive);
+    let speed = keys
+        .find(|key| key.path() == "pulleys.driver.speed")
+        .unwrap();
+    let options = SolveOptions::default();
+    let chart = limit_curve(
+        &drive,
+        &load,
+        &speed,
+        [10.0, 1000.0],
+        &options,
+        &mut |_, _| {},
+    );
+    let chart = chart.unwrap();
+    assert_eq!(chart.end, BranchEnd::LiftsOff);
+    // G V = T at sqrt(T/m)/R, but for the stretch of 0.2 %.
+    let last = chart.points.last().unwrap().second;
+    assert!((280.0..347.0).contains(&last), "{last}");
+    assert!(
+        chart
+            .points
+            .windows(2)
+            .all(|pair| pair[1].value < pair[0].value)
+    );
 }
 
 #[test]

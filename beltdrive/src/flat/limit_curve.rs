@@ -1,5 +1,6 @@
 //! The limit of one entry of a flat-belt drive over a second one.
 
+use super::closed_form::Refusal;
 use super::limits::{LargestLoad, largest_load};
 use super::range::Members;
 use super::trace::samples;
@@ -33,8 +34,7 @@ pub(crate) fn limit_curve(
     let mut end = BranchEnd::Target;
     for value in samples(range, INTERVALS) {
         let Some(point) = curve.point(value) else {
-            let cause = curve.unlimited(value).to_string();
-            end = BranchEnd::NotConverged { cause };
+            end = curve.end(value);
             break;
         };
         let last = points
@@ -108,6 +108,17 @@ impl Curve<'_> {
             .into_iter()
             .filter_map(|second| self.point(second))
             .collect()
+    }
+
+    /// Why the curve ends before a value of the second entry at which there is no limit.
+    fn end(&self, second: f64) -> BranchEnd {
+        let drive = self.drive_at(second);
+        match Members::new(&drive, &self.key).carried() {
+            Err(Refusal::LiftsOff { .. }) => BranchEnd::LiftsOff,
+            _ => BranchEnd::NotConverged {
+                cause: self.unlimited(second).to_string(),
+            },
+        }
     }
 
     fn unlimited(&self, second: f64) -> SolveError {
