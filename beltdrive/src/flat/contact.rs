@@ -170,10 +170,9 @@ impl Contact {
             } => {
                 let x = share * length;
                 let (ends, begin) = ([start.displacement, end], start.displacement);
-                let [displacement, slope] = elastic(rate, length, ends, x);
-                let [_, first_slope] = elastic(rate, length, ends, 0.0);
+                let [displacement, _] = elastic(rate, length, ends, x);
                 let stiff = sense * belt.stiffness;
-                let traction = start.traction + stiff * (slope - first_slope);
+                let traction = start.traction + stiff * elastic_gain(rate, length, ends, x);
                 let stretched = belt.stretch(self.reference()) * x
                     + belt.stretch_slope() * stiff * (displacement - begin);
                 Place {
@@ -283,6 +282,20 @@ pub(super) fn elastic(rate: f64, length: f64, [first, last]: [f64; 2], x: f64) -
     ]
 }
 
+/// The gain of the slope from 0 to x of the same function, without cancellation where w l is small:
+///
+/// ```text
+/// b′(x) − b′(0) = 2 w sinh(w x/2) [b₁ sinh(w x/2) + b₀ sinh(w l − w x/2)]/sinh w l
+/// ```
+fn elastic_gain(rate: f64, length: f64, [first, last]: [f64; 2], x: f64) -> f64 {
+    // sinh(p) exp(−p)
+    let scaled = |p: f64| -0.5 * (-2.0 * p).exp_m1();
+    let (whole, half) = (rate * length, 0.5 * rate * x);
+    let near = last * scaled(half) * (2.0 * half - whole).exp();
+    let far = first * scaled(whole - half);
+    2.0 * rate * scaled(half) * (near + far) / scaled(whole)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -295,6 +308,14 @@ mod tests {
             let [end, _] = elastic(rate, 2.0, ends, 2.0);
             assert!((start - 0.2).abs() < 1e-9 && (end - 0.7).abs() < 1e-9);
         }
+        for ends in [[0.0, 0.7], [0.3, 0.7]] {
+            let [_, first] = elastic(3.0, 2.0, ends, 0.0);
+            let [_, slope] = elastic(3.0, 2.0, ends, 1.3);
+            assert!((elastic_gain(3.0, 2.0, ends, 1.3) - (slope - first)).abs() < 1e-14);
+        }
+        // Of a straight line that bends by w² x |u|/2, nothing is lost.
+        let gain = elastic_gain(1e-6, 1.0, [0.0, 1.0], 1.0);
+        assert!((gain / 0.5e-12 - 1.0).abs() < 1e-10, "{gain:e}");
         let [value, slope] = elastic(3.0, 2.0, [0.0, 1.0], 1.0);
         assert!((value - 3_f64.sinh() / 6_f64.sinh()).abs() < 1e-15);
         assert!((slope - 3.0 * 3_f64.cosh() / 6_f64.sinh()).abs() < 1e-14);
