@@ -151,6 +151,28 @@ fn a_belt_that_is_too_slack_for_its_speed_lifts_off() {
 }
 
 #[test]
+fn no_speed_is_too_high_for_an_answer() {
+    let options = SolveOptions::default();
+    for law in [FrictionLaw::Coulomb, FrictionLaw::Epp { stiffness: 1e8 }] {
+        for exponent in 0..200 {
+            let mut drive = plain(law, NormalForce::Inertia);
+            drive.load.slack = SpanTension::Tractive(300.0);
+            drive.load.tight = SpanTension::Tractive(700.0);
+            drive.driver_speed = 10_f64.powi(exponent);
+            match solve(&drive, &options) {
+                // A tractive tension holds whatever the belt stretches to.
+                Ok(state) => assert!(state.driven.angular_speed > 0.0, "1e{exponent}"),
+                // Squares of larger speeds overflow, and the message with them.
+                Err(error) => {
+                    let is_clear = !error.to_string().contains("NaN");
+                    assert!(is_clear || exponent > 150, "1e{exponent}: {error}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
 fn a_chart_over_the_speed_ends_where_the_belt_lifts_off() {
     let drive = plain(FrictionLaw::Coulomb, NormalForce::Inertia);
     let load = Key::load(&drive);

@@ -165,19 +165,17 @@ impl<'d> Statement<'d> {
         }
     }
 
-    /// Speed c of the belt if the driver took it along without slip, m/s.
+    /// Speed c of the belt if the driver took it along without slip, m/s: c (1 + T/EA) = R₂ ω₂ at the
+    /// tension of the tight span. Not below the critical speed if there is none below it.
     fn unslipped_speed(&self, rim: f64) -> f64 {
-        let axial = self.drive.belt.axial_stiffness;
-        let mut speed = rim;
-        for _ in 0..MAX_STEPS {
+        let belt = self.drive.belt;
+        let critical = (belt.axial_stiffness / belt.mass_per_length).sqrt();
+        let excess = |speed: f64| {
             let [_, tight] = self.at(speed).tension;
-            let next = rim / (1.0 + tight / axial);
-            if next == speed {
-                break;
-            }
-            speed = next;
-        }
-        speed
+            speed * (1.0 + tight / belt.axial_stiffness) / rim - 1.0
+        };
+        let fastest = rim.min(critical * (1.0 - 1e-9));
+        bracketed(excess, [0.0, fastest], [-1.0, excess(fastest)]).unwrap_or(rim)
     }
 
     /// The belt and its load at a speed c.
@@ -253,10 +251,13 @@ impl<'d> Statement<'d> {
     fn check(&self, loaded: &Loaded) -> Result<(), Refusal> {
         let [driven, driver] = &loaded.arc;
         let tension = loaded.tension;
-        if driven.change < 0.0 && driven.belt.stiffness > 0.0 {
+        let is_subcritical = driven.belt.stiffness > 0.0;
+        if driven.change < 0.0 && is_subcritical {
             return Err(Refusal::Backwards { tension });
         }
-        if driven.low <= 0.0 || driven.belt.stiffness <= 0.0 {
+        // Overflow is no pressure.
+        let presses = driven.low > 0.0 && driven.change.is_finite() && is_subcritical;
+        if !presses {
             let belt = self.drive.belt;
             let [tension, _] = tension;
             let speed = loaded.speed * (1.0 + tension / belt.axial_stiffness);
