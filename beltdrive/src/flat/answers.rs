@@ -44,7 +44,11 @@ impl ClosedForm {
 
     /// The zones of a pulley, in the order in which the belt passes them.
     pub fn zones(&self, pulley: Pulley) -> Vec<Zone> {
-        let index = index(pulley);
+        self.zones_on(index(pulley))
+    }
+
+    /// As [`ClosedForm::zones`].
+    pub(super) fn zones_on(&self, index: usize) -> Vec<Zone> {
         let radius = self.radius(index);
         let zones = self.contact[index].zones.iter();
         zones

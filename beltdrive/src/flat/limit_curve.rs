@@ -2,7 +2,7 @@
 
 use super::closed_form::Refusal;
 use super::limits::{LargestLoad, largest_load};
-use super::range::Members;
+use super::range::{Members, boundary};
 use super::trace::samples;
 use crate::input::Key;
 use crate::{
@@ -12,8 +12,6 @@ use std::time::Instant;
 
 /// Intervals between the points of a curve.
 const INTERVALS: usize = 40;
-/// Bisections that locate a change of the kind of limit.
-const BISECTIONS: usize = 50;
 
 /// The largest value of `key` over the values of `second` from `range[0]` to `range[1]`.
 pub(crate) fn limit_curve(
@@ -95,15 +93,10 @@ impl Curve<'_> {
     }
 
     /// The limits on both sides of a change of their kind.
-    fn change(&self, mut before: f64, mut after: f64) -> Vec<LimitCurvePoint> {
-        let kind = self.limit(before).map(|limit| limit.reason);
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (before + after);
-            match self.limit(middle).map(|limit| limit.reason) == kind {
-                true => before = middle,
-                false => after = middle,
-            }
-        }
+    fn change(&self, before: f64, after: f64) -> Vec<LimitCurvePoint> {
+        let kind = |second: f64| self.limit(second).map(|limit| limit.reason);
+        let first = kind(before);
+        let (before, after) = boundary(before, after, |second| kind(second) == first);
         [before, after]
             .into_iter()
             .filter_map(|second| self.point(second))

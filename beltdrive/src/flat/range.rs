@@ -78,22 +78,10 @@ impl<'d> Members<'d> {
     }
 
     /// The end of the range between a value that the drive carries and one that it does not.
-    pub(super) fn end_between(&self, mut inside: f64, mut outside: f64) -> Option<End> {
-        let mut refusal = self.at(outside).err()?;
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (inside + outside);
-            if middle == inside || middle == outside {
-                break;
-            }
-            match self.at(middle) {
-                Ok(_) => inside = middle,
-                Err(found) => (outside, refusal) = (middle, found),
-            }
-        }
-        Some(End {
-            value: inside,
-            refusal,
-        })
+    pub(super) fn end_between(&self, inside: f64, outside: f64) -> Option<End> {
+        let (value, beyond) = boundary(inside, outside, |value| self.at(value).is_ok());
+        let refusal = self.at(beyond).err()?;
+        Some(End { value, refusal })
     }
 
     /// The end of the range from a value that the drive carries upwards or downwards, but not beyond a
@@ -204,4 +192,24 @@ impl<'d> Members<'d> {
         let mut easier = ladder(1.0 / STEP, low).chain(ladder(STEP, high));
         easier.find(|&value| self.at(value).is_ok()).ok_or(refusal)
     }
+}
+
+/// Neighbouring doubles between which something that holds at the first of two values and not at the
+/// second ceases to hold, by bisection.
+pub(super) fn boundary(
+    mut inside: f64,
+    mut outside: f64,
+    holds: impl Fn(f64) -> bool,
+) -> (f64, f64) {
+    for _ in 0..BISECTIONS {
+        let middle = 0.5 * (inside + outside);
+        if middle == inside || middle == outside {
+            break;
+        }
+        match holds(middle) {
+            true => inside = middle,
+            false => outside = middle,
+        }
+    }
+    (inside, outside)
 }

@@ -5,7 +5,7 @@ use super::contact::{Contact, Place};
 use super::{DRIVEN, DRIVER, epp};
 use crate::{
     BeltKind, Check, Convergence, Drive, Entry, FrictionLaw, NormalForce, Profile, PulleyState,
-    SteadyState, Warning, Zone,
+    SteadyState, Warning,
 };
 use std::f64::consts::FRAC_PI_2;
 use std::time::Instant;
@@ -97,11 +97,6 @@ fn pulley_state(drive: &Drive, solved: &ClosedForm, pulley: usize) -> PulleyStat
     let contact = &solved.contact[pulley];
     let arc = contact.arc;
     let radius = [drive.driven_radius, drive.driver_radius][pulley];
-    let zones = contact.zones.iter().map(|zone| Zone {
-        kind: zone.friction.kind(),
-        from: zone.start.arc_length / radius,
-        to: zone.end / radius,
-    });
     PulleyState {
         angular_speed: match pulley {
             DRIVER => drive.driver_speed,
@@ -111,7 +106,7 @@ fn pulley_state(drive: &Drive, solved: &ClosedForm, pulley: usize) -> PulleyStat
         wrap_angle: solved.geometry.wrap[pulley],
         max_penetration: 0.0,
         inclination: [0.0; 2],
-        zones: zones.collect(),
+        zones: solved.zones_on(pulley),
         entry: Some(Entry {
             reference_tension: arc.belt.tension(contact.reference()),
             // No strain has no sign.

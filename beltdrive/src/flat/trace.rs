@@ -4,7 +4,7 @@
 //! sampled; where the friction zones change between two samples, the place is found by bisection.
 
 use super::closed_form::Refusal;
-use super::range::{End, Members};
+use super::range::{End, Members, boundary};
 use super::solve::refused;
 use crate::input::Key;
 use crate::{
@@ -23,8 +23,6 @@ const DEPTH: usize = 8;
 const BEND: f64 = 2e-3;
 /// Zones that change within this share of the range from its start are not told apart from it.
 const EDGE: f64 = 1e-9;
-/// Bisections after which two doubles of one sign are neighbours.
-const BISECTIONS: usize = 80;
 
 /// The branch of steady states over an entry from `range[0]` to `range[1]`.
 pub(crate) fn trace(
@@ -214,7 +212,8 @@ impl Trace<'_> {
         while let Some(zones) = self.zones(here)
             && zones != last
         {
-            let (before, after) = self.change(&zones, here, to);
+            let same = |value: f64| self.zones(value).as_ref() == Some(&zones);
+            let (before, after) = boundary(here, to, same);
             // Beyond the rounding errors of the place.
             let beyond = after + (end - start).signum() * edge.min((to - after).abs());
             let Some(next) = self.zones(beyond) else {
@@ -230,21 +229,6 @@ impl Trace<'_> {
             }
             here = beyond;
         }
-    }
-
-    /// Neighbouring values between which zones are no longer those at the first.
-    fn change(&self, zones: &Zones, mut before: f64, mut after: f64) -> (f64, f64) {
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (before + after);
-            if middle == before || middle == after {
-                break;
-            }
-            match self.zones(middle).as_ref() == Some(zones) {
-                true => before = middle,
-                false => after = middle,
-            }
-        }
-        (before, after)
     }
 
     fn zones(&self, value: f64) -> Option<Zones> {
