@@ -239,7 +239,7 @@ fn family<'a>(
         parameters: vec![parameter],
     };
     let options = bvp::Options {
-        scheme: Scheme::Gauss { stages: STAGES },
+        scheme: Some(Scheme::Gauss { stages: STAGES }),
         initial_intervals: intervals,
         global_error: GlobalError::Skip,
         ..bvp::Options::default()

@@ -20,7 +20,7 @@ fn to(tolerance: f64) -> Options {
     let stages = if tolerance < 1e-9 { 6 } else { 4 };
     Options {
         tolerance,
-        scheme: Scheme::Gauss { stages },
+        scheme: Some(Scheme::Gauss { stages }),
         ..Options::default()
     }
 }

@@ -57,8 +57,7 @@ fn thick_layers_are_solved() {
 }
 
 #[test]
-#[ignore = "at 1e-3 and ε ≤ 0.002 a solution is returned whose slope is any number"]
-fn thin_layers_are_refused_or_solved() {
+fn thin_layers_are_solved_or_refused_as_ill_conditioned() {
     let mut complaints = Vec::new();
     for eps in [2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 1e-4, 1e-6] {
         for tolerance in TOLERANCES {
@@ -71,7 +70,13 @@ fn thin_layers_are_refused_or_solved() {
                     }
                     text
                 }
-                Err(error) => error.to_string(),
+                Err(error) => {
+                    let text = error.to_string();
+                    if !matches!(error, Error::IllConditioned { .. }) {
+                        complaints.push(format!("{eps:e} at {tolerance:e}: {text}"));
+                    }
+                    text
+                }
             };
             println!("{eps:e} at {tolerance:e}: {text}");
         }

@@ -88,7 +88,7 @@ fn every_case_is_solved_by_default_and_no_success_is_false() {
 #[test]
 fn six_stages_reach_the_finest_tolerance_everywhere() {
     let options = Options {
-        scheme: Scheme::Gauss { stages: 6 },
+        scheme: Some(Scheme::Gauss { stages: 6 }),
         ..defaults(1e-9)
     };
     let complaints = complaints(&options, false);
@@ -145,7 +145,7 @@ fn the_error_estimate_is_near_the_true_error() {
             // The solution itself is the guess: no other solution of the problem is found.
             let options = Options {
                 tolerance: 1e-3 * tolerance,
-                scheme: Scheme::Gauss { stages: 7 },
+                scheme: Some(Scheme::Gauss { stages: 7 }),
                 ..Options::default()
             };
             let fine = solve(&*case.equations, &solution, &options)

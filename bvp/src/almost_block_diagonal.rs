@@ -33,6 +33,7 @@ use crate::dense::{add_scaled, dot};
 use crate::end_system::EndSystem;
 use crate::iterate::Iterate;
 use crate::reflections::{Blocks, MANY, eliminate};
+use crate::specialise::specialise;
 
 /// Where the Newton matrix is singular to working precision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -93,7 +94,13 @@ impl Chain {
 
     /// Eliminates all interior nodes; fails with the node whose R is singular.
     fn eliminate(&mut self) -> Result<(), usize> {
-        let (n, k) = (self.n, self.k);
+        let n = self.n;
+        let k = self.k;
+        specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(k in [0] => self.eliminate_nodes(n, k)))
+    }
+
+    #[inline(always)]
+    fn eliminate_nodes(&mut self, n: usize, k: usize) -> Result<(), usize> {
         let width = 3 * n + k;
         let link_size = n * (n + k);
         // The first link: −Γ₀ δy₀ + δy₁ − P₀ δp = g₀.
@@ -161,6 +168,11 @@ impl Chain {
     /// `link`.
     fn forward(&mut self, nodes: &mut [f64], link: &mut [f64]) {
         let n = self.n;
+        specialise!(n in [1, 2, 3, 4, 5, 6] => self.forward_nodes(n, nodes, link));
+    }
+
+    #[inline(always)]
+    fn forward_nodes(&mut self, n: usize, nodes: &mut [f64], link: &mut [f64]) {
         link.copy_from_slice(&nodes[n..2 * n]);
         let factors = self
             .panels
@@ -195,9 +207,28 @@ impl Chain {
         diagonals.filter(|entry| **entry < 0.0).count()
     }
 
+    /// The smallest entry on the diagonals of all R relative to the norm of its column.
+    fn smallest_pivot(&self) -> f64 {
+        let n = self.n;
+        let relative = |r: &[f64], j: usize| {
+            let square: f64 = (0..=j).map(|i| r[i * n + j] * r[i * n + j]).sum();
+            r[j * n + j].abs() / square.sqrt()
+        };
+        let panels = self.panels.chunks_exact(2 * n * n);
+        panels
+            .flat_map(|r| (0..n).map(move |j| relative(r, j)))
+            .fold(f64::INFINITY, f64::min)
+    }
+
     /// Finds the interior nodes from both ends (already in their slots) and the parameters.
     fn backward(&self, nodes: &mut [f64], p: &[f64]) {
-        let (n, k) = (self.n, self.k);
+        let n = self.n;
+        let k = self.k;
+        specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(k in [0] => self.backward_nodes(n, k, nodes, p)));
+    }
+
+    #[inline(always)]
+    fn backward_nodes(&self, n: usize, k: usize, nodes: &mut [f64], p: &[f64]) {
         let factors = self
             .panels
             .chunks_exact(2 * n * n)
@@ -292,6 +323,13 @@ impl AlmostBlockDiagonal {
         self.unknowns[row..row + conditions.len()].copy_from_slice(conditions);
         self.ends.solve(&mut self.unknowns);
         self.backward(x);
+    }
+
+    /// The smallest pivot of the last factorisation relative to the largest entry, or the norm, of its
+    /// column before: a matrix without small ones is well conditioned, at least node by node.
+    pub(crate) fn smallest_pivot(&self) -> f64 {
+        let chains = self.chains.iter().map(Chain::smallest_pivot);
+        chains.fold(self.ends.smallest_pivot(), f64::min)
     }
 
     /// The null vector t of a matrix J with one condition fewer, in the nodes and the parameters of

@@ -13,12 +13,14 @@
 //! Russell (1995), sections 5.6 and 7.2.
 
 use crate::almost_block_diagonal::{AlmostBlockDiagonal, Singular};
+use crate::chains::Watch;
 use crate::condensation::Condensation;
 use crate::dense::{SingularRow, add_scaled, all_finite};
 use crate::held::Held;
 use crate::iterate::{Interval, Iterate, NonFinite, Residual, SegmentIterate};
 use crate::mesh::Mesh;
 use crate::scheme::Tableau;
+use crate::specialise::specialise;
 use crate::{Ends, Equations, Guess, Segment, Stats};
 use std::sync::Arc;
 
@@ -42,9 +44,11 @@ pub(crate) struct Collocation<'a> {
     pub(crate) tableau: Arc<Tableau>,
     pub(crate) mesh: Mesh,
     matrix: AlmostBlockDiagonal,
-    stages: Vec<Condensation>,
+    pub(crate) stages: Vec<Condensation>,
+    /// What the last Jacobians have shown of every segment.
+    watches: Vec<Watch>,
     /// Jacobian of the conditions, a row each with Σ 2n + k columns.
-    conditions_jacobian: Vec<f64>,
+    pub(crate) conditions_jacobian: Vec<f64>,
     /// States at all ends, in the order of [`Ends`].
     ends: Vec<f64>,
     /// One state, one right-hand side, and conditions with the sign turned.
@@ -70,6 +74,7 @@ impl<'a> Collocation<'a> {
             stages: sizes()
                 .map(|(n, intervals)| Condensation::new(n, k, tableau.stages, intervals))
                 .collect(),
+            watches: segments.iter().map(|s| Watch::new(s.states)).collect(),
             mesh,
             conditions_jacobian: vec![0.0; conditions * (2 * states + k)],
             ends: vec![0.0; 2 * states],
@@ -141,29 +146,46 @@ impl<'a> Collocation<'a> {
         residual: &mut Residual,
         stats: &mut Stats,
     ) -> Result<(), NonFinite> {
-        let t = &*self.tableau;
-        for (index, segment) in self.equations.segments().iter().enumerate() {
-            let n = segment.states;
-            let (y, f) = (&mut self.y[..n], &mut self.f[..n]);
-            for (i, pair) in self.mesh[index].windows(2).enumerate() {
-                let interval = Interval::new(&x.segments[index], n, t, i, pair);
-                let r = interval.stages_of(&mut residual.equations[index]);
-                for (j, r) in r.chunks_exact_mut(n).enumerate() {
-                    let s = interval.stage_state(t, j, y);
-                    f.fill(f64::NAN);
-                    self.equations.rhs(index, s, y, &x.p, f);
-                    stats.rhs_evaluations += 1;
-                    interval.stage_residual(j, f, r, index, s)?;
-                }
-                interval.continuity(t, &mut residual.equations[index]);
-            }
+        for index in 0..self.mesh.len() {
+            let n = self.equations.segments()[index].states;
+            specialise!(n in [1, 2, 3, 4, 5, 6] => self.segment_residual(index, n, x, residual))?;
+            stats.rhs_evaluations += (self.mesh[index].len() - 1) * self.tableau.stages;
         }
+        self.conditions(x, &mut residual.conditions)
+    }
+
+    /// The residuals of a segment of n states.
+    #[inline(always)]
+    fn segment_residual(
+        &mut self,
+        index: usize,
+        n: usize,
+        x: &Iterate,
+        residual: &mut Residual,
+    ) -> Result<(), NonFinite> {
+        let t = &*self.tableau;
+        let (y, f) = (&mut self.y[..n], &mut self.f[..n]);
+        for (i, pair) in self.mesh[index].windows(2).enumerate() {
+            let interval = Interval::new(&x.segments[index], n, t, i, pair);
+            let r = interval.stages_of(&mut residual.equations[index]);
+            for (j, r) in r.chunks_exact_mut(n).enumerate() {
+                let s = interval.stage_state(t, j, y);
+                f.fill(f64::NAN);
+                self.equations.rhs(index, s, y, &x.p, f);
+                interval.stage_residual(j, f, r, index, s)?;
+            }
+            interval.continuity(t, &mut residual.equations[index]);
+        }
+        Ok(())
+    }
+
+    /// Evaluates the residuals of the conditions.
+    pub(crate) fn conditions(&mut self, x: &Iterate, r: &mut [f64]) -> Result<(), NonFinite> {
         gather_ends(self.equations.segments(), x, &mut self.ends);
-        residual.conditions.fill(f64::NAN);
+        r.fill(f64::NAN);
         let at = Ends::new(self.equations.segments(), &self.ends);
-        self.equations
-            .conditions(at, &x.p, &mut residual.conditions);
-        finite_conditions(&residual.conditions, 1)
+        self.equations.conditions(at, &x.p, r);
+        finite_conditions(r, 1)
     }
 
     /// Evaluates the residual of `x` together with all Jacobians and factors the Newton matrix.
@@ -173,38 +195,18 @@ impl<'a> Collocation<'a> {
         residual: &mut Residual,
         stats: &mut Stats,
     ) -> Result<(), LinearisationError> {
-        let t = &*self.tableau;
-        for (index, segment) in self.equations.segments().iter().enumerate() {
-            let n = segment.states;
-            let columns = n + x.p.len();
-            let (y, f) = (&mut self.y[..n], &mut self.f[..n]);
+        for index in 0..self.mesh.len() {
+            let n = self.equations.segments()[index].states;
+            specialise!(n in [1, 2, 3, 4, 5, 6] => self.segment_jacobians(index, n, x, residual))?;
+            let evaluations = (self.mesh[index].len() - 1) * self.tableau.stages;
+            stats.rhs_evaluations += evaluations;
+            stats.jacobian_evaluations += evaluations;
             let stages = &mut self.stages[index];
+            stages.chain(&self.watches[index]);
             let chain = self.matrix.chain_mut(index);
             for (i, pair) in self.mesh[index].windows(2).enumerate() {
-                let interval = Interval::new(&x.segments[index], n, t, i, pair);
-                let r = interval.stages_of(&mut residual.equations[index]);
-                let jacobians = stages.jacobians_mut(i).chunks_exact_mut(n * columns);
-                for (j, (r, jacobian)) in r.chunks_exact_mut(n).zip(jacobians).enumerate() {
-                    let s = interval.stage_state(t, j, y);
-                    f.fill(f64::NAN);
-                    jacobian.fill(f64::NAN);
-                    self.equations.rhs_jacobian(index, s, y, &x.p, f, jacobian);
-                    stats.rhs_evaluations += 1;
-                    stats.jacobian_evaluations += 1;
-                    interval.stage_residual(j, f, r, index, s)?;
-                    if let Some(component) = non_finite_row(jacobian, columns) {
-                        let segment = index;
-                        return Err(NonFinite::Rhs {
-                            segment,
-                            s,
-                            component,
-                        }
-                        .into());
-                    }
-                }
-                interval.continuity(t, &mut residual.equations[index]);
                 stages
-                    .condense(i, t, interval.h, chain.link_mut(i))
+                    .condense(i, &self.tableau, pair[1] - pair[0], chain.link_mut(i))
                     .map_err(|SingularRow(_)| {
                         let (segment, node) = (index, i);
                         LinearisationError::Singular(Singular::Node { segment, node })
@@ -228,6 +230,46 @@ impl<'a> Collocation<'a> {
             .map_err(LinearisationError::Singular)
     }
 
+    /// The residuals of a segment of n states, and the Jacobians.
+    #[inline(always)]
+    fn segment_jacobians(
+        &mut self,
+        index: usize,
+        n: usize,
+        x: &Iterate,
+        residual: &mut Residual,
+    ) -> Result<(), NonFinite> {
+        let t = &*self.tableau;
+        let columns = n + x.p.len();
+        let (y, f) = (&mut self.y[..n], &mut self.f[..n]);
+        let stages = &mut self.stages[index];
+        let watch = &mut self.watches[index];
+        watch.restart();
+        for (i, pair) in self.mesh[index].windows(2).enumerate() {
+            let interval = Interval::new(&x.segments[index], n, t, i, pair);
+            let r = interval.stages_of(&mut residual.equations[index]);
+            let jacobians = stages.jacobians_mut(i).chunks_exact_mut(n * columns);
+            for (j, (r, jacobian)) in r.chunks_exact_mut(n).zip(jacobians).enumerate() {
+                let s = interval.stage_state(t, j, y);
+                f.fill(f64::NAN);
+                jacobian.fill(f64::NAN);
+                self.equations.rhs_jacobian(index, s, y, &x.p, f, jacobian);
+                interval.stage_residual(j, f, r, index, s)?;
+                if let Some(component) = non_finite_row(jacobian, columns) {
+                    let segment = index;
+                    return Err(NonFinite::Rhs {
+                        segment,
+                        s,
+                        component,
+                    });
+                }
+                watch.look(jacobian, n, columns);
+            }
+            interval.continuity(t, &mut residual.equations[index]);
+        }
+        Ok(())
+    }
+
     /// The Newton correction −J⁻¹ residual with the Jacobian of the last linearisation.
     pub(crate) fn correction(&mut self, residual: &Residual, correction: &mut Iterate) {
         self.node_correction(residual, correction);
@@ -248,11 +290,17 @@ impl<'a> Collocation<'a> {
     }
 
     /// Its stages, once nodes and parameters are known.
-    pub(crate) fn stage_correction(&self, residual: &Residual, correction: &mut Iterate) {
+    pub(crate) fn stage_correction(&mut self, residual: &Residual, correction: &mut Iterate) {
         let Iterate { segments, p } = correction;
-        for ((stages, r), correction) in self.stages.iter().zip(&residual.equations).zip(segments) {
-            stages.recover(r, correction, p);
+        let each = self.stages.iter_mut().zip(&self.mesh);
+        for (((stages, mesh), r), correction) in each.zip(&residual.equations).zip(segments) {
+            stages.recover(&self.tableau, mesh, r, correction, p);
         }
+    }
+
+    /// The smallest pivot of the last factorisation relative to the entries before the elimination.
+    pub(crate) fn smallest_pivot(&self) -> f64 {
+        self.matrix.smallest_pivot()
     }
 
     /// The null vector of the Newton matrix J, oriented so that det \[J; tᵀ\] has one sign for all

@@ -4,7 +4,34 @@ use crate::dense::max_or_nan;
 use crate::iterate::{Interval, Iterate, NonFinite};
 use crate::mesh::Mesh;
 use crate::scheme::Tableau;
+use crate::specialise::specialise;
 use crate::{Equations, Stats};
+
+/// The defects of a solution, one number per interval and segment.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Defects {
+    /// Relative to 1 + |f|.
+    pub(crate) relative: Vec<Vec<f64>>,
+    /// Times the length of the interval and relative to 1 + |y|: what an interval adds to the error.
+    pub(crate) local: Vec<Vec<f64>>,
+}
+
+impl Defects {
+    /// Infinite ones, where they are not known.
+    pub(crate) fn unknown(mesh: &Mesh) -> Self {
+        let infinite = |nodes: &Vec<f64>| vec![f64::INFINITY; nodes.len() - 1];
+        let relative: Vec<_> = mesh.iter().map(infinite).collect();
+        Self {
+            local: relative.clone(),
+            relative,
+        }
+    }
+
+    /// The largest that an interval adds to the error.
+    pub(crate) fn largest_local(&self) -> f64 {
+        self.local.iter().flatten().copied().fold(0.0, max_or_nan)
+    }
+}
 
 /// Relative defect of the continuous solution S, one number per interval and segment:
 ///
@@ -21,39 +48,61 @@ pub(crate) fn defects(
     mesh: &Mesh,
     x: &Iterate,
     stats: &mut Stats,
-) -> Result<Vec<Vec<f64>>, NonFinite> {
-    let mut all = Vec::with_capacity(mesh.len());
+) -> Result<Defects, NonFinite> {
+    let mut all = Defects::default();
     for (index, segment) in equations.segments().iter().enumerate() {
         let n = segment.states;
-        let (mut y, mut f, mut slope) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
-        let mut defects = Vec::with_capacity(mesh[index].len() - 1);
-        for (i, pair) in mesh[index].windows(2).enumerate() {
-            let interval = Interval::new(&x.segments[index], n, t, i, pair);
-            let mut square = 0.0;
-            for (q, weight) in t.defect_rule.weights.iter().enumerate() {
-                let s = interval.place(t.defect_rule.points[q]);
-                interval.state(&t.defect_value[q * t.stages..][..t.stages], &mut y);
-                interval.slope(&t.defect_slope[q * t.stages..][..t.stages], &mut slope);
-                f.fill(f64::NAN);
-                equations.rhs(index, s, &y, &x.p, &mut f);
-                stats.rhs_evaluations += 1;
-                let mut largest: f64 = 0.0;
-                for (component, (slope, f)) in slope.iter().zip(&f).enumerate() {
-                    if !f.is_finite() {
-                        let segment = index;
-                        return Err(NonFinite::Rhs {
-                            segment,
-                            s,
-                            component,
-                        });
-                    }
-                    largest = max_or_nan(largest, ((slope - f) / (1.0 + f.abs())).abs());
-                }
-                square += weight * largest * largest;
-            }
-            defects.push(square.sqrt());
-        }
-        all.push(defects);
+        let nodes = &mesh[index];
+        specialise!(n in [1, 2, 3, 4, 5, 6] => of_segment(equations, index, n, t, nodes, x, &mut all))?;
+        stats.rhs_evaluations += (nodes.len() - 1) * t.defect_rule.points.len();
     }
     Ok(all)
+}
+
+/// The defects of a segment of n states.
+#[inline(always)]
+fn of_segment(
+    equations: &dyn Equations,
+    index: usize,
+    n: usize,
+    t: &Tableau,
+    nodes: &[f64],
+    x: &Iterate,
+    all: &mut Defects,
+) -> Result<(), NonFinite> {
+    let [mut y, mut f, mut slope] = [(); 3].map(|()| vec![0.0; n]);
+    let (y, f, slope) = (&mut y[..n], &mut f[..n], &mut slope[..n]);
+    let [mut relative, mut local] = [(); 2].map(|()| Vec::with_capacity(nodes.len() - 1));
+    for (i, pair) in nodes.windows(2).enumerate() {
+        let interval = Interval::new(&x.segments[index], n, t, i, pair);
+        let (mut square, mut local_square) = (0.0, 0.0);
+        for (q, weight) in t.defect_rule.weights.iter().enumerate() {
+            let s = interval.place(t.defect_rule.points[q]);
+            interval.state(&t.defect_value[q * t.stages..][..t.stages], y);
+            interval.slope(&t.defect_slope[q * t.stages..][..t.stages], slope);
+            f.fill(f64::NAN);
+            equations.rhs(index, s, y, &x.p, f);
+            if let Some(component) = f.iter().position(|f| !f.is_finite()) {
+                let segment = index;
+                return Err(NonFinite::Rhs {
+                    segment,
+                    s,
+                    component,
+                });
+            }
+            let (mut largest, mut integrated) = (0.0f64, 0.0f64);
+            for ((slope, f), y) in slope.iter().zip(&*f).zip(&*y) {
+                let defect = (slope - f).abs();
+                largest = max_or_nan(largest, defect / (1.0 + f.abs()));
+                integrated = max_or_nan(integrated, defect / (1.0 + y.abs()));
+            }
+            square += weight * largest * largest;
+            local_square += weight * integrated * integrated;
+        }
+        relative.push(square.sqrt());
+        local.push(interval.h * local_square.sqrt());
+    }
+    all.relative.push(relative);
+    all.local.push(local);
+    Ok(())
 }

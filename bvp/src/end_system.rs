@@ -61,16 +61,27 @@ impl EndSystem {
         }
         // In an equilibrated matrix a pivot at rounding level is a zero.
         let negligible = size as f64 * f64::EPSILON;
-        let regular = if size < LARGE {
+        if size < LARGE {
             lu_factor(&mut self.matrix, size, &mut self.pivots)
                 .map_err(|SingularRow(_)| Singular::Ends)?;
-            (0..size).all(|i| self.matrix[i * size + i].abs() > negligible)
         } else {
             let matrix = MatRef::from_row_major_slice(&self.matrix, size, size);
-            let factors = self.large.insert(PartialPivLu::new(matrix));
-            (0..size).all(|i| factors.U()[(i, i)].abs() > negligible)
+            self.large = Some(PartialPivLu::new(matrix));
+        }
+        if self.smallest_pivot() > negligible {
+            Ok(())
+        } else {
+            Err(Singular::Ends)
+        }
+    }
+
+    /// The smallest pivot of the equilibrated square matrix.
+    pub(crate) fn smallest_pivot(&self) -> f64 {
+        let pivot = |i: usize| match &self.large {
+            Some(factors) => factors.U()[(i, i)].abs(),
+            None => 1.0 / self.matrix[i * self.size + i].abs(),
         };
-        if regular { Ok(()) } else { Err(Singular::Ends) }
+        (0..self.size).map(pivot).fold(f64::INFINITY, f64::min)
     }
 
     /// Scales rows, then columns, to largest entries of one; what is zero stays so.

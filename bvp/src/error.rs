@@ -33,6 +33,19 @@ pub enum Error {
         /// Parameters of the problem.
         parameters: usize,
     },
+    /// The parameter of an [`Embedding`](crate::Embedding) is not there, or one of its values is not
+    /// finite.
+    #[error("parameter {parameter} of {parameters} cannot be led from {from} to {to}")]
+    Embedding {
+        /// The index given.
+        parameter: usize,
+        /// Parameters of the problem.
+        parameters: usize,
+        /// The value to start from.
+        from: f64,
+        /// The value wanted.
+        to: f64,
+    },
     /// There are no segments.
     #[error("a problem needs at least one segment")]
     NoSegments,
@@ -225,6 +238,41 @@ pub enum Error {
         /// The solution.
         best: Box<Solution>,
     },
+    /// The problem amplifies the rounding of double precision until it hides the solution: the
+    /// conditions fix something that they hardly reach through a layer, or the problem is next to one
+    /// without or with many solutions, such as at an eigenvalue. No mesh helps. Put the conditions
+    /// where they act, shift the problem away, state it for other unknowns such as the difference
+    /// from a known solution, or ask for a larger tolerance.
+    #[error(
+        "ill-conditioned: rounding errors change the solution by {rounding:.1e} relative to 1 + |y|, tolerance {tolerance:.1e} (amplified {condition:.0e} times); other conditions, another formulation or a larger tolerance may help, a finer mesh cannot"
+    )]
+    IllConditioned {
+        /// Estimated rounding error relative to 1 + |y|. From 0.01 on no digit of the solution is
+        /// known, nor one of this number.
+        rounding: f64,
+        /// That over the unit roundoff 1.1e-16: an estimate of the condition number, and a lower bound of
+        /// it where no digit is known.
+        condition: f64,
+        /// Tolerance asked for.
+        tolerance: f64,
+        /// What was found: any of the solutions that differ by rounding.
+        best: Box<Solution>,
+    },
+    /// [`solve_embedded`](crate::solve_embedded) did not come to the wanted value of the parameter, or
+    /// came there only roughly.
+    #[error("parameter {parameter} reached {reached} on the way to {to}: {cause}")]
+    Unreached {
+        /// Index of the parameter.
+        parameter: usize,
+        /// The last value with a solution; `to` if only the final accuracy failed.
+        reached: f64,
+        /// The value wanted.
+        to: f64,
+        /// The failure after that.
+        cause: Box<Self>,
+        /// The rough solution at the value reached, with the cost of everything.
+        best: Box<Solution>,
+    },
 }
 
 /// What too few conditions may mean.
@@ -237,6 +285,18 @@ fn hint(conditions: usize, unknowns: usize) -> &'static str {
 }
 
 impl Error {
+    /// Whether it is a failure of Newton's method.
+    pub(crate) fn is_of_newton(&self) -> bool {
+        matches!(
+            self,
+            Self::NonFiniteRhs { .. }
+                | Self::NonFiniteCondition { .. }
+                | Self::SingularNode { .. }
+                | Self::SingularConditions { .. }
+                | Self::NoConvergence { .. }
+        )
+    }
+
     /// The best iterate of a numerical failure; `None` for a statement error.
     pub fn best(&self) -> Option<&Solution> {
         match self {
@@ -247,7 +307,9 @@ impl Error {
             | Self::NoConvergence { best, .. }
             | Self::MeshLimit { best, .. }
             | Self::Unresolved { best, .. }
-            | Self::ConditionViolated { best, .. } => Some(best),
+            | Self::ConditionViolated { best, .. }
+            | Self::IllConditioned { best, .. }
+            | Self::Unreached { best, .. } => Some(best),
             _ => None,
         }
     }

@@ -1,6 +1,6 @@
 //! Mesh selection: refine, coarsen and redistribute from the defects.
 
-use crate::mesh::{Mesh, equidistribute, split};
+use crate::mesh::{Mesh, ceil, equidistribute, split};
 
 /// New meshes aim at this fraction of the tolerance, so that one step usually suffices.
 const AIM: f64 = 0.3;
@@ -63,20 +63,6 @@ fn wanted(r: f64, tolerance: f64, m: usize) -> f64 {
     cut.clamp(SMALLEST_CUT, LARGEST_CUT)
 }
 
-/// The mesh with all intervals shortened so that an error ∝ h^order falls from `error` well below
-/// `tolerance`.
-pub(crate) fn denser(mesh: &Mesh, error: f64, tolerance: f64, order: usize) -> Mesh {
-    let factor = (error / (AIM * tolerance))
-        .powf(1.0 / order as f64)
-        .clamp(1.2, 4.0);
-    mesh.iter()
-        .map(|nodes| {
-            let density: Vec<f64> = nodes.windows(2).map(|p| 1.0 / (p[1] - p[0])).collect();
-            equidistribute(nodes, &density, ceil(factor * density.len() as f64))
-        })
-        .collect()
-}
-
 /// Raises densities until neighbours differ by at most [`GRADING`].
 fn grade(density: &mut [f64]) {
     for i in 1..density.len() {
@@ -85,15 +71,6 @@ fn grade(density: &mut [f64]) {
     for i in (1..density.len()).rev() {
         density[i - 1] = density[i - 1].max(density[i] / GRADING);
     }
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "counts of intervals are positive and far below 2^53"
-)]
-fn ceil(x: f64) -> usize {
-    x.ceil() as usize
 }
 
 #[cfg(test)]
@@ -175,15 +152,5 @@ mod tests {
         let mut density = [1.0, 1.0, 100.0, 1.0];
         grade(&mut density);
         assert_eq!(density, [16.0, 40.0, 100.0, 40.0]);
-    }
-
-    #[test]
-    fn a_denser_mesh_has_the_same_shape() {
-        let mesh = vec![vec![0.0, 0.1, 0.4, 1.0]];
-        let finer = denser(&mesh, 1e-4, 1e-5, 4);
-        // (1e-4 / 0.3e-5)^(1/4) = 2.4, times three intervals.
-        assert_eq!(intervals(&finer), 8);
-        assert!(finer[0].windows(2).all(|pair| pair[0] < pair[1]));
-        assert_eq!(intervals(&denser(&mesh, f64::INFINITY, 1e-5, 4)), 12);
     }
 }

@@ -1,13 +1,9 @@
 //! The estimate of the global error.
 
-use crate::collocation::Collocation;
+use crate::Solution;
 use crate::dense::max_or_nan;
-use crate::held::Held;
-use crate::iterate::Interval;
-use crate::mesh::halved;
-use crate::restriction::restrict;
-use crate::{Equations, Solution, Stats};
-use std::sync::Arc;
+use crate::iterate::{Interval, Iterate};
+use crate::specialise::specialise;
 
 /// Estimated global errors, relative to 1 + |value|.
 #[derive(Clone, Debug, Default)]
@@ -25,58 +21,69 @@ impl GlobalErrors {
     }
 }
 
-/// The global error of a solution, by one Newton correction on the halved mesh started at the
-/// solution itself. An error ∝ h^q shrinks to 2^−q of it there, so the correction is (1 − 2^−q) of
-/// the error; q is the order between the nodes, which is right there and cautious at the nodes.
+/// The global error of the solution `fine` on the mesh of `coarse` with every interval halved, from
+/// how it differs from `coarse`, which on that mesh is `start`. `None` if it is not finite.
 ///
-/// The correction is looked at as a polynomial at the nodes and at the m + 1 defect points of every
-/// half interval: at nodes and midpoints alone even Gauss schemes hide the error in between, which
-/// vanishes at the midpoint by symmetry. `None` if there is no finite correction.
+/// If halving the intervals leaves a share r of the error, the difference is 1 − r of the error of
+/// `coarse`, and the error of `fine` is r/(1 − r) of the difference. Between the nodes an error of order
+/// q leaves r = 2^−q. Where a mesh does not yet follow that law, the share left of the largest local
+/// defect shows it and is taken for r, but not more than one half.
+///
+/// Solutions are compared as polynomials at the nodes and at the m + 1 defect points of every
+/// interval: at the nodes even Gauss schemes hide the error in between.
 pub(crate) fn global_errors(
-    equations: &dyn Equations,
-    solution: &Solution,
-    stats: &mut Stats,
+    coarse: &Solution,
+    start: &Iterate,
+    fine: &Solution,
 ) -> Option<GlobalErrors> {
-    let t = &*solution.tableau;
-    let tableau = Arc::clone(&solution.tableau);
-    let mesh = halved(&solution.mesh);
-    let mut collocation = Collocation::new(Held::none(equations), tableau, mesh);
-    let x = restrict(t, equations.segments(), &solution.mesh, &solution.x);
-    let mut residual = collocation.residual_buffer();
-    let mut correction = collocation.zeros();
-    collocation.linearise(&x, &mut residual, stats).ok()?;
-    collocation.correction(&residual, &mut correction);
-
-    let order = i32::try_from(t.scheme.dense_order()).ok()?;
-    let factor = 1.0 / (1.0 - 0.5f64.powi(order));
-    let relative = |x: f64, d: f64| factor * (d / (1.0 + x.abs())).abs();
-    let mut states = Vec::with_capacity(collocation.mesh.len());
-    for (index, segment) in equations.segments().iter().enumerate() {
+    let t = &*fine.tableau;
+    let least = 0.5f64.powi(i32::try_from(t.scheme.dense_order()).ok()?);
+    let [before, after] = [coarse, fine].map(|solution| solution.quality.defects.largest_local());
+    let left = (after / before).clamp(least, 0.5);
+    // Of nothing nothing is left.
+    let left = if before == 0.0 { least } else { left };
+    let share = left / (1.0 - left);
+    let mut states = Vec::with_capacity(fine.segments.len());
+    for (index, segment) in fine.segments.iter().enumerate() {
         let n = segment.states;
-        let (mut y, mut d) = (vec![0.0; n], vec![0.0; n]);
-        let mut largest = vec![0.0; n];
-        let mut look = |y: &[f64], d: &[f64]| {
-            for (largest, (&y, &d)) in largest.iter_mut().zip(y.iter().zip(d)) {
-                *largest = max_or_nan(*largest, relative(y, d));
-            }
-        };
-        for (i, pair) in collocation.mesh[index].windows(2).enumerate() {
-            let here = Interval::new(&x.segments[index], n, t, i, pair);
-            let change = Interval::new(&correction.segments[index], n, t, i, pair);
-            look(here.y, change.y);
-            look(here.next, change.next);
-            for weights in t.defect_value.chunks_exact(t.stages) {
-                here.state(weights, &mut y);
-                change.state(weights, &mut d);
-                look(&y, &d);
-            }
-        }
-        states.push(largest);
+        let differences = specialise!(n in [1, 2, 3, 4, 5, 6] => differences(fine, start, index, n));
+        states.push(differences.iter().map(|d| share * d).collect());
     }
-    let parameters = x.p.iter().zip(&correction.p);
+    let parameters = start.p.iter().zip(&fine.x.p);
     let errors = GlobalErrors {
         states,
-        parameters: parameters.map(|(&x, &d)| relative(x, d)).collect(),
+        parameters: parameters.map(|(&x, &other)| share * relative(x, other)).collect(),
     };
     errors.largest().is_finite().then_some(errors)
+}
+
+/// How two numbers differ, relative to 1 + |x|.
+#[inline(always)]
+fn relative(x: f64, other: f64) -> f64 {
+    ((other - x) / (1.0 + x.abs())).abs()
+}
+
+/// The largest difference of every one of the n states of a segment.
+#[inline(always)]
+fn differences(fine: &Solution, start: &Iterate, index: usize, n: usize) -> Vec<f64> {
+    let t = &*fine.tableau;
+    let [mut y, mut z, mut largest] = [(); 3].map(|()| vec![0.0; n]);
+    let (y, z, all) = (&mut y[..n], &mut z[..n], &mut largest[..n]);
+    let mut look = |y: &[f64], z: &[f64]| {
+        for ((largest, &y), &z) in all.iter_mut().zip(y).zip(z) {
+            *largest = max_or_nan(*largest, relative(y, z));
+        }
+    };
+    for (i, ends) in fine.mesh[index].windows(2).enumerate() {
+        let both = [start, &fine.x];
+        let [one, two] = both.map(|x| Interval::new(&x.segments[index], n, t, i, ends));
+        look(one.y, two.y);
+        look(one.next, two.next);
+        for weights in t.defect_value.chunks_exact(t.stages) {
+            one.state(weights, y);
+            two.state(weights, z);
+            look(y, z);
+        }
+    }
+    largest
 }

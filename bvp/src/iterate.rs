@@ -3,7 +3,7 @@
 use crate::dense::add_scaled;
 use crate::mesh::Mesh;
 use crate::scheme::Tableau;
-use crate::{Guess, Segment};
+use crate::{Guess, Segment, Solution};
 
 /// The unknowns of the discretised problem, or a correction of them.
 #[derive(Clone, Debug, Default)]
@@ -76,6 +76,26 @@ impl Iterate {
         x
     }
 
+    /// The iterate with the nodes and slopes of a solution on another mesh.
+    pub(crate) fn transfer(mesh: &Mesh, t: &Tableau, from: &Solution) -> Self {
+        let mut x = Self::zeros(&from.segments, mesh, t.stages, from.x.p.len());
+        x.p.copy_from_slice(&from.x.p);
+        let each = from.segments.iter().zip(mesh).zip(&mut x.segments);
+        for (index, ((segment, nodes), unknowns)) in each.enumerate() {
+            let states = unknowns.nodes.chunks_exact_mut(segment.states);
+            for (state, &s) in states.zip(nodes) {
+                from.state(index, s, state);
+            }
+            let slopes = unknowns.stages.chunks_exact_mut(t.stages * segment.states);
+            for (slopes, pair) in slopes.zip(nodes.windows(2)) {
+                for (slope, c) in slopes.chunks_exact_mut(segment.states).zip(&t.c) {
+                    from.derivative(index, pair[0] + c * (pair[1] - pair[0]), slope);
+                }
+            }
+        }
+        x
+    }
+
     /// self ← x + factor · correction.
     pub(crate) fn set_sum(&mut self, x: &Self, factor: f64, correction: &Self) {
         let set = |target: &mut [f64], x: &[f64], d: &[f64]| {
@@ -136,6 +156,7 @@ pub(crate) struct Interval<'a> {
 }
 
 impl<'a> Interval<'a> {
+    #[inline(always)]
     pub(crate) fn new(
         x: &'a SegmentIterate,
         n: usize,
@@ -156,6 +177,7 @@ impl<'a> Interval<'a> {
     }
 
     /// y = yᵢ + h Σ weightsₗ Kₗ.
+    #[inline(always)]
     pub(crate) fn state(&self, weights: &[f64], y: &mut [f64]) {
         y.copy_from_slice(self.y);
         for (weight, slope) in weights.iter().zip(self.stages.chunks_exact(self.n)) {
@@ -164,6 +186,7 @@ impl<'a> Interval<'a> {
     }
 
     /// slope = Σ weightsₗ Kₗ.
+    #[inline(always)]
     pub(crate) fn slope(&self, weights: &[f64], slope: &mut [f64]) {
         slope.fill(0.0);
         for (weight, stage) in weights.iter().zip(self.stages.chunks_exact(self.n)) {
@@ -172,17 +195,20 @@ impl<'a> Interval<'a> {
     }
 
     /// The place θ of the interval, never outside by rounding.
+    #[inline(always)]
     pub(crate) fn place(&self, theta: f64) -> f64 {
         (self.s + theta * self.h).min(self.end)
     }
 
     /// The state at stage j; returns its s.
+    #[inline(always)]
     pub(crate) fn stage_state(&self, t: &Tableau, j: usize, y: &mut [f64]) -> f64 {
         self.state(&t.a[j * t.stages..][..t.stages], y);
         self.place(t.c[j])
     }
 
     /// r = Kⱼ − f, refusing an f that is not finite.
+    #[inline(always)]
     pub(crate) fn stage_residual(
         &self,
         j: usize,
@@ -206,6 +232,7 @@ impl<'a> Interval<'a> {
     }
 
     /// Writes the continuity residual yᵢ₊₁ − yᵢ − h Σ bⱼ Kⱼ.
+    #[inline(always)]
     pub(crate) fn continuity(&self, t: &Tableau, residual: &mut SegmentIterate) {
         let c = &mut residual.nodes[(self.index + 1) * self.n..][..self.n];
         self.state(&t.b, c);
@@ -215,6 +242,7 @@ impl<'a> Interval<'a> {
     }
 
     /// The stages of this interval in another vector.
+    #[inline(always)]
     pub(crate) fn stages_of<'r>(&self, residual: &'r mut SegmentIterate) -> &'r mut [f64] {
         let size = self.stages.len();
         &mut residual.stages[self.index * size..][..size]

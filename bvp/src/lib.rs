@@ -24,7 +24,25 @@
 //! * eigenvalues and unknown loads: parameters, each with one more condition;
 //! * periodic orbits: y(a) = y(b), the period a parameter, and a phase condition;
 //! * multipoint and interface problems: several segments, joined by conditions;
-//! * free ends and lengths: s in \[0, 1\], the length a parameter that multiplies f.
+//! * free ends and lengths: s in \[0, 1\], the length a parameter that multiplies f;
+//! * integrals: a state each, y' = integrand, with a parameter for an unknown value;
+//! * complex states: two real ones each, by [`Complex`];
+//! * kinks and jumps of f at known places: junctions of segments.
+//!
+//! # Singular ends and infinite intervals
+//!
+//! With the default scheme f is never evaluated at the ends of a segment, so a term S y/(s − a), as of
+//! cylindrical and spherical coordinates, is written as it stands. What keeps the solution finite,
+//! S y(a) = 0, is among the conditions. Where the solution is smooth the order in between is kept and
+//! the mesh is not refined towards a. A solution with a fractional power of s − a is not smooth:
+//! substitute s − a = tᵏ. Lobatto schemes ask for f at a; there write its limit, (I − S)⁻¹ times the
+//! rest of f.
+//!
+//! An infinite interval is cut off, with conditions that forbid the growing solutions of the equations
+//! linearised about the state at infinity, and lengthened until that changes nothing. Or it is mapped,
+//! x = L s/(1 − s), with f multiplied by dx/ds: shorter to write, but the factor magnifies the rounding
+//! of states that decay, so that the mesh is to be chosen for the error ([`Options::to`]), and states
+//! must be bounded.
 //!
 //! # Example
 //!
@@ -187,7 +205,7 @@
 //! | Lobatto IIIA, order 4 | the same | [`Scheme::LobattoIIIA`] with 3 stages; default Gauss, order 8 |
 //! | `deval(sol, x)` | `sol.sol(x)` | [`Solution::state`], [`Solution::derivative`] |
 //! | `sol.stats` | `rms_residuals`, `niter` | [`Solution::defects`], [`Solution::stats`] |
-//! | `SingularTerm` | `S` | none; Gauss points avoid the ends |
+//! | `SingularTerm` | `S` | S y/(s − a) as part of [`Problem::rhs`]; Gauss points avoid the ends |
 //!
 //! # References
 //!
@@ -202,21 +220,27 @@
 
 mod almost_block_diagonal;
 mod automatic;
+mod chains;
 mod check;
 mod collocation;
+mod complex;
 mod condensation;
+mod conditioning;
 mod defect;
 mod dense;
 mod difference;
 mod dual;
+mod embedding;
 mod end_system;
 mod equations;
 mod error;
 mod error_control;
+mod failure;
 mod family;
 mod global_error;
 mod guess;
 mod held;
+mod homotopy;
 mod householder;
 mod iterate;
 mod large;
@@ -228,20 +252,27 @@ mod problem;
 mod real;
 mod reflections;
 mod restriction;
+mod rounding;
 mod scheme;
 mod solution;
 mod solver;
+mod specialise;
 mod statement;
 mod stats;
+mod stepping;
+mod straight;
 
 pub use check::{Differenced, JacobianCheck, Place, check_jacobians};
+pub use complex::Complex;
+pub use conditioning::{Conditioning, conditioning};
 pub use difference::FiniteDifferences;
 pub use dual::Dual;
+pub use embedding::{Embedding, solve_embedded};
 pub use equations::Equations;
 pub use error::Error;
 pub use family::Family;
 pub use guess::{Constant, Function, Guess, Table};
-pub use options::{Control, GlobalError, Options};
+pub use options::{GlobalError, Options};
 pub use problem::{Ends, Problem, Segment};
 pub use real::Real;
 pub use scheme::Scheme;

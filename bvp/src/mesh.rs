@@ -27,6 +27,15 @@ pub(crate) fn halved(mesh: &Mesh) -> Mesh {
         .collect()
 }
 
+/// A mesh with so many times fewer intervals, rounded up, and the same distribution of the nodes.
+pub(crate) fn thinned(mesh: &Mesh, factor: f64) -> Mesh {
+    let fewer = |nodes: &Vec<f64>| {
+        let density: Vec<f64> = nodes.windows(2).map(|p| 1.0 / (p[1] - p[0])).collect();
+        equidistribute(nodes, &density, ceil(density.len() as f64 / factor))
+    };
+    mesh.iter().map(fewer).collect()
+}
+
 /// Cuts interval i of a segment into `pieces[i]` equal parts.
 pub(crate) fn split(nodes: &[f64], pieces: &[usize]) -> Vec<f64> {
     let mut refined = Vec::with_capacity(pieces.iter().sum::<usize>() + 1);
@@ -68,6 +77,16 @@ pub(crate) fn is_representable(mesh: &Mesh) -> bool {
 /// Total number of intervals.
 pub(crate) fn intervals(mesh: &Mesh) -> usize {
     mesh.iter().map(|nodes| nodes.len() - 1).sum()
+}
+
+/// The next whole number.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "counts of intervals are positive and far below 2^53"
+)]
+pub(crate) fn ceil(x: f64) -> usize {
+    x.ceil() as usize
 }
 
 #[cfg(test)]

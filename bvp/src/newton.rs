@@ -27,6 +27,10 @@ const ROUNDING_FACTOR: f64 = 100.0;
 /// failure to converge.
 const LARGEST_ROUNDING: f64 = 1e-8;
 
+/// A step whose own correction is expected to be so many times less than is asked for need not be
+/// checked.
+const PREDICTION_SAFETY: f64 = 10.0;
+
 /// Why the iteration stopped short.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Failure {
@@ -57,7 +61,7 @@ pub(crate) struct Norm {
 }
 
 /// Measures Σ factors · corrections relative to 1 + |x|.
-fn norm(x: &Iterate, corrections: &[(f64, &Iterate)]) -> Norm {
+pub(crate) fn norm(x: &Iterate, corrections: &[(f64, &Iterate)]) -> Norm {
     let (mut square, mut largest, mut count) = (0.0, 0.0f64, 0usize);
     let mut add = |x: f64, delta: f64| {
         let relative = delta / (1.0 + x.abs());
@@ -83,8 +87,12 @@ fn norm(x: &Iterate, corrections: &[(f64, &Iterate)]) -> Norm {
     }
 }
 
-/// The buffers of the iteration.
+/// The buffers of the iteration, and what it learns.
 pub(crate) struct Newton {
+    /// The affine-invariant curvature 2 ‖Δx̄‖ / ‖Δx‖² of the last full step with a new Jacobian. It
+    /// hardly depends on the mesh (Deuflhard 2004, section 8.1), and so may come from another one;
+    /// infinite where nothing is known.
+    pub(crate) curvature: f64,
     delta: Iterate,
     simplified: Iterate,
     trial: Iterate,
@@ -92,8 +100,9 @@ pub(crate) struct Newton {
 }
 
 impl Newton {
-    pub(crate) fn new(collocation: &Collocation<'_>) -> Self {
+    pub(crate) fn new(collocation: &Collocation<'_>, curvature: f64) -> Self {
         Self {
+            curvature,
             delta: collocation.zeros(),
             simplified: collocation.zeros(),
             trial: collocation.zeros(),
@@ -120,7 +129,8 @@ impl Newton {
             if !size.largest.is_finite() {
                 return Err(Failure::Singular(Singular::Ends));
             }
-            if size.largest <= tolerance {
+            let predicted = 0.5 * self.curvature * size.mean * size.largest;
+            if size.largest <= tolerance || fresh && PREDICTION_SAFETY * predicted <= tolerance {
                 self.trial.set_sum(x, 1.0, &self.delta);
                 std::mem::swap(x, &mut self.trial);
                 stats.newton_steps += 1;
@@ -140,6 +150,9 @@ impl Newton {
             };
             std::mem::swap(x, &mut self.trial);
             stats.newton_steps += 1;
+            if fresh && damping == 1.0 {
+                self.curvature = 2.0 * shrunk.mean / (size.mean * size.mean);
+            }
             if damping == 1.0
                 && (shrunk.largest <= tolerance || shrunk.mean <= KEEP_JACOBIAN_BELOW * size.mean)
             {

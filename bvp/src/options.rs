@@ -9,48 +9,40 @@ use crate::{Error, Scheme};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The defect of the solution in the differential equations relative to 1 + |f|, the residuals
-    /// of the conditions (relative to the size of their terms where that exceeds one), and, unless
-    /// skipped, the estimated global error relative to 1 + |y| are all brought to at most this
-    /// number; not the defect if the mesh is chosen for the error. Between 1e-13 and 1e-1; default 1e-6.
+    /// The estimated global error relative to 1 + |y| is brought to at most this number, or, where its
+    /// estimate is skipped, the defect in the differential equations relative to 1 + |f|; and so are
+    /// the residuals of the conditions, relative to the size of their terms where that exceeds one.
+    /// Between 1e-13 and 1e-1; default 1e-6.
     pub tolerance: f64,
-    /// The collocation scheme; default Gauss with 4 stages.
-    pub scheme: Scheme,
-    /// Number of equal intervals per segment to start on, where the guess brings no mesh;
-    /// default 10.
+    /// The collocation scheme; default `None`, [`Scheme::for_tolerance`].
+    pub scheme: Option<Scheme>,
+    /// Number of equal intervals per segment that the solver may think of as a first mesh, where the
+    /// guess brings none; default 10. As a mesh of a guess it is thinned before it is halved for the
+    /// estimate of the error.
     pub initial_intervals: usize,
     /// Largest number of intervals over all segments; default 10 000.
     pub max_intervals: usize,
     /// Largest number of Newton steps on one mesh; default 60.
     pub max_newton_steps: usize,
     /// How often, after a failure of Newton's method, the mesh is halved and the guess taken again;
-    /// default 2. Before that the guess is tried with its slopes replaced by f along it and integrated,
-    /// one step of Picard's iteration. Callers that have a better answer to a failure set 0.
+    /// default 3. Before that the guess is tried with its slopes replaced by f along it and integrated,
+    /// one step of Picard's iteration; after all that, once more from a straight line between end
+    /// states that meet the conditions, by a homotopy. Callers that have a better answer to a failure
+    /// set 0, which omits all of it.
     pub retries: usize,
-    /// How the global error is estimated; default on a halved mesh.
+    /// Whether the global error is estimated, and so what the mesh is chosen for; default on a halved
+    /// mesh.
     pub global_error: GlobalError,
-    /// What the mesh is chosen for; default the defect.
-    pub control: Control,
 }
 
-/// What the mesh is chosen for, and brought to the tolerance.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Control {
-    /// The defect, and the estimated global error where it is larger, which is rare: the defect of m
-    /// stages is of order m, the error of order m + 1 and, at the nodes, 2 m.
-    Defect,
-    /// The estimated global error alone. Takes far fewer intervals, and an estimate on every mesh; without
-    /// estimates, as [`Control::Defect`].
-    Error,
-}
-
-/// How the global error of a solution is estimated.
+/// Whether the global error of a solution is estimated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GlobalError {
-    /// By one Newton correction on the mesh with every interval halved, started at the solution:
-    /// the correction is the difference of the two discrete solutions up to its own square.
+    /// From the solutions on a mesh and on that with every interval halved, of which the second is
+    /// returned. The mesh is chosen for the error.
     HalvedMesh,
-    /// Not at all: for intermediate solutions on the way to another one.
+    /// Not at all: for intermediate solutions on the way to another one. The mesh is chosen for the
+    /// defect, which asks for more intervals than the error does.
     Skip,
 }
 
@@ -58,32 +50,34 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             tolerance: 1e-6,
-            scheme: Scheme::default(),
+            scheme: None,
             initial_intervals: 10,
             max_intervals: 10_000,
             max_newton_steps: 60,
-            retries: 2,
+            retries: 3,
             global_error: GlobalError::HalvedMesh,
-            control: Control::Defect,
         }
     }
 }
 
 impl Options {
-    /// The settings that take the least time to a tolerance: the mesh is chosen for the error, and the
-    /// scheme, of Gauss, has the more stages the smaller the tolerance is.
+    /// The default settings with another tolerance.
     ///
     /// ```
     /// let options = bvp::Options::to(1e-9);
-    /// assert_eq!(options.scheme.order(), 14);
+    /// assert_eq!(options.scheme().order(), 14);
     /// ```
     pub fn to(tolerance: f64) -> Self {
         Self {
             tolerance,
-            scheme: Scheme::for_tolerance(tolerance),
-            control: Control::Error,
             ..Self::default()
         }
+    }
+
+    /// The scheme that is used: the one set, or that for the tolerance.
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+            .unwrap_or_else(|| Scheme::for_tolerance(self.tolerance))
     }
 
     /// Checks every setting.
@@ -96,9 +90,9 @@ impl Options {
                 tolerance: self.tolerance,
             });
         }
-        if !self.scheme.is_valid() {
+        if !self.scheme().is_valid() {
             return Err(Error::Stages {
-                scheme: self.scheme,
+                scheme: self.scheme(),
             });
         }
         if self.initial_intervals == 0 {

@@ -21,6 +21,7 @@ const BLOCK: usize = 8;
 /// Annihilates column j below row j of `matrix` for all j < `tau.len()`. The vectors of the
 /// reflections, with leading 1 implied, are left in the place of the zeros, their factors in `tau`.
 /// `row` holds a row. `None` if what is left of a column vanishes or is not finite.
+#[inline(always)]
 pub(crate) fn eliminate(
     matrix: &mut [f64],
     width: usize,
@@ -34,6 +35,7 @@ pub(crate) fn eliminate(
 }
 
 /// Annihilates column `j` and returns τ.
+#[inline(always)]
 fn reflect(matrix: &mut [f64], width: usize, j: usize, row: &mut [f64]) -> Option<f64> {
     let (above, below) = matrix.split_at_mut((j + 1) * width);
     let pivot_row = &mut above[j * width..];

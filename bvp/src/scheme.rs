@@ -1,10 +1,14 @@
 //! Runge-Kutta collocation schemes: nodes, weights and the polynomials behind them.
 
-use crate::dense::add_scaled;
+use crate::dense::{add_product, add_scaled};
 use std::f64::consts::PI;
+use std::sync::{Arc, OnceLock};
 
 /// The largest number of stages of any scheme.
 pub(crate) const MAX_STAGES: usize = 7;
+
+/// So many powers of the stage matrix are kept.
+pub(crate) const POWERS: usize = 4;
 
 /// A collocation scheme with m stages per interval.
 ///
@@ -33,21 +37,12 @@ pub enum Scheme {
     },
 }
 
-impl Default for Scheme {
-    /// Gauss with 4 stages, order 8 at the nodes.
-    fn default() -> Self {
-        Self::Gauss { stages: 4 }
-    }
-}
-
 impl Scheme {
     /// The scheme of Gauss that takes the least time to a tolerance, as measured over the reference
     /// problems.
     pub fn for_tolerance(tolerance: f64) -> Self {
         let stages = match tolerance {
-            _ if tolerance >= 3e-5 => 4,
-            _ if tolerance >= 1e-7 => 5,
-            _ if tolerance >= 1e-8 => 6,
+            _ if tolerance >= 3e-5 => 6,
             _ => 7,
         };
         Self::Gauss { stages }
@@ -103,6 +98,10 @@ pub(crate) struct Tableau {
     pub(crate) b: Vec<f64>,
     /// Stage matrix aⱼₗ = βₗ(cⱼ), m × m.
     pub(crate) a: Vec<f64>,
+    /// Its powers A, A², …, m × m each.
+    pub(crate) powers: Vec<f64>,
+    /// bᵀ, bᵀ A, bᵀ A², …, m numbers each, as many.
+    pub(crate) weights: Vec<f64>,
     /// Where the defect is sampled: the Gauss rule with m + 1 points, which integrates the square
     /// of the leading defect ∝ Πⱼ (θ − cⱼ) exactly and whose points are never collocation points.
     pub(crate) defect_rule: Quadrature,
@@ -124,6 +123,19 @@ pub(crate) struct Tableau {
 }
 
 impl Tableau {
+    /// The tableau of a scheme that is provided, computed once.
+    pub(crate) fn of(scheme: Scheme) -> Arc<Self> {
+        static GAUSS: [OnceLock<Arc<Tableau>>; MAX_STAGES + 1] =
+            [const { OnceLock::new() }; MAX_STAGES + 1];
+        static LOBATTO: [OnceLock<Arc<Tableau>>; MAX_STAGES + 1] =
+            [const { OnceLock::new() }; MAX_STAGES + 1];
+        let computed = match scheme {
+            Scheme::Gauss { stages } => &GAUSS[stages],
+            Scheme::LobattoIIIA { stages } => &LOBATTO[stages],
+        };
+        Arc::clone(computed.get_or_init(|| Arc::new(Self::new(scheme))))
+    }
+
     pub(crate) fn new(scheme: Scheme) -> Self {
         let stages = scheme.stages();
         let c = match scheme {
@@ -141,11 +153,22 @@ impl Tableau {
         } else {
             guess_points.insert(1, 0.5 * (c[0] + c[1]));
         }
+        let (b, a) = (values(&[1.0]), values(&c));
+        let mut powers = a.clone();
+        let mut weights = b.clone();
+        for power in 1..POWERS {
+            let next = product(&powers[(power - 1) * stages * stages..], &a, stages);
+            powers.extend(next);
+            let next = product(&weights[(power - 1) * stages..], &a, stages);
+            weights.extend(next);
+        }
         Self {
             scheme,
             stages,
-            b: values(&[1.0]),
-            a: values(&c),
+            b,
+            a,
+            powers,
+            weights,
             defect_value: values(&defect_rule.points),
             defect_slope: basis.table(&defect_rule.points, Basis::slopes),
             half_slopes: basis.table(&halves, Basis::slopes),
@@ -170,6 +193,13 @@ impl Tableau {
     pub(crate) fn slope_weights(&self, theta: f64, weights: &mut [f64; MAX_STAGES]) {
         self.basis.slopes(theta, &mut weights[..self.stages]);
     }
+}
+
+/// The product of a row-major matrix with n columns and an n × n matrix.
+fn product(a: &[f64], b: &[f64], n: usize) -> Vec<f64> {
+    let mut c = vec![0.0; a.len()];
+    add_product(&mut c, a, b, n, n);
+    c
 }
 
 /// Lagrange polynomials ℓₗ on the collocation points and their integrals βₗ(θ) = ∫₀^θ ℓₗ.

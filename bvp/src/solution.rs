@@ -1,5 +1,6 @@
 //! The continuous solution.
 
+use crate::defect::Defects;
 use crate::dense::{add_scaled, max_or_nan};
 use crate::global_error::GlobalErrors;
 use crate::guess::{compare_shape, interval_of};
@@ -24,8 +25,7 @@ pub struct Solution {
 /// What is known of the accuracy of an iterate; infinite where it is not known.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Quality {
-    /// Relative defect of every interval of every segment.
-    pub(crate) defects: Vec<Vec<f64>>,
+    pub(crate) defects: Defects,
     /// Largest |residual| of the conditions.
     pub(crate) conditions: f64,
     /// Estimated global error of the states of every segment and of the parameters.
@@ -35,11 +35,8 @@ pub(crate) struct Quality {
 impl Quality {
     /// Nothing is known.
     pub(crate) fn unknown(mesh: &Mesh) -> Self {
-        let defects = mesh
-            .iter()
-            .map(|nodes| vec![f64::INFINITY; nodes.len() - 1]);
         Self {
-            defects: defects.collect(),
+            defects: Defects::unknown(mesh),
             conditions: f64::INFINITY,
             errors: None,
         }
@@ -125,12 +122,12 @@ impl Solution {
     /// # Panics
     /// If there is no such segment.
     pub fn defects(&self, segment: usize) -> &[f64] {
-        &self.quality.defects[segment]
+        &self.quality.defects.relative[segment]
     }
 
     /// The largest relative defect; infinite for an iterate that never converged.
     pub fn defect(&self) -> f64 {
-        let all = self.quality.defects.iter().flatten();
+        let all = self.quality.defects.relative.iter().flatten();
         all.copied().reduce(max_or_nan).unwrap_or(f64::INFINITY)
     }
 
@@ -170,7 +167,7 @@ impl Solution {
     /// The interval with the largest defect: its segment, left end and length.
     pub(crate) fn worst_interval(&self) -> (usize, f64, f64) {
         let (mut worst, mut place) = (f64::NEG_INFINITY, (0, f64::NAN, f64::NAN));
-        for (segment, (nodes, defects)) in self.mesh.iter().zip(&self.quality.defects).enumerate() {
+        for (segment, (nodes, defects)) in self.mesh.iter().zip(&self.quality.defects.relative).enumerate() {
             for (pair, &defect) in nodes.windows(2).zip(defects) {
                 if defect > worst {
                     (worst, place) = (defect, (segment, pair[0], pair[1] - pair[0]));

@@ -1,18 +1,21 @@
-//! The driver: Newton on a mesh, defects, a better mesh, until everything holds.
+//! The driver: Newton on a mesh, the solution on its halves, a better mesh, until everything holds.
 
-use crate::almost_block_diagonal::Singular;
 use crate::collocation::Collocation;
 use crate::defect::defects;
-use crate::error_control::{denser, next_mesh};
+use crate::error_control::next_mesh;
+use crate::failure::{check_mesh, ill_conditioned, numerical, unresolved};
 use crate::global_error::global_errors;
 use crate::held::Held;
-use crate::iterate::{Iterate, NonFinite};
-use crate::mesh::{Mesh, halved, intervals, is_representable};
+use crate::homotopy::rough_solution;
+use crate::iterate::Iterate;
+use crate::mesh::{Mesh, halved, intervals, thinned};
 use crate::newton::{Failure, Newton};
+use crate::restriction::restrict;
+use crate::rounding::hides;
 use crate::scheme::Tableau;
 use crate::solution::Quality;
 use crate::statement::{check_guess, check_statement, first_mesh};
-use crate::{Control, Equations, Error, GlobalError, Guess, Options, Solution, Stats};
+use crate::{Equations, Error, GlobalError, Guess, Options, Solution, Stats};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -20,15 +23,24 @@ use std::time::Instant;
 /// left of them is invisible beside the discretisation error.
 const NEWTON_FRACTION: f64 = 0.01;
 /// With a larger relative defect than this a mesh does not resolve the solution, and its error is not
-/// worth an estimate.
+/// worth an estimate, ...
 const UNRESOLVED: f64 = 0.5;
+/// ... and the next mesh aims at this fraction of it: where nothing is resolved a defect is about one
+/// however fine the mesh is.
+const RESOLVED: f64 = 0.3;
+/// The first mesh that is to be halved has so many intervals less than the one stated.
+const THINNED: f64 = 3.4;
+/// A next mesh aims at this fraction of the tolerance.
+const AIM: f64 = 0.5;
+/// From this mesh on, halves are preferred to another distribution of the nodes, which has been tried.
+const MESHES_DISTRIBUTED: usize = 3;
 /// Meshes tried before the tolerance is declared out of reach.
 const MAX_MESHES: usize = 40;
 
 /// Solves a boundary value problem from a guess.
 ///
-/// On success the relative defect of the solution, the residuals of the conditions and the
-/// estimated global error are all at most the tolerance; see [`Options::tolerance`].
+/// On success the estimated global error and the residuals of the conditions are at most the
+/// tolerance; see [`Options::tolerance`].
 ///
 /// # Errors
 /// Statement errors before any arithmetic; numerical failures with the best iterate. See
@@ -45,11 +57,29 @@ pub fn solve(
     let run = Run {
         equations,
         options,
-        tableau: Arc::new(Tableau::new(options.scheme)),
+        tableau: Tableau::of(options.scheme()),
         start,
         stats: Stats::default(),
+        curvature: f64::INFINITY,
     };
     run.solve(guess, mesh)
+}
+
+/// What Newton's method starts at.
+#[derive(Clone, Copy)]
+enum Start<'a> {
+    Guess(&'a dyn Guess),
+    Solution(&'a Solution),
+}
+
+/// How to go on after a solution.
+enum Next {
+    /// The solution is within the tolerance.
+    Done,
+    /// On its mesh with every interval halved.
+    Halved,
+    /// On this mesh.
+    Mesh(Mesh),
 }
 
 /// One call of [`solve`].
@@ -59,114 +89,239 @@ struct Run<'a> {
     tableau: Arc<Tableau>,
     start: Instant,
     stats: Stats,
+    /// What [`Newton::iterate`] has learnt on the last mesh.
+    curvature: f64,
 }
 
-impl Run<'_> {
-    fn solve(mut self, guess: &dyn Guess, mut mesh: Mesh) -> Result<Solution, Error> {
-        let (tolerance, limit) = (self.options.tolerance, self.options.max_intervals);
-        let mut previous: Option<Solution> = None;
-        let mut retries = 0;
-        loop {
-            let tableau = Arc::clone(&self.tableau);
-            let mut collocation = Collocation::new(Held::none(self.equations), tableau, mesh);
-            let from = previous
-                .as_ref()
-                .map_or(guess, |solution| solution as &dyn Guess);
-            let mut x = collocation.interpolate(from);
-            if previous.is_none() {
-                check_guess(&x, &collocation.mesh)?;
+impl<'a> Run<'a> {
+    /// Solves from the guess on a first mesh, and on finer ones where Newton's method fails.
+    fn solve(mut self, guess: &dyn Guess, mesh: Mesh) -> Result<Solution, Error> {
+        let mut first = if self.refines() {
+            thinned(&mesh, THINNED)
+        } else {
+            mesh
+        };
+        for _ in 0..self.options.retries {
+            let finer = halved(&first);
+            match self.from_guess(guess, first) {
+                Err(error) if error.is_of_newton() && self.is_allowed(&finer) => first = finer,
+                outcome => return outcome,
             }
-            self.stats.meshes += 1;
-            let mut newton = Newton::new(&collocation);
-            let newton_tolerance = (NEWTON_FRACTION * tolerance).max(100.0 * f64::EPSILON);
-            let mut iterate =
-                |x: &mut Iterate, collocation: &mut Collocation<'_>, stats: &mut Stats| {
-                    let steps = self.options.max_newton_steps;
-                    newton.iterate(collocation, x, newton_tolerance, steps, stats)
-                };
-            let mut outcome = iterate(&mut x, &mut collocation, &mut self.stats);
-            if outcome.is_err()
-                && self.options.retries > 0
-                && previous.is_none()
-                && let Ok(swept) = collocation.swept(guess, &mut self.stats)
-            {
-                x = swept;
-                outcome = iterate(&mut x, &mut collocation, &mut self.stats);
-            }
-            if let Err(failure) = outcome {
-                let finer = halved(&collocation.mesh);
-                if retries < self.options.retries && intervals(&finer) <= limit {
-                    retries += 1;
-                    mesh = finer;
-                    continue;
+        }
+        match self.from_guess(guess, first) {
+            Err(error) if error.is_of_newton() && self.options.retries > 0 => {
+                match rough_solution(self.equations, guess, self.options, &mut self.stats) {
+                    None => Err(error),
+                    Some(rough) => {
+                        let coarse = self.on(rough.mesh.clone(), Start::Solution(&rough))?;
+                        self.adapt(coarse)
+                    }
                 }
-                let quality = Quality::unknown(&collocation.mesh);
-                let best = self.solution(collocation.mesh, x, quality);
-                return Err(numerical(failure, best, newton_tolerance));
             }
-            let mut solution = self.assess(collocation, x).map_err(|error| *error)?;
-            let Some(finer) = self.better_mesh(&mut solution) else {
-                return Ok(self.finish(solution));
-            };
-            let solution = self.finish(solution);
-            check_mesh(&finer, self.options, &solution)?;
-            if solution.stats.meshes >= MAX_MESHES {
-                return Err(unresolved(self.options, &solution));
-            }
-            previous = Some(solution);
-            mesh = finer;
+            outcome => outcome,
         }
     }
 
-    /// The mesh to go on with, unless the solution is within the tolerance.
-    fn better_mesh(&mut self, solution: &mut Solution) -> Option<Mesh> {
-        let (tolerance, m) = (self.options.tolerance, self.tableau.stages);
-        let defect = solution.defect();
-        let by_defect = |solution: &Solution, wanted: f64| {
-            next_mesh(&solution.mesh, &solution.quality.defects, wanted, m)
-        };
-        let wanted = match self.options.control {
-            _ if self.options.global_error == GlobalError::Skip => tolerance,
-            Control::Defect => tolerance,
-            Control::Error => UNRESOLVED,
-        };
-        if defect > wanted || defect.is_nan() {
-            return Some(by_defect(solution, wanted));
+    /// Solves from the guess on a first mesh.
+    fn from_guess(&mut self, guess: &dyn Guess, first: Mesh) -> Result<Solution, Error> {
+        let coarse = self.on(first, Start::Guess(guess))?;
+        self.adapt(coarse)
+    }
+
+    /// Solves on one mesh after the other, each chosen from the solution on the last.
+    fn adapt(&mut self, mut coarse: Solution) -> Result<Solution, Error> {
+        loop {
+            let (solution, next) = self.judge(coarse).map_err(|error| *error)?;
+            let solution = self.finish(solution);
+            coarse = match next {
+                Next::Done => return Ok(solution),
+                Next::Halved => solution,
+                Next::Mesh(mesh) => {
+                    check_mesh(&mesh, self.options, &solution)?;
+                    if solution.stats.meshes >= MAX_MESHES {
+                        return Err(unresolved(self.options, &solution));
+                    }
+                    let (start, finer) = (Start::Solution(&solution), halved(&mesh));
+                    match self.on(mesh, start) {
+                        Err(error) if error.is_of_newton() && self.is_allowed(&finer) => {
+                            self.on(finer, start)?
+                        }
+                        outcome => outcome?,
+                    }
+                }
+            };
         }
-        if self.options.global_error == GlobalError::Skip {
-            return None;
-        }
-        solution.quality.errors = global_errors(self.equations, solution, &mut self.stats);
-        let error = solution.error_estimate().unwrap_or(f64::INFINITY);
-        if error <= tolerance {
-            return None;
-        }
-        let order = self.options.scheme.dense_order();
-        Some(match self.options.control {
-            Control::Defect => denser(&solution.mesh, error, tolerance, order),
-            Control::Error => {
-                // The defect is of order m, the error of this order: so much less of the one is as
-                // much less of the other as is wanted.
-                let less = (tolerance / error).powf(m as f64 / order as f64);
-                by_defect(solution, defect * less)
+    }
+
+    /// The solution on a mesh.
+    fn on(&mut self, mesh: Mesh, start: Start<'_>) -> Result<Solution, Error> {
+        self.stats.meshes += 1;
+        let mut collocation = self.collocation(mesh);
+        let mut x = match start {
+            Start::Guess(guess) => {
+                let x = collocation.interpolate(guess);
+                check_guess(&x, &collocation.mesh)?;
+                x
             }
-        })
+            Start::Solution(solution) => {
+                Iterate::transfer(&collocation.mesh, &self.tableau, solution)
+            }
+        };
+        // A solution that is to be halved need not be more accurate than its mesh.
+        let fraction = if self.refines() { 1.0 } else { NEWTON_FRACTION };
+        let mut outcome = self.newton(&mut collocation, &mut x, fraction);
+        if outcome.is_err()
+            && self.options.retries > 0
+            && let Start::Guess(guess) = start
+            && let Ok(swept) = collocation.swept(guess, &mut self.stats)
+        {
+            x = swept;
+            outcome = self.newton(&mut collocation, &mut x, fraction);
+        }
+        match outcome {
+            Ok(()) => self.assess(&mut collocation, x).map_err(|error| *error),
+            Err(failure) => Err(self.failed(failure, collocation, x, fraction)),
+        }
+    }
+
+    /// The best solution known after one on a mesh, and how to go on.
+    fn judge(&mut self, coarse: Solution) -> Result<(Solution, Next), Box<Error>> {
+        let (tolerance, m) = (self.options.tolerance, self.tableau.stages);
+        let defect = coarse.defect();
+        let by_defect = |wanted: f64| {
+            let defects = &coarse.quality.defects.relative;
+            Next::Mesh(next_mesh(&coarse.mesh, defects, wanted, m))
+        };
+        if !self.refines() {
+            let next = if defect <= tolerance {
+                Next::Done
+            } else {
+                by_defect(tolerance)
+            };
+            return Ok((coarse, next));
+        }
+        if defect > UNRESOLVED || defect.is_nan() {
+            let next = by_defect(RESOLVED * UNRESOLVED);
+            return Ok((coarse, next));
+        }
+        let Some(fine) = self.refined(&coarse)? else {
+            let next = Next::Mesh(halved(&coarse.mesh));
+            return Ok((coarse, next));
+        };
+        let error = fine.error_estimate().unwrap_or(f64::INFINITY);
+        if error <= tolerance {
+            return Ok((fine, Next::Done));
+        }
+        // Before the next mesh is halved its errors may be larger by this factor.
+        let order = self.tableau.scheme.dense_order();
+        let halves_gain = 2.0f64.powi(order as i32);
+        let local = &fine.quality.defects.local;
+        let wanted = AIM * halves_gain * tolerance * fine.quality.defects.largest_local() / error;
+        let next = next_mesh(&fine.mesh, local, wanted, order);
+        let few = 2 * intervals(&fine.mesh) < 4 * intervals(&next);
+        let tried = self.stats.meshes >= MESHES_DISTRIBUTED;
+        if error < 0.5 * halves_gain * tolerance && (few || tried) {
+            check_mesh(&halved(&fine.mesh), self.options, &self.finish(fine.clone()))?;
+            return Ok((fine, Next::Halved));
+        }
+        Ok((fine, Next::Mesh(next)))
+    }
+
+    /// The solution on the halved mesh with its estimated errors, `None` if there is none; an error if
+    /// rounding hides it.
+    fn refined(&mut self, coarse: &Solution) -> Result<Option<Solution>, Box<Error>> {
+        let mut collocation = self.collocation(halved(&coarse.mesh));
+        let t = Arc::clone(&self.tableau);
+        let start = restrict(&t, &coarse.segments, &coarse.mesh, &coarse.x);
+        let mut x = start.clone();
+        if self.newton(&mut collocation, &mut x, NEWTON_FRACTION).is_err() {
+            return Ok(None);
+        }
+        let mut fine = self.assess(&mut collocation, x)?;
+        fine.quality.errors = global_errors(coarse, &start, &fine);
+        let tolerance = self.options.tolerance;
+        if fine.error_estimate().is_some_and(|error| error <= tolerance) {
+            if std::env::var("PIV").is_ok() { eprintln!("PIV {:.2e} rounding/tol {:.2e} intervals {}", collocation.smallest_pivot(), collocation.rounding(&fine.x)/tolerance, intervals(&fine.mesh)); }
+            let rounding = collocation.rounding(&fine.x);if std::env::var("PIV").is_ok() { eprintln!("   hides {}", hides(rounding,tolerance)); }
+            if hides(rounding, tolerance) {
+                let error = ill_conditioned(rounding, tolerance, self.finish(fine));
+                return Err(Box::new(error));
+            }
+        }
+        Ok(Some(fine))
+    }
+
+    /// Whether the global error is to be known: the solution is then the one on a halved mesh.
+    fn refines(&self) -> bool {
+        self.options.global_error == GlobalError::HalvedMesh
+    }
+
+    /// Whether a mesh is within the limit.
+    fn is_allowed(&self, mesh: &Mesh) -> bool {
+        intervals(mesh) <= self.options.max_intervals
+    }
+
+    /// The problem discretised on a mesh.
+    fn collocation(&self, mesh: Mesh) -> Collocation<'a> {
+        let tableau = Arc::clone(&self.tableau);
+        Collocation::new(Held::none(self.equations), tableau, mesh)
+    }
+
+    /// Newton's method until corrections are this fraction of the tolerance.
+    fn newton(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &mut Iterate,
+        fraction: f64,
+    ) -> Result<(), Failure> {
+        let (wanted, steps) = (self.wanted(fraction), self.options.max_newton_steps);
+        let mut newton = Newton::new(collocation, self.curvature);
+        let outcome = newton.iterate(collocation, x, wanted, steps, &mut self.stats);
+        self.curvature = newton.curvature;
+        outcome
+    }
+
+    /// A fraction of the tolerance, but no less than what rounding permits.
+    fn wanted(&self, fraction: f64) -> f64 {
+        (fraction * self.options.tolerance).max(100.0 * f64::EPSILON)
+    }
+
+    /// The error for a failure of Newton's method.
+    fn failed(
+        &self,
+        failure: Failure,
+        mut collocation: Collocation<'_>,
+        x: Iterate,
+        fraction: f64,
+    ) -> Error {
+        let rounding = match failure {
+            // Corrections no larger than that are rounding.
+            Failure::NoConvergence { correction } => {
+                Some(collocation.rounding(&x)).filter(|&rounding| rounding >= correction)
+            }
+            _ => None,
+        };
+        let quality = Quality::unknown(&collocation.mesh);
+        let best = self.solution(collocation.mesh, x, quality);
+        match rounding {
+            Some(rounding) => ill_conditioned(rounding, self.options.tolerance, best),
+            None => numerical(failure, best, self.wanted(fraction)),
+        }
     }
 
     /// The solution with its defects and conditions, from a converged iterate; an error where a
     /// value is not finite or a condition is violated.
     fn assess(
         &mut self,
-        mut collocation: Collocation<'_>,
+        collocation: &mut Collocation<'_>,
         x: Iterate,
     ) -> Result<Solution, Box<Error>> {
-        let (equations, stats) = (self.equations, &mut self.stats);
-        let mut residual = collocation.residual_buffer();
-        let defects = collocation
-            .residual(&x, &mut residual, stats)
-            .and_then(|()| defects(equations, &self.tableau, &collocation.mesh, &x, stats));
-        let scales = collocation.condition_scales(&x);
-        let mesh = collocation.mesh;
+        let mut conditions = vec![0.0; self.equations.condition_count()];
+        let defects = collocation.conditions(&x, &mut conditions).and_then(|()| {
+            let (equations, mesh) = (self.equations, &collocation.mesh);
+            defects(equations, &self.tableau, mesh, &x, &mut self.stats)
+        });
+        let mesh = collocation.mesh.clone();
         let defects = match defects {
             Ok(defects) => defects,
             Err(what) => {
@@ -175,7 +330,8 @@ impl Run<'_> {
                 return Err(numerical(Failure::NonFinite(what), best, 0.0).into());
             }
         };
-        let sizes = residual.conditions.iter().map(|r| r.abs());
+        let scales = collocation.condition_scales(&x);
+        let sizes = conditions.iter().map(|r| r.abs());
         let quality = Quality {
             defects,
             conditions: sizes.clone().fold(0.0, f64::max),
@@ -214,74 +370,5 @@ impl Run<'_> {
         solution.stats = self.stats;
         solution.stats.seconds = self.start.elapsed().as_secs_f64();
         solution
-    }
-}
-
-/// Refuses a next mesh that is too large or cannot be represented.
-pub(crate) fn check_mesh(finer: &Mesh, options: &Options, best: &Solution) -> Result<(), Error> {
-    let (needed, limit) = (intervals(finer), options.max_intervals);
-    if needed > limit {
-        return Err(Error::MeshLimit {
-            needed,
-            limit,
-            defect: best.defect(),
-            error: best.error_estimate().unwrap_or(f64::INFINITY),
-            tolerance: options.tolerance,
-            best: Box::new(best.clone()),
-        });
-    }
-    if is_representable(finer) {
-        Ok(())
-    } else {
-        Err(unresolved(options, best))
-    }
-}
-
-/// The error for a solution that no mesh seems to resolve.
-fn unresolved(options: &Options, best: &Solution) -> Error {
-    let (segment, s, length) = best.worst_interval();
-    Error::Unresolved {
-        segment,
-        s,
-        length,
-        meshes: best.stats.meshes,
-        defect: best.defect(),
-        error: best.error_estimate().unwrap_or(f64::INFINITY),
-        tolerance: options.tolerance,
-        best: Box::new(best.clone()),
-    }
-}
-
-/// The error for a failure of Newton's method.
-pub(crate) fn numerical(failure: Failure, best: Solution, tolerance: f64) -> Error {
-    let steps = best.stats.newton_steps;
-    let best = Box::new(best);
-    match failure {
-        Failure::NonFinite(NonFinite::Rhs {
-            segment,
-            s,
-            component,
-        }) => Error::NonFiniteRhs {
-            segment,
-            s,
-            component,
-            best,
-        },
-        Failure::NonFinite(NonFinite::Condition { index }) => Error::NonFiniteCondition {
-            condition: index,
-            best,
-        },
-        Failure::Singular(Singular::Node { segment, node }) => Error::SingularNode {
-            segment,
-            node,
-            best,
-        },
-        Failure::Singular(Singular::Ends) => Error::SingularConditions { best },
-        Failure::NoConvergence { correction } => Error::NoConvergence {
-            correction,
-            steps,
-            tolerance,
-            best,
-        },
     }
 }

@@ -4,7 +4,7 @@
 use super::carried::Carried;
 use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, Guess, Scales};
 use crate::{Drive, FrictionLaw};
-use bvp::{Control, Function, GlobalError, Options, Scheme, Solution, Stats};
+use bvp::{Function, GlobalError, Options, Scheme, Solution, Stats};
 
 /// A solve with at most so many Newton steps lets the next step of a homotopy be twice as long.
 const EASY: usize = 8;
@@ -144,7 +144,7 @@ impl<'a> Path<'a> {
         };
         let options = Options {
             tolerance,
-            scheme: Scheme::Gauss { stages },
+            scheme: Some(Scheme::Gauss { stages }),
             // Of a solve from the guess: a better first mesh saves Newton steps where one problem
             // is all there is.
             initial_intervals: if effort == Effort::Final { 40 } else { 16 },
@@ -160,7 +160,6 @@ impl<'a> Path<'a> {
                 Effort::Final => GlobalError::HalvedMesh,
                 _ => GlobalError::Skip,
             },
-            control: Control::Defect,
         };
         self.problems += 1;
         let outcome = bvp::solve(&problem, guess, &options);

@@ -56,7 +56,7 @@ pub(super) fn discretisation(tolerance: f64, epsilon: f64) -> bvp::Options {
     let stages = if epsilon > 0.0 { 6 } else { 5 };
     bvp::Options {
         tolerance,
-        scheme: Scheme::Gauss { stages },
+        scheme: Some(Scheme::Gauss { stages }),
         global_error: GlobalError::Skip,
         max_intervals: MAX_INTERVALS,
         ..bvp::Options::default()

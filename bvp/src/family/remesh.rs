@@ -9,7 +9,7 @@ use crate::mesh::{Mesh, halved, intervals, is_representable};
 use crate::newton::Failure;
 use crate::restriction::restrict;
 use crate::solution::Quality;
-use crate::solver::{check_mesh, numerical};
+use crate::failure::{check_mesh, numerical};
 use crate::{Equations, Error};
 use std::sync::Arc;
 
@@ -60,12 +60,12 @@ impl Family<'_> {
                 return Err(numerical(Failure::NonFinite(what), best, 0.0));
             }
         };
-        let largest = defects.iter().flatten().copied().fold(0.0, max_or_nan);
+        let largest = defects.relative.iter().flatten().copied().fold(0.0, max_or_nan);
         let resolved = largest <= tolerance;
-        if resolved && (self.settled < SETTLED || !is_wasteful(&defects, wanted, m)) {
+        if resolved && (self.settled < SETTLED || !is_wasteful(&defects.relative, wanted, m)) {
             return Ok(false);
         }
-        let next = next_mesh(mesh, &defects, wanted, m);
+        let next = next_mesh(mesh, &defects.relative, wanted, m);
         if resolved {
             // Gradation may have eaten what is to be gained; and the first mesh was fine enough for
             // its author.

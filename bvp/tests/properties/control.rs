@@ -2,7 +2,7 @@
 
 use crate::exact::{Exact, bratu, chirp, exponential, limit_cycle, swing, three_point, wavenumber};
 use crate::honesty::true_error;
-use bvp::{Control, GlobalError, Options, Solution, solve};
+use bvp::{GlobalError, Options, Solution, solve};
 use std::f64::consts::PI;
 
 fn solved(problem: &Exact, options: &Options) -> Solution {
@@ -32,7 +32,7 @@ fn chosen_for_the_error_the_error_is_near_the_tolerance_on_fewer_intervals() {
     for tolerance in [1e-3, 1e-6, 1e-9] {
         let by_error = Options::to(tolerance);
         let by_defect = Options {
-            control: Control::Defect,
+            global_error: GlobalError::Skip,
             ..by_error.clone()
         };
         let [mut few, mut many] = [0, 0];

@@ -212,7 +212,7 @@ fn corrections_that_are_only_rounding_do_not_stop_the_solver() {
     };
     let options = Options {
         tolerance: 1e-9,
-        scheme: Scheme::Gauss { stages: 6 },
+        scheme: Some(Scheme::Gauss { stages: 6 }),
         ..Options::default()
     };
     let solution = solve(&Spike, &guess, &options).unwrap();

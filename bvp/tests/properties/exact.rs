@@ -10,8 +10,8 @@ use std::f64::consts::PI;
 pub(crate) struct Exact {
     pub(crate) name: &'static str,
     pub(crate) equations: Box<dyn Equations>,
-    states: fn(f64, f64, &mut [f64]),
-    w: f64,
+    pub(crate) states: fn(f64, f64, &mut [f64]),
+    pub(crate) w: f64,
     pub(crate) parameters: Vec<f64>,
 }
 

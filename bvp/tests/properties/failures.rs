@@ -68,7 +68,7 @@ fn stages_that_have_no_solution() {
     let mut problem = growth();
     problem.rhs = |_, _, y, _, dy| dy[0] = 4.0 * y[0];
     let mut options = Options {
-        scheme: Scheme::Gauss { stages: 1 },
+        scheme: Some(Scheme::Gauss { stages: 1 }),
         tolerance: 1e-2,
         initial_intervals: 2,
         max_intervals: 2,
@@ -247,7 +247,7 @@ fn a_jump_inside_a_segment_is_located() {
     };
     // Points at both ends of every interval cannot overlook it.
     let options = Options {
-        scheme: Scheme::LobattoIIIA { stages: 3 },
+        scheme: Some(Scheme::LobattoIIIA { stages: 3 }),
         ..Options::default()
     };
     let error = numerical(&problem, &states(&[1.0]), &options);

@@ -160,7 +160,7 @@ pub(crate) fn correct(family: &mut Family<'_>, z: &mut [f64], fixed: usize) -> V
 pub(crate) fn small() -> Options {
     Options {
         tolerance: 1e-1,
-        scheme: Scheme::Gauss { stages: 2 },
+        scheme: Some(Scheme::Gauss { stages: 2 }),
         initial_intervals: 3,
         ..Options::default()
     }

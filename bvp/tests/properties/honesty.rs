@@ -46,7 +46,7 @@ fn the_true_error_is_within_the_tolerance_and_near_the_estimate() {
             for problem in &problems {
                 let options = Options {
                     tolerance,
-                    scheme,
+                    scheme: Some(scheme),
                     ..Options::default()
                 };
                 let solution = solve(&*problem.equations, problem, &options)

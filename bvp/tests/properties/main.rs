@@ -1,11 +1,16 @@
 //! What the solver promises, one property per file.
 
+mod classes;
+mod complex;
+mod conditioning;
 mod control;
+mod embedding;
 mod end_to_end;
 mod exact;
 mod failures;
 mod family;
 mod guesses;
+mod homotopy;
 mod honesty;
 mod jacobians;
 mod null_vectors;

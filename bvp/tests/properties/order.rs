@@ -5,7 +5,7 @@ use bvp::{GlobalError, Guess, Options, Scheme, Solution, solve};
 use std::f64::consts::PI;
 
 /// Interval counts to choose four from, about a tenth apart.
-const COUNTS: [usize; 34] = [
+pub(crate) const COUNTS: [usize; 34] = [
     4, 5, 6, 7, 8, 9, 10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 64, 72, 80,
     90, 100, 112, 128, 144, 160, 180, 200, 224,
 ];
@@ -18,10 +18,14 @@ const PLACES: usize = 12;
 /// The solution on `intervals` equal intervals per segment; `None` if they are too few to tell.
 /// The loosest tolerance and no room for another mesh keep the mesh; the second call polishes what
 /// so loose a tolerance leaves of Newton's iteration.
-fn on_uniform_mesh(problem: &Exact, scheme: Scheme, intervals: usize) -> Option<Solution> {
+pub(crate) fn on_uniform_mesh(
+    problem: &Exact,
+    scheme: Scheme,
+    intervals: usize,
+) -> Option<Solution> {
     let options = Options {
         tolerance: 1e-1,
-        scheme,
+        scheme: Some(scheme),
         initial_intervals: intervals,
         max_intervals: intervals * problem.equations.segments().len(),
         global_error: GlobalError::Skip,
@@ -36,7 +40,7 @@ fn on_uniform_mesh(problem: &Exact, scheme: Scheme, intervals: usize) -> Option<
 
 /// The errors at the nodes (with those of the parameters) and between them, root mean square: a
 /// maximum would jump with the place of the nodes.
-fn errors(problem: &Exact, solution: &Solution) -> [f64; 2] {
+pub(crate) fn errors(problem: &Exact, solution: &Solution) -> [f64; 2] {
     let (mut nodes, mut between) = (Vec::new(), Vec::new());
     for (segment, states) in solution.segments().iter().enumerate() {
         let mut exact = vec![0.0; states.states];
@@ -70,7 +74,7 @@ fn errors(problem: &Exact, solution: &Solution) -> [f64; 2] {
 
 /// The slope of ln error over ln h by least squares, over the four finest meshes whose errors are
 /// neither rounding nor too coarse.
-fn slope(measured: &[(usize, f64)]) -> f64 {
+pub(crate) fn slope(measured: &[(usize, f64)]) -> f64 {
     let useful: Vec<_> = measured
         .iter()
         .take_while(|(_, error)| *error > SMALLEST)

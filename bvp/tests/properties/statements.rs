@@ -83,7 +83,7 @@ fn options_out_of_range() {
         Scheme::LobattoIIIA { stages: 5 },
     ] {
         let options = Options {
-            scheme,
+            scheme: Some(scheme),
             ..Options::default()
         };
         let error = statement(&growth(), &guess, &options);

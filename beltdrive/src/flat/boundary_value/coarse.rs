@@ -26,7 +26,7 @@ pub(super) fn first_guess(problem: &Formulation) -> Result<Start, Failure> {
     let unzoned = problem.unzoned();
     let options = Options {
         tolerance: TOLERANCE,
-        scheme: Scheme::Gauss { stages: 2 },
+        scheme: Some(Scheme::Gauss { stages: 2 }),
         global_error: GlobalError::Skip,
         ..Options::default()
     };

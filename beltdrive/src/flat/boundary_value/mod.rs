@@ -80,7 +80,7 @@ impl BoundaryValue {
         let start = first_guess(&formulation)?.on_mesh(INTERVALS, tolerance);
         let options = Options {
             tolerance,
-            scheme,
+            scheme: Some(scheme),
             ..Options::default()
         };
         let solution = bvp::solve(&formulation, &start, &options)?;

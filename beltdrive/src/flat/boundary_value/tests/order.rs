@@ -25,7 +25,7 @@ fn on_uniform_mesh(
 ) -> Option<Solution> {
     let options = Options {
         tolerance: 1e-1,
-        scheme,
+        scheme: Some(scheme),
         initial_intervals: intervals,
         max_intervals: intervals * problem.segments().len(),
         global_error: GlobalError::Skip,

@@ -1,0 +1,165 @@
+//! States whose derivative is another state.
+//!
+//! An equation of order two or more becomes a system by y' = z, z' = …: rows of the Jacobian that are
+//! unit vectors. On an interval the slopes of such a state, K = h A K_source + known, follow from those
+//! of its source, so that only those of the other, *free* states are unknown: the system for the slopes
+//! is as small as if the equation were collocated in its own form, and its solution is the same. The
+//! stages see y⁽ᵈ⁾ through h^(d+1) A^(d+1), the Runge-Kutta-Nyström form of the scheme (Hairer, Nørsett &
+//! Wanner, *Solving Ordinary Differential Equations I*, section II.14).
+
+use crate::scheme::POWERS;
+
+/// What the rows of the Jacobian of a segment have shown so far of one component.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Row {
+    /// Nothing yet.
+    Unseen,
+    /// Unit vectors with the one in this column.
+    Unit(usize),
+    /// Something else.
+    Other,
+}
+
+/// Watches Jacobians for rows that are the same unit vector at all stages of a segment.
+#[derive(Clone, Debug)]
+pub(crate) struct Watch {
+    rows: Vec<Row>,
+}
+
+impl Watch {
+    /// For n states.
+    pub(crate) fn new(n: usize) -> Self {
+        Self {
+            rows: vec![Row::Unseen; n],
+        }
+    }
+
+    /// Forgets what was seen.
+    pub(crate) fn restart(&mut self) {
+        self.rows.fill(Row::Unseen);
+    }
+
+    /// Looks at the Jacobian of one stage, a row per state; a row may go on with derivatives with
+    /// respect to parameters.
+    #[inline(always)]
+    pub(crate) fn look(&mut self, jacobian: &[f64], n: usize, columns: usize) {
+        let rows = self.rows[..n].iter_mut();
+        for (seen, row) in rows.zip(jacobian.chunks_exact(columns)) {
+            let row = &row[..n];
+            *seen = match *seen {
+                Row::Other => continue,
+                Row::Unit(column) if is_unit(row, column) => continue,
+                Row::Unit(_) => Row::Other,
+                Row::Unseen => match row.iter().position(|&x| x == 1.0) {
+                    Some(column) if is_unit(row, column) => Row::Unit(column),
+                    _ => Row::Other,
+                },
+            };
+        }
+    }
+}
+
+/// Whether a row is the unit vector with the one in this column.
+#[inline(always)]
+fn is_unit(row: &[f64], column: usize) -> bool {
+    let others = row.iter().enumerate().filter(|(j, _)| *j != column);
+    row[column] == 1.0 && others.fold(true, |all, (_, &x)| all & (x == 0.0))
+}
+
+/// The free and the chained states of a segment.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Chains {
+    /// The free states.
+    pub(crate) free: Vec<usize>,
+    /// Each chained state and its source, a source before what is chained to it.
+    pub(crate) chained: Vec<(usize, usize)>,
+    /// For every state the place among the free ones of that which its chain ends at, and how many
+    /// links are between.
+    pub(crate) ends: Vec<(usize, usize)>,
+}
+
+impl Chains {
+    /// Brings the chains up to what a watch has seen; returns whether they are others now.
+    pub(crate) fn update(&mut self, watch: &Watch) -> bool {
+        let n = watch.rows.len();
+        let unchanged = self.ends.len() == n
+            && self.free.iter().all(|&c| watch.rows[c] == Row::Other)
+            && self.chained.iter().all(|&(c, source)| watch.rows[c] == Row::Unit(source));
+        if unchanged {
+            return false;
+        }
+        let old = std::mem::take(self);
+        let mut place = vec![None; n];
+        for c in 0..n {
+            if !matches!(watch.rows[c], Row::Unit(source) if source != c) {
+                place[c] = Some((self.free.len(), 0));
+                self.free.push(c);
+            }
+        }
+        // What is chained to a state with a place has one, too; where nothing is, chains are closed or
+        // too long, and are cut.
+        while let Some(cut) = place.iter().position(Option::is_none) {
+            let before = self.chained.len();
+            for c in 0..n {
+                if let (None, Row::Unit(source)) = (place[c], watch.rows[c])
+                    && let Some((end, links)) = place[source]
+                    && links + 1 < POWERS
+                {
+                    place[c] = Some((end, links + 1));
+                    self.chained.push((c, source));
+                }
+            }
+            if self.chained.len() == before {
+                place[cut] = Some((self.free.len(), 0));
+                self.free.push(cut);
+            }
+        }
+        self.ends = place.into_iter().flatten().collect();
+        *self != old
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chains(rows: &[Row]) -> Chains {
+        let watch = Watch {
+            rows: rows.to_vec(),
+        };
+        let mut chains = Chains::default();
+        assert!(chains.update(&watch));
+        assert!(!chains.update(&watch) || chains.free.len() + chains.chained.len() == rows.len());
+        chains
+    }
+
+    #[test]
+    fn equal_unit_rows_of_all_stages_are_seen() {
+        let mut watch = Watch::new(3);
+        watch.look(&[0.0, 1.0, 0.0, 9.0, 0.0, 0.0, 1.0, 9.0, 1.0, 1.0, 0.0, 9.0], 3, 4);
+        assert_eq!(watch.rows, [Row::Unit(1), Row::Unit(2), Row::Other]);
+        watch.look(&[0.0, 1.0, 0.0, 8.0, 0.0, 1.0, 0.0, 8.0, 1.0, 0.0, 0.0, 8.0], 3, 4);
+        assert_eq!(watch.rows, [Row::Unit(1), Row::Other, Row::Other]);
+    }
+
+    #[test]
+    fn chains_end_at_free_states() {
+        use Row::{Other, Unit};
+        // y₀' = y₁, y₁' = y₂, y₃' = y₁, and y₄' = y₄ is no chain.
+        let found = chains(&[Unit(1), Unit(2), Other, Unit(1), Unit(4)]);
+        assert_eq!(found.free, [2, 4]);
+        assert_eq!(found.chained, [(1, 2), (3, 1), (0, 1)]);
+        assert_eq!(found.ends, [(0, 2), (0, 1), (0, 0), (0, 2), (1, 0)]);
+    }
+
+    #[test]
+    fn closed_and_long_chains_are_cut() {
+        use Row::{Other, Unit};
+        let closed = chains(&[Unit(1), Unit(0)]);
+        assert_eq!((closed.free, closed.chained), (vec![0], vec![(1, 0)]));
+        let long: Vec<Row> = (1..8).map(Unit).chain([Other]).collect();
+        let long = chains(&long);
+        assert!(long.ends.iter().all(|(_, links)| *links < POWERS));
+        assert_eq!(long.free.len() + long.chained.len(), 8);
+    }
+}

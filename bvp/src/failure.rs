@@ -1,0 +1,87 @@
+//! The errors of solutions and iterates that are not good enough.
+
+use crate::almost_block_diagonal::Singular;
+use crate::iterate::NonFinite;
+use crate::mesh::{Mesh, intervals, is_representable};
+use crate::newton::Failure;
+use crate::rounding::UNIT_ROUNDOFF;
+use crate::{Error, Options, Solution};
+
+/// Refuses a next mesh that is too large or cannot be represented.
+pub(crate) fn check_mesh(finer: &Mesh, options: &Options, best: &Solution) -> Result<(), Error> {
+    let (needed, limit) = (intervals(finer), options.max_intervals);
+    if needed > limit {
+        return Err(Error::MeshLimit {
+            needed,
+            limit,
+            defect: best.defect(),
+            error: best.error_estimate().unwrap_or(f64::INFINITY),
+            tolerance: options.tolerance,
+            best: Box::new(best.clone()),
+        });
+    }
+    if is_representable(finer) {
+        Ok(())
+    } else {
+        Err(unresolved(options, best))
+    }
+}
+
+/// The error for a solution that no mesh seems to resolve.
+pub(crate) fn unresolved(options: &Options, best: &Solution) -> Error {
+    let (segment, s, length) = best.worst_interval();
+    Error::Unresolved {
+        segment,
+        s,
+        length,
+        meshes: best.stats.meshes,
+        defect: best.defect(),
+        error: best.error_estimate().unwrap_or(f64::INFINITY),
+        tolerance: options.tolerance,
+        best: Box::new(best.clone()),
+    }
+}
+
+/// The error for a failure of Newton's method.
+pub(crate) fn numerical(failure: Failure, best: Solution, tolerance: f64) -> Error {
+    let steps = best.stats.newton_steps;
+    let best = Box::new(best);
+    match failure {
+        Failure::NonFinite(NonFinite::Rhs {
+            segment,
+            s,
+            component,
+        }) => Error::NonFiniteRhs {
+            segment,
+            s,
+            component,
+            best,
+        },
+        Failure::NonFinite(NonFinite::Condition { index }) => Error::NonFiniteCondition {
+            condition: index,
+            best,
+        },
+        Failure::Singular(Singular::Node { segment, node }) => Error::SingularNode {
+            segment,
+            node,
+            best,
+        },
+        Failure::Singular(Singular::Ends) => Error::SingularConditions { best },
+        Failure::NoConvergence { correction } => Error::NoConvergence {
+            correction,
+            steps,
+            tolerance,
+            best,
+        },
+    }
+}
+
+/// The error for a solution that rounding hides.
+pub(crate) fn ill_conditioned(rounding: f64, tolerance: f64, best: Solution) -> Error {
+    Error::IllConditioned {
+        rounding,
+        condition: rounding / UNIT_ROUNDOFF,
+        tolerance,
+        best: Box::new(best),
+    }
+}

@@ -1,0 +1,158 @@
+//! Guesses from which Newton's method does not converge by any mesh.
+
+use crate::exact::bratu;
+use crate::failures::{growth, states};
+use bvp::{
+    Constant, Ends, Equations, Error, FiniteDifferences, Guess, Options, Problem, Real, Segment,
+    Solution, solve,
+};
+
+fn unaided(equations: &dyn Equations, guess: &dyn Guess) -> Result<Solution, Error> {
+    let options = Options {
+        retries: 0,
+        ..Options::default()
+    };
+    solve(equations, guess, &options)
+}
+
+/// Bratu's problem on two segments that meet at ½, its λ unknown, its middle value given.
+struct Joined;
+
+/// The middle value for λ = 1 on the lower branch.
+const MIDDLE: f64 = 0.140_539_214_400_472;
+
+impl Problem for Joined {
+    fn segments(&self) -> &[Segment] {
+        const { &[Segment::on(2, 0.0, 0.5), Segment::on(2, 0.5, 1.0)] }
+    }
+
+    fn parameters(&self) -> usize {
+        1
+    }
+
+    fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
+        dy[0] = y[1];
+        dy[1] = -p[0] * y[0].exp();
+    }
+
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+        let (before, after) = (at.end(0), at.start(1));
+        r[0] = at.start(0)[0];
+        r[1] = before[0] - after[0];
+        r[2] = before[1] - after[1];
+        r[3] = after[0] - MIDDLE;
+        r[4] = at.end(1)[0];
+    }
+}
+
+#[test]
+fn a_guess_far_above_every_solution() {
+    let problem = bratu(1.5);
+    let guess = states(&[30.0, 0.0]);
+    let error = unaided(&*problem.equations, &guess).unwrap_err();
+    assert!(matches!(error, Error::NoConvergence { .. }), "{error}");
+    let solution = solve(&*problem.equations, &guess, &Options::default()).unwrap();
+    assert!(solution.error_estimate().unwrap() <= 1e-6);
+    let (mut y, mut exact) = ([0.0; 2], [0.0; 2]);
+    for i in 0..=20 {
+        let s = f64::from(i) / 20.0;
+        solution.state(0, s, &mut y);
+        problem.state(0, s, &mut exact);
+        assert!((y[0] - exact[0]).abs() < 1e-6 && (y[1] - exact[1]).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn several_segments_and_a_parameter() {
+    let guess = Constant {
+        states: vec![vec![30.0, 0.0]; 2],
+        parameters: vec![3.0],
+    };
+    assert!(unaided(&Joined, &guess).is_err());
+    let solution = solve(&Joined, &guess, &Options::default()).unwrap();
+    assert!((solution.parameters()[0] - 1.0).abs() < 1e-6);
+    assert!((solution.end(0)[1]).abs() < 1e-6);
+}
+
+#[test]
+fn a_guess_where_the_right_hand_side_is_not_finite() {
+    // y' = 1/y, y(0) = 1, guessed zero: y = √(1 + 2 s).
+    let mut problem = growth();
+    problem.rhs = |_, _, y, _, dy| dy[0] = 1.0 / y[0];
+    let error = unaided(&problem, &states(&[0.0])).unwrap_err();
+    assert!(matches!(error, Error::NonFiniteRhs { .. }), "{error}");
+    let solution = solve(&problem, &states(&[0.0]), &Options::default()).unwrap();
+    assert!((solution.end(0)[0] - 3f64.sqrt()).abs() < 1e-6);
+}
+
+/// Evaluations counted by the right-hand side itself.
+#[test]
+fn the_cost_of_a_failure_counts_every_evaluation() {
+    let count = std::cell::Cell::new(0usize);
+    let bratu = FiniteDifferences {
+        segments: vec![Segment::new(2)],
+        parameters: 0,
+        condition_count: 2,
+        rhs: |_: usize, _: f64, y: &[f64], _: &[f64], dy: &mut [f64]| {
+            dy[0] = y[1];
+            dy[1] = -4.0 * y[0].exp();
+        },
+        conditions: |at: Ends<'_, f64>, _: &[f64], r: &mut [f64]| {
+            r[0] = at.start(0)[0];
+            r[1] = at.end(0)[0];
+        },
+    };
+    let counted = Counted {
+        equations: &bratu,
+        count: &count,
+    };
+    let error = solve(&counted, &states(&[0.0; 2]), &Options::default()).unwrap_err();
+    let stats = error.best().unwrap().stats();
+    assert_eq!(stats.rhs_evaluations, count.get());
+}
+
+/// Equations that count the evaluations of their right-hand side.
+struct Counted<'a> {
+    equations: &'a dyn Equations,
+    count: &'a std::cell::Cell<usize>,
+}
+
+impl Equations for Counted<'_> {
+    fn segments(&self) -> &[Segment] {
+        self.equations.segments()
+    }
+
+    fn parameters(&self) -> usize {
+        self.equations.parameters()
+    }
+
+    fn condition_count(&self) -> usize {
+        self.equations.condition_count()
+    }
+
+    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        self.count.set(self.count.get() + 1);
+        self.equations.rhs(segment, s, y, p, dy);
+    }
+
+    fn rhs_jacobian(
+        &self,
+        segment: usize,
+        s: f64,
+        y: &[f64],
+        p: &[f64],
+        dy: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        self.count.set(self.count.get() + 1);
+        self.equations.rhs_jacobian(segment, s, y, p, dy, jacobian);
+    }
+
+    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+        self.equations.conditions(at, p, r);
+    }
+
+    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
+        self.equations.conditions_jacobian(ends, p, r, jacobian);
+    }
+}
