@@ -29,7 +29,9 @@
 //! Comput. 14 (1993) 231-238; the method is that of S. J. Wright, "Stable parallel algorithms for
 //! two-point boundary value problems", SIAM J. Sci. Stat. Comput. 13 (1992) 742-764.
 
+use crate::Segment;
 use crate::dense::{add_scaled, dot};
+use crate::dependence::Dependence;
 use crate::end_system::EndSystem;
 use crate::iterate::Iterate;
 use crate::reflections::{Blocks, MANY, eliminate};
@@ -310,6 +312,12 @@ impl AlmostBlockDiagonal {
         }
         ends[row * size..].copy_from_slice(conditions);
         self.ends.factor()
+    }
+
+    /// What a matrix whose end system proved singular leaves open.
+    pub(crate) fn dependence(&self, segments: &[Segment]) -> Dependence {
+        let links = segments.iter().map(|segment| segment.states).sum();
+        self.ends.dependence(links, segments)
     }
 
     /// Solves with the factored matrix. On entry the slot of node i + 1 of `x` holds gᵢ and

@@ -84,7 +84,10 @@ impl Chains {
         let n = watch.rows.len();
         let unchanged = self.ends.len() == n
             && self.free.iter().all(|&c| watch.rows[c] == Row::Other)
-            && self.chained.iter().all(|&(c, source)| watch.rows[c] == Row::Unit(source));
+            && self
+                .chained
+                .iter()
+                .all(|&(c, source)| watch.rows[c] == Row::Unit(source));
         if unchanged {
             return false;
         }
@@ -136,9 +139,17 @@ mod tests {
     #[test]
     fn equal_unit_rows_of_all_stages_are_seen() {
         let mut watch = Watch::new(3);
-        watch.look(&[0.0, 1.0, 0.0, 9.0, 0.0, 0.0, 1.0, 9.0, 1.0, 1.0, 0.0, 9.0], 3, 4);
+        watch.look(
+            &[0.0, 1.0, 0.0, 9.0, 0.0, 0.0, 1.0, 9.0, 1.0, 1.0, 0.0, 9.0],
+            3,
+            4,
+        );
         assert_eq!(watch.rows, [Row::Unit(1), Row::Unit(2), Row::Other]);
-        watch.look(&[0.0, 1.0, 0.0, 8.0, 0.0, 1.0, 0.0, 8.0, 1.0, 0.0, 0.0, 8.0], 3, 4);
+        watch.look(
+            &[0.0, 1.0, 0.0, 8.0, 0.0, 1.0, 0.0, 8.0, 1.0, 0.0, 0.0, 8.0],
+            3,
+            4,
+        );
         assert_eq!(watch.rows, [Row::Unit(1), Row::Other, Row::Other]);
     }
 

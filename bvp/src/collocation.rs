@@ -16,6 +16,7 @@ use crate::almost_block_diagonal::{AlmostBlockDiagonal, Singular};
 use crate::chains::Watch;
 use crate::condensation::Condensation;
 use crate::dense::{SingularRow, add_scaled, all_finite};
+use crate::dependence::Dependence;
 use crate::held::Held;
 use crate::iterate::{Interval, Iterate, NonFinite, Residual, SegmentIterate};
 use crate::mesh::Mesh;
@@ -268,6 +269,11 @@ impl<'a> Collocation<'a> {
             interval.continuity(t, &mut residual.equations[index]);
         }
         Ok(())
+    }
+
+    /// What the conditions leave open where the last linearisation proved singular at the ends.
+    pub(crate) fn dependence(&self) -> Dependence {
+        self.matrix.dependence(self.equations.segments())
     }
 
     /// The Newton correction −J⁻¹ residual with the Jacobian of the last linearisation.

@@ -133,7 +133,11 @@ impl Condensation {
         rows.fill(0.0);
         for (row, &(end, links)) in rows.chunks_exact_mut(free_size).zip(&chains.ends) {
             let factor = h.powi(links as i32 + 1);
-            add_scaled(&mut row[end * m..][..m], factor, &t.weights[links * m..][..m]);
+            add_scaled(
+                &mut row[end * m..][..m],
+                factor,
+                &t.weights[links * m..][..m],
+            );
         }
         if self.workspace.is_some() {
             large::lu_solve_transposed(lu, free_size, pivots, rows);
@@ -266,7 +270,9 @@ fn expand(
     adjoint: &mut [f64],
 ) {
     let free_size = chains.free.len() * m;
-    let pairs = adjoint.chunks_exact_mut(m * n).zip(rows.chunks_exact(free_size));
+    let pairs = adjoint
+        .chunks_exact_mut(m * n)
+        .zip(rows.chunks_exact(free_size));
     for (row, (adjoint, free)) in pairs.enumerate() {
         for (x, &v) in free.chunks_exact(m).zip(&chains.free) {
             for (j, x) in x.iter().enumerate() {
@@ -301,14 +307,7 @@ fn expand(
 
 /// J δy + F δp − r into `stages`.
 #[inline(always)]
-fn apply(
-    jacobians: &[f64],
-    columns: usize,
-    dy: &[f64],
-    dp: &[f64],
-    r: &[f64],
-    stages: &mut [f64],
-) {
+fn apply(jacobians: &[f64], columns: usize, dy: &[f64], dp: &[f64], r: &[f64], stages: &mut [f64]) {
     let rows = stages.iter_mut().zip(jacobians.chunks_exact(columns));
     for ((slope, row), r) in rows.zip(r) {
         let terms = row.iter().zip(dy.iter().chain(dp));
@@ -376,7 +375,10 @@ fn scatter_free(
         let (end, links) = chains.ends[c];
         let factor = h.powi(links as i32);
         let slopes = &free[end * m..][..m];
-        for (j, a) in t.powers[(links - 1) * m * m..][..m * m].chunks_exact(m).enumerate() {
+        for (j, a) in t.powers[(links - 1) * m * m..][..m * m]
+            .chunks_exact(m)
+            .enumerate()
+        {
             stages[j * n + c] += factor * dot(a, slopes);
         }
     }

@@ -16,10 +16,10 @@
 
 use crate::collocation::Collocation;
 use crate::dense::max_or_nan;
+use crate::failure::numerical;
 use crate::held::Held;
 use crate::iterate::{Iterate, Residual, SegmentIterate};
 use crate::newton::Failure;
-use crate::failure::numerical;
 use crate::statement::{check_statement, first_mesh};
 use crate::{Equations, Error, Options, Segment, Solution, Stats};
 use std::sync::Arc;

@@ -26,10 +26,7 @@ pub(crate) fn lu_factor(a: &mut [f64], n: usize, pivots: &mut [usize]) -> Result
 }
 
 /// [`lu_factor`] of a matrix of few rows, one column after the other.
-fn lu_factor_small<const N: usize>(
-    a: &mut [f64],
-    pivots: &mut [usize],
-) -> Result<(), SingularRow> {
+fn lu_factor_small<const N: usize>(a: &mut [f64], pivots: &mut [usize]) -> Result<(), SingularRow> {
     let (a, _) = a.as_chunks_mut::<N>();
     let a: &mut [[f64; N]; N] = a.try_into().expect("n rows");
     let pivots: &mut [usize; N] = pivots.try_into().expect("n pivots");
@@ -62,11 +59,7 @@ fn lu_factor_small<const N: usize>(
 }
 
 /// [`lu_factor`] in panels of [`PANEL`] columns (Golub & Van Loan, section 3.2.11).
-fn lu_factor_in_panels(
-    a: &mut [f64],
-    n: usize,
-    pivots: &mut [usize],
-) -> Result<(), SingularRow> {
+fn lu_factor_in_panels(a: &mut [f64], n: usize, pivots: &mut [usize]) -> Result<(), SingularRow> {
     for first in (0..n).step_by(PANEL) {
         let last = (first + PANEL).min(n);
         for column in first..last {

@@ -1,7 +1,9 @@
 //! The dense system of all ends and parameters that remains when the segments are eliminated.
 
+use crate::Segment;
 use crate::almost_block_diagonal::Singular;
 use crate::dense::{SingularRow, lu_factor, lu_solve};
+use crate::dependence::Dependence;
 use crate::lq::{lq_factor, lq_negative, lq_null_vector, lq_solve};
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{MatMut, MatRef};
@@ -16,9 +18,10 @@ const LARGE: usize = 64;
 pub(crate) struct EndSystem {
     /// Unknowns.
     size: usize,
-    /// The matrix, row-major; its factors once it is factored, unless it is square and
-    /// large.
+    /// The matrix, row-major; equilibrated once it is factored.
     matrix: Vec<f64>,
+    /// Its factors, unless it is square and large.
+    factors: Vec<f64>,
     /// Row exchanges of a square matrix.
     pivots: Vec<usize>,
     /// Factors of the reflections of a matrix with fewer rows.
@@ -37,6 +40,7 @@ impl EndSystem {
         Self {
             size,
             matrix: vec![0.0; equations * size],
+            factors: vec![],
             pivots: vec![0; if square { size } else { 0 }],
             tau: vec![0.0; if square { 0 } else { equations }],
             large: None,
@@ -55,14 +59,17 @@ impl EndSystem {
     pub(crate) fn factor(&mut self) -> Result<(), Singular> {
         let size = self.size;
         self.equilibrate()?;
+        if self.pivots.is_empty() || size < LARGE {
+            self.factors.clone_from(&self.matrix);
+        }
         if self.pivots.is_empty() {
-            lq_factor(&mut self.matrix, size, &mut self.tau);
+            lq_factor(&mut self.factors, size, &mut self.tau);
             return Ok(());
         }
         // In an equilibrated matrix a pivot at rounding level is a zero.
         let negligible = size as f64 * f64::EPSILON;
         if size < LARGE {
-            lu_factor(&mut self.matrix, size, &mut self.pivots)
+            lu_factor(&mut self.factors, size, &mut self.pivots)
                 .map_err(|SingularRow(_)| Singular::Ends)?;
         } else {
             let matrix = MatRef::from_row_major_slice(&self.matrix, size, size);
@@ -79,9 +86,15 @@ impl EndSystem {
     pub(crate) fn smallest_pivot(&self) -> f64 {
         let pivot = |i: usize| match &self.large {
             Some(factors) => factors.U()[(i, i)].abs(),
-            None => 1.0 / self.matrix[i * self.size + i].abs(),
+            None => 1.0 / self.factors[i * self.size + i].abs(),
         };
         (0..self.size).map(pivot).fold(f64::INFINITY, f64::min)
+    }
+
+    /// What a square matrix that proved singular leaves open; its conditions stand from row
+    /// `first` on.
+    pub(crate) fn dependence(&self, first: usize, segments: &[Segment]) -> Dependence {
+        Dependence::of(&self.matrix, self.size, first, segments)
     }
 
     /// Scales rows, then columns, to largest entries of one; what is zero stays so.
@@ -116,8 +129,8 @@ impl EndSystem {
             Some(factors) => {
                 factors.solve_in_place(MatMut::from_column_major_slice_mut(x, self.size, 1));
             }
-            None if self.pivots.is_empty() => lq_solve(&self.matrix, self.size, &self.tau, x),
-            None => lu_solve(&self.matrix, self.size, &self.pivots, x),
+            None if self.pivots.is_empty() => lq_solve(&self.factors, self.size, &self.tau, x),
+            None => lu_solve(&self.factors, self.size, &self.pivots, x),
         }
         self.unscale(x);
     }
@@ -125,9 +138,9 @@ impl EndSystem {
     /// A null vector of a system with an equation fewer than unknowns. Its direction is known up to
     /// one sign for all systems of a size: det \[E; xᵀ\] is positive if the number returned is even.
     pub(crate) fn null_vector(&self, x: &mut [f64]) -> usize {
-        lq_null_vector(&self.matrix, self.size, &self.tau, x);
+        lq_null_vector(&self.factors, self.size, &self.tau, x);
         self.unscale(x);
-        lq_negative(&self.matrix, self.size)
+        lq_negative(&self.factors, self.size)
     }
 
     /// Undoes the scaling of the columns.

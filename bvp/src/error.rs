@@ -1,6 +1,6 @@
 //! What can go wrong.
 
-use crate::{Scheme, Solution};
+use crate::{Scheme, Solution, Unknown};
 
 /// Why a problem was not solved.
 ///
@@ -134,7 +134,7 @@ pub enum Error {
     /// A right-hand side or its derivative is not finite at the iterate, and no shorter step
     /// avoids it.
     #[error(
-        "right-hand side of component {component} is not finite in segment {segment} at s = {s}"
+        "right-hand side of component {component} is not finite in segment {segment} at s = {s}; write every component and keep the guess inside its domain"
     )]
     NonFiniteRhs {
         /// Index of the segment.
@@ -147,7 +147,9 @@ pub enum Error {
         best: Box<Solution>,
     },
     /// A condition is not finite (or was never written) at the iterate.
-    #[error("condition {condition} is not finite or was not written")]
+    #[error(
+        "condition {condition} is not finite or was not written; keep the guess inside its domain"
+    )]
     NonFiniteCondition {
         /// Index of the condition.
         condition: usize,
@@ -155,28 +157,43 @@ pub enum Error {
         best: Box<Solution>,
     },
     /// The Newton matrix is singular inside a segment.
-    #[error("singular Newton matrix in segment {segment} at node {node}")]
+    #[error(
+        "singular Newton matrix in segment {segment} at node {node}, s = {s}; start on other intervals"
+    )]
     SingularNode {
         /// Index of the segment.
         segment: usize,
         /// Index of the mesh node.
         node: usize,
+        /// Where it is.
+        s: f64,
         /// The iterate.
         best: Box<Solution>,
     },
     /// The conditions do not determine the solution near the iterate.
-    #[error("singular Newton matrix: the conditions do not determine the solution locally")]
+    #[error(
+        "singular Newton matrix: the conditions do not determine the solution locally{}",
+        undetermined(.conditions, .free.as_ref())
+    )]
     SingularConditions {
+        /// Indices of the conditions that depend on each other, given the differential equations;
+        /// none if that cannot be told.
+        conditions: Vec<usize>,
+        /// The unknown at the ends that is freest, if that can be told.
+        free: Option<Unknown>,
         /// The iterate.
         best: Box<Solution>,
     },
     /// Newton's method did not converge.
     #[error(
-        "newton: relative correction {correction:.1e} after {steps} steps, tolerance {tolerance:.1e}"
+        "newton: relative correction {correction:.1e}{} after {steps} steps, tolerance {tolerance:.1e}; try a better guess, or solve_embedded from an easier problem",
+        of(.largest.as_ref())
     )]
     NoConvergence {
         /// Size of the last correction relative to 1 + |y|.
         correction: f64,
+        /// The unknown with that correction, if it is known.
+        largest: Option<Unknown>,
         /// Newton steps in all.
         steps: usize,
         /// Size asked for.
@@ -186,7 +203,8 @@ pub enum Error {
     },
     /// The mesh limit is reached with too large an error.
     #[error(
-        "mesh limit: {needed} intervals needed, {limit} allowed; defect {defect:.1e}, estimated error {error:.1e}, tolerance {tolerance:.1e}"
+        "mesh limit: {needed} intervals needed, {limit} allowed; defect {defect:.1e}, estimated error {}, tolerance {tolerance:.1e}; worst in segment {segment} near s = {s}; raise max_intervals or the tolerance",
+        estimate(*.error)
     )]
     MeshLimit {
         /// Intervals that the next mesh would have.
@@ -199,6 +217,10 @@ pub enum Error {
         error: f64,
         /// Tolerance asked for.
         tolerance: f64,
+        /// Index of the segment with the largest defect.
+        segment: usize,
+        /// Left end of the interval with the largest defect.
+        s: f64,
         /// The solution on the last mesh.
         best: Box<Solution>,
     },
@@ -206,7 +228,8 @@ pub enum Error {
     /// of floating-point numbers: the right-hand side is probably not smooth there. Put a junction
     /// between two segments at a kink or jump.
     #[error(
-        "defect {defect:.1e}, estimated error {error:.1e}, tolerance {tolerance:.1e} after {meshes} meshes; worst in segment {segment} near s = {s}, interval length {length:.1e}"
+        "defect {defect:.1e}, estimated error {}, tolerance {tolerance:.1e} after {meshes} meshes; worst in segment {segment} near s = {s}, interval length {length:.1e}; put a junction between two segments at a kink or jump",
+        estimate(*.error)
     )]
     Unresolved {
         /// Index of the segment with the largest defect.
@@ -227,7 +250,9 @@ pub enum Error {
         best: Box<Solution>,
     },
     /// The conditions hold less accurately than the tolerance asks.
-    #[error("condition {condition} violated: residual {residual:.1e}, tolerance {tolerance:.1e}")]
+    #[error(
+        "condition {condition} violated: residual {residual:.1e}, tolerance {tolerance:.1e}; compare its derivatives with check_jacobians"
+    )]
     ConditionViolated {
         /// Index of the condition.
         condition: usize,
@@ -284,6 +309,43 @@ fn hint(conditions: usize, unknowns: usize) -> &'static str {
     }
 }
 
+/// An error estimate that may not be known.
+fn estimate(error: f64) -> String {
+    if error.is_finite() {
+        format!("{error:.1e}")
+    } else {
+        "not known".to_owned()
+    }
+}
+
+/// Whose correction it is.
+fn of(unknown: Option<&Unknown>) -> String {
+    unknown.map_or_else(String::new, |unknown| format!(" of {unknown}"))
+}
+
+/// At most so many conditions are named.
+const NAMED: usize = 4;
+
+/// Which conditions fail to determine what.
+fn undetermined(conditions: &[usize], free: Option<&Unknown>) -> String {
+    let named: Vec<_> = conditions
+        .iter()
+        .take(NAMED)
+        .map(usize::to_string)
+        .collect();
+    let named = named.join(", ");
+    let dependent = match conditions.len() {
+        0 => String::new(),
+        1 => format!("; replace condition {named}, which follows from the others"),
+        2..=NAMED => format!("; replace one of the conditions {named}, which depend on each other"),
+        _ => format!("; replace one of the conditions {named}, …, which depend on each other"),
+    };
+    match free {
+        Some(unknown) => format!("; {unknown} is free{dependent}"),
+        None => dependent,
+    }
+}
+
 impl Error {
     /// Whether it is a failure of Newton's method.
     pub(crate) fn is_of_newton(&self) -> bool {
@@ -303,7 +365,7 @@ impl Error {
             Self::NonFiniteRhs { best, .. }
             | Self::NonFiniteCondition { best, .. }
             | Self::SingularNode { best, .. }
-            | Self::SingularConditions { best }
+            | Self::SingularConditions { best, .. }
             | Self::NoConvergence { best, .. }
             | Self::MeshLimit { best, .. }
             | Self::Unresolved { best, .. }

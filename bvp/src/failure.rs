@@ -1,6 +1,6 @@
 //! The errors of solutions and iterates that are not good enough.
 
-use crate::almost_block_diagonal::Singular;
+use crate::dependence::Dependence;
 use crate::iterate::NonFinite;
 use crate::mesh::{Mesh, intervals, is_representable};
 use crate::newton::Failure;
@@ -11,12 +11,15 @@ use crate::{Error, Options, Solution};
 pub(crate) fn check_mesh(finer: &Mesh, options: &Options, best: &Solution) -> Result<(), Error> {
     let (needed, limit) = (intervals(finer), options.max_intervals);
     if needed > limit {
+        let (segment, s, _) = best.worst_interval();
         return Err(Error::MeshLimit {
             needed,
             limit,
             defect: best.defect(),
             error: best.error_estimate().unwrap_or(f64::INFINITY),
             tolerance: options.tolerance,
+            segment,
+            s,
             best: Box::new(best.clone()),
         });
     }
@@ -61,14 +64,23 @@ pub(crate) fn numerical(failure: Failure, best: Solution, tolerance: f64) -> Err
             condition: index,
             best,
         },
-        Failure::Singular(Singular::Node { segment, node }) => Error::SingularNode {
+        Failure::Node { segment, node } => Error::SingularNode {
             segment,
             node,
+            s: best.mesh[segment][node],
             best,
         },
-        Failure::Singular(Singular::Ends) => Error::SingularConditions { best },
-        Failure::NoConvergence { correction } => Error::NoConvergence {
+        Failure::Ends(Dependence { conditions, free }) => Error::SingularConditions {
+            conditions,
+            free,
+            best,
+        },
+        Failure::NoConvergence {
             correction,
+            largest,
+        } => Error::NoConvergence {
+            correction,
+            largest,
             steps,
             tolerance,
             best,

@@ -5,12 +5,11 @@ mod remesh;
 
 use crate::collocation::{Collocation, gather_ends};
 use crate::defect::defects;
-use crate::dense::max_or_nan;
+use crate::failure::numerical;
 use crate::held::Held;
 use crate::iterate::{Iterate, Residual};
 use crate::newton::Failure;
 use crate::solution::Quality;
-use crate::failure::numerical;
 use crate::solver::solve;
 use crate::statement::check_statement;
 use crate::{Ends, Equations, Error, Guess, Options, Solution, Stats};
@@ -235,16 +234,14 @@ impl<'a> Family<'a> {
         gather_ends(segments, &x, &mut ends);
         let mut conditions = vec![f64::NAN; equations.condition_count()];
         equations.conditions(Ends::new(segments, &ends), &x.p, &mut conditions);
-        let largest = conditions.iter().fold(0.0, |m, r| max_or_nan(m, r.abs()));
         let unknown = Quality::unknown(mesh);
         let quality = Quality {
             defects: defects(equations, tableau, mesh, &x, &mut self.stats.clone())
                 .unwrap_or(unknown.defects),
-            conditions: if largest.is_nan() {
-                f64::INFINITY
-            } else {
-                largest
-            },
+            conditions: conditions
+                .iter()
+                .map(|r| if r.is_nan() { f64::INFINITY } else { r.abs() })
+                .collect(),
             errors: None,
         };
         self.wrap(x, quality)

@@ -21,6 +21,11 @@ impl GlobalErrors {
     }
 }
 
+/// The share of the error that is taken to be left is so many times the one expected, because some
+/// errors shrink less than the largest defect does. Over 12 000 random problems the error of some state
+/// exceeds ten times its estimate in 71 cases, and in 214 without.
+const CAUTION: f64 = 2.0;
+
 /// The global error of the solution `fine` on the mesh of `coarse` with every interval halved, from
 /// how it differs from `coarse`, which on that mesh is `start`. `None` if it is not finite.
 ///
@@ -39,20 +44,23 @@ pub(crate) fn global_errors(
     let t = &*fine.tableau;
     let least = 0.5f64.powi(i32::try_from(t.scheme.dense_order()).ok()?);
     let [before, after] = [coarse, fine].map(|solution| solution.quality.defects.largest_local());
-    let left = (after / before).clamp(least, 0.5);
+    let left = (CAUTION * after / before).clamp(CAUTION * least, 0.5);
     // Of nothing nothing is left.
     let left = if before == 0.0 { least } else { left };
     let share = left / (1.0 - left);
     let mut states = Vec::with_capacity(fine.segments.len());
     for (index, segment) in fine.segments.iter().enumerate() {
         let n = segment.states;
-        let differences = specialise!(n in [1, 2, 3, 4, 5, 6] => differences(fine, start, index, n));
+        let differences =
+            specialise!(n in [1, 2, 3, 4, 5, 6] => differences(fine, start, index, n));
         states.push(differences.iter().map(|d| share * d).collect());
     }
     let parameters = start.p.iter().zip(&fine.x.p);
     let errors = GlobalErrors {
         states,
-        parameters: parameters.map(|(&x, &other)| share * relative(x, other)).collect(),
+        parameters: parameters
+            .map(|(&x, &other)| share * relative(x, other))
+            .collect(),
     };
     errors.largest().is_finite().then_some(errors)
 }

@@ -7,11 +7,12 @@
 //! for Nonlinear Problems* (Springer 2004), algorithms NLEQ-ERR (section 3.3.3) and QNERR; a damped
 //! step that could have been longer is not repeated.
 
-use crate::Stats;
 use crate::almost_block_diagonal::Singular;
 use crate::collocation::{Collocation, LinearisationError};
 use crate::dense::max_or_nan;
+use crate::dependence::Dependence;
 use crate::iterate::{Iterate, NonFinite, Residual};
+use crate::{Stats, Unknown};
 
 /// Simplified corrections that shrink at least this much per step keep the Jacobian: three such
 /// steps gain more than one new linearisation and cost less.
@@ -32,13 +33,20 @@ const LARGEST_ROUNDING: f64 = 1e-8;
 const PREDICTION_SAFETY: f64 = 10.0;
 
 /// Why the iteration stopped short.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Failure {
     NonFinite(NonFinite),
-    Singular(Singular),
-    /// Steps or damping exhausted; the size of the last correction.
+    /// The states of this node are not determined by their neighbours.
+    Node {
+        segment: usize,
+        node: usize,
+    },
+    /// The conditions do not determine the ends and the parameters.
+    Ends(Dependence),
+    /// Steps or damping exhausted; the size of the last correction and where it is largest.
     NoConvergence {
         correction: f64,
+        largest: Option<Unknown>,
     },
 }
 
@@ -46,7 +54,10 @@ impl From<LinearisationError> for Failure {
     fn from(error: LinearisationError) -> Self {
         match error {
             LinearisationError::NonFinite(what) => Self::NonFinite(what),
-            LinearisationError::Singular(place) => Self::Singular(place),
+            LinearisationError::Singular(Singular::Node { segment, node }) => {
+                Self::Node { segment, node }
+            }
+            LinearisationError::Singular(Singular::Ends) => Self::Ends(Dependence::default()),
         }
     }
 }
@@ -127,7 +138,7 @@ impl Newton {
         let rounding = (ROUNDING_FACTOR * tolerance).min(LARGEST_ROUNDING);
         for _ in 0..max_steps {
             if !size.largest.is_finite() {
-                return Err(Failure::Singular(Singular::Ends));
+                return Err(Failure::Ends(collocation.dependence()));
             }
             let predicted = 0.5 * self.curvature * size.mean * size.largest;
             if size.largest <= tolerance || fresh && PREDICTION_SAFETY * predicted <= tolerance {
@@ -180,9 +191,15 @@ impl Newton {
         if size.largest <= tolerance {
             return Ok(());
         }
-        Err(Failure::NoConvergence {
+        Err(self.no_convergence(collocation, x, size))
+    }
+
+    /// The failure of corrections of this size at `x`.
+    fn no_convergence(&self, collocation: &Collocation<'_>, x: &Iterate, size: Norm) -> Failure {
+        Failure::NoConvergence {
             correction: size.largest,
-        })
+            largest: Unknown::most_corrected(&collocation.mesh, x, &self.delta),
+        }
     }
 
     /// Linearises at `x` and leaves the Newton correction in `delta`.
@@ -192,7 +209,11 @@ impl Newton {
         x: &Iterate,
         stats: &mut Stats,
     ) -> Result<(), Failure> {
-        collocation.linearise(x, &mut self.residual, stats)?;
+        let linearised = collocation.linearise(x, &mut self.residual, stats);
+        linearised.map_err(|error| match error.into() {
+            Failure::Ends(_) => Failure::Ends(collocation.dependence()),
+            other => other,
+        })?;
         collocation.correction(&self.residual, &mut self.delta);
         Ok(())
     }
@@ -234,9 +255,7 @@ impl Newton {
                 }
             };
             if shorter < SMALLEST_DAMPING || !fresh {
-                return Err(Failure::NoConvergence {
-                    correction: size.largest,
-                });
+                return Err(self.no_convergence(collocation, x, size));
             }
             *damping = shorter;
         }

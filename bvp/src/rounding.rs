@@ -30,6 +30,7 @@ use crate::collocation::{Collocation, gather_ends};
 use crate::dense::dot;
 use crate::iterate::{Interval, Iterate, Residual};
 use crate::newton::norm;
+use crate::random::Signs;
 
 /// The unit roundoff u of double precision.
 pub(crate) const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
@@ -50,6 +51,11 @@ const SAFETY: f64 = 10.0;
 /// 9e-5. Of the reference problems none exceeds 1e-8.
 const NO_DIGIT: f64 = 1e-2;
 
+/// Without a pivot smaller than this no rounding is measured: at 1e-9 and above the rounding of reference
+/// problems without one is at most 0.6 tolerances, and problems that must be refused have pivots
+/// below 1e-7.
+const HARMLESS_PIVOT: f64 = 1e-6;
+
 /// Whether a solution within the tolerance by all other measures may be nothing but rounding. A
 /// rounding error that is not a number hides everything.
 pub(crate) fn hides(rounding: f64, tolerance: f64) -> bool {
@@ -58,6 +64,11 @@ pub(crate) fn hides(rounding: f64, tolerance: f64) -> bool {
 }
 
 impl Collocation<'_> {
+    /// Whether pivots of the last factorisation are so small that rounding may matter.
+    pub(crate) fn is_suspect(&self) -> bool {
+        self.smallest_pivot() < HARMLESS_PIVOT
+    }
+
     /// The rounding error of the solution `x` relative to 1 + |x|, the largest over nodes and
     /// parameters, by the factored matrix of the last linearisation, which must be near `x`.
     pub(crate) fn rounding(&mut self, x: &Iterate) -> f64 {
@@ -108,18 +119,11 @@ impl Collocation<'_> {
     }
 }
 
-/// x with the signs of Knuth's multiplicative congruential generator, always the same.
+/// x with random signs.
 fn with_random_signs(x: &Iterate) -> Iterate {
-    let mut seed = 1u64;
-    let mut turn = |x: &mut f64| {
-        seed = seed
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        if seed >> 63 == 1 {
-            *x = -*x;
-        }
-    };
+    let mut signs = Signs::default();
     let mut z = x.clone();
+    let mut turn = |x: &mut f64| *x = signs.turn(*x);
     for segment in &mut z.segments {
         segment.nodes.iter_mut().for_each(&mut turn);
         segment.stages.iter_mut().for_each(&mut turn);

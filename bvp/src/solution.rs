@@ -26,8 +26,8 @@ pub struct Solution {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Quality {
     pub(crate) defects: Defects,
-    /// Largest |residual| of the conditions.
-    pub(crate) conditions: f64,
+    /// |Residual| of every condition; none where they are not known.
+    pub(crate) conditions: Vec<f64>,
     /// Estimated global error of the states of every segment and of the parameters.
     pub(crate) errors: Option<GlobalErrors>,
 }
@@ -37,7 +37,7 @@ impl Quality {
     pub(crate) fn unknown(mesh: &Mesh) -> Self {
         Self {
             defects: Defects::unknown(mesh),
-            conditions: f64::INFINITY,
+            conditions: vec![],
             errors: None,
         }
     }
@@ -133,7 +133,8 @@ impl Solution {
 
     /// The largest |residual| among the conditions; infinite for an iterate that never converged.
     pub fn condition_residual(&self) -> f64 {
-        self.quality.conditions
+        let all = self.quality.conditions.iter().copied();
+        all.reduce(f64::max).unwrap_or(f64::INFINITY)
     }
 
     /// The largest estimated global error of all states and parameters, relative to 1 + |value|;
@@ -167,7 +168,12 @@ impl Solution {
     /// The interval with the largest defect: its segment, left end and length.
     pub(crate) fn worst_interval(&self) -> (usize, f64, f64) {
         let (mut worst, mut place) = (f64::NEG_INFINITY, (0, f64::NAN, f64::NAN));
-        for (segment, (nodes, defects)) in self.mesh.iter().zip(&self.quality.defects.relative).enumerate() {
+        for (segment, (nodes, defects)) in self
+            .mesh
+            .iter()
+            .zip(&self.quality.defects.relative)
+            .enumerate()
+        {
             for (pair, &defect) in nodes.windows(2).zip(defects) {
                 if defect > worst {
                     (worst, place) = (defect, (segment, pair[0], pair[1] - pair[0]));

@@ -61,6 +61,7 @@ pub fn solve(
         start,
         stats: Stats::default(),
         curvature: f64::INFINITY,
+        probed: false,
     };
     run.solve(guess, mesh)
 }
@@ -82,6 +83,9 @@ enum Next {
     Mesh(Mesh),
 }
 
+/// A solution on a halved mesh, and another mesh if this one may hide a layer.
+type Refined = (Solution, Option<Mesh>);
+
 /// One call of [`solve`].
 struct Run<'a> {
     equations: &'a dyn Equations,
@@ -91,6 +95,8 @@ struct Run<'a> {
     stats: Stats,
     /// What [`Newton::iterate`] has learnt on the last mesh.
     curvature: f64,
+    /// Whether layers have been looked for that the mesh might not show.
+    probed: bool,
 }
 
 impl<'a> Run<'a> {
@@ -179,7 +185,9 @@ impl<'a> Run<'a> {
             outcome = self.newton(&mut collocation, &mut x, fraction);
         }
         match outcome {
-            Ok(()) => self.assess(&mut collocation, x).map_err(|error| *error),
+            Ok(()) => self
+                .assess(&mut collocation, x, fraction)
+                .map_err(|error| *error),
             Err(failure) => Err(self.failed(failure, collocation, x, fraction)),
         }
     }
@@ -204,13 +212,13 @@ impl<'a> Run<'a> {
             let next = by_defect(RESOLVED * UNRESOLVED);
             return Ok((coarse, next));
         }
-        let Some(fine) = self.refined(&coarse)? else {
+        let Some((fine, resolving)) = self.refined(&coarse)? else {
             let next = Next::Mesh(halved(&coarse.mesh));
             return Ok((coarse, next));
         };
         let error = fine.error_estimate().unwrap_or(f64::INFINITY);
         if error <= tolerance {
-            return Ok((fine, Next::Done));
+            return Ok((fine, resolving.map_or(Next::Done, Next::Mesh)));
         }
         // Before the next mesh is halved its errors may be larger by this factor.
         let order = self.tableau.scheme.dense_order();
@@ -221,34 +229,47 @@ impl<'a> Run<'a> {
         let few = 2 * intervals(&fine.mesh) < 4 * intervals(&next);
         let tried = self.stats.meshes >= MESHES_DISTRIBUTED;
         if error < 0.5 * halves_gain * tolerance && (few || tried) {
-            check_mesh(&halved(&fine.mesh), self.options, &self.finish(fine.clone()))?;
+            check_mesh(
+                &halved(&fine.mesh),
+                self.options,
+                &self.finish(fine.clone()),
+            )?;
             return Ok((fine, Next::Halved));
         }
         Ok((fine, Next::Mesh(next)))
     }
 
-    /// The solution on the halved mesh with its estimated errors, `None` if there is none; an error if
-    /// rounding hides it.
-    fn refined(&mut self, coarse: &Solution) -> Result<Option<Solution>, Box<Error>> {
+    /// The solution on the halved mesh with its estimated errors, and a mesh to try if that may hide
+    /// a layer; `None` if there is no solution, an error if rounding hides it.
+    fn refined(&mut self, coarse: &Solution) -> Result<Option<Refined>, Box<Error>> {
         let mut collocation = self.collocation(halved(&coarse.mesh));
         let t = Arc::clone(&self.tableau);
         let start = restrict(&t, &coarse.segments, &coarse.mesh, &coarse.x);
         let mut x = start.clone();
-        if self.newton(&mut collocation, &mut x, NEWTON_FRACTION).is_err() {
+        if self
+            .newton(&mut collocation, &mut x, NEWTON_FRACTION)
+            .is_err()
+        {
             return Ok(None);
         }
-        let mut fine = self.assess(&mut collocation, x)?;
+        let mut fine = self.assess(&mut collocation, x, NEWTON_FRACTION)?;
         fine.quality.errors = global_errors(coarse, &start, &fine);
         let tolerance = self.options.tolerance;
-        if fine.error_estimate().is_some_and(|error| error <= tolerance) {
-            if std::env::var("PIV").is_ok() { eprintln!("PIV {:.2e} rounding/tol {:.2e} intervals {}", collocation.smallest_pivot(), collocation.rounding(&fine.x)/tolerance, intervals(&fine.mesh)); }
-            let rounding = collocation.rounding(&fine.x);if std::env::var("PIV").is_ok() { eprintln!("   hides {}", hides(rounding,tolerance)); }
+        if collocation.is_suspect() {
+            let rounding = collocation.rounding(&fine.x);
             if hides(rounding, tolerance) {
                 let error = ill_conditioned(rounding, tolerance, self.finish(fine));
                 return Err(Box::new(error));
             }
         }
-        Ok(Some(fine))
+        let accepted = fine
+            .error_estimate()
+            .is_some_and(|error| error <= tolerance);
+        let mut resolving = None;
+        if accepted && !std::mem::replace(&mut self.probed, true) {
+            resolving = collocation.with_possible_layers();
+        }
+        Ok(Some((fine, resolving)))
     }
 
     /// Whether the global error is to be known: the solution is then the one on a halved mesh.
@@ -296,7 +317,7 @@ impl<'a> Run<'a> {
     ) -> Error {
         let rounding = match failure {
             // Corrections no larger than that are rounding.
-            Failure::NoConvergence { correction } => {
+            Failure::NoConvergence { correction, .. } => {
                 Some(collocation.rounding(&x)).filter(|&rounding| rounding >= correction)
             }
             _ => None,
@@ -309,12 +330,14 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The solution with its defects and conditions, from a converged iterate; an error where a
-    /// value is not finite or a condition is violated.
+    /// The solution with its defects and conditions, from an iterate converged to this fraction of
+    /// the tolerance; an error where a value is not finite or, where it is less than one, a condition is
+    /// violated.
     fn assess(
         &mut self,
         collocation: &mut Collocation<'_>,
         x: Iterate,
+        fraction: f64,
     ) -> Result<Solution, Box<Error>> {
         let mut conditions = vec![0.0; self.equations.condition_count()];
         let defects = collocation.conditions(&x, &mut conditions).and_then(|()| {
@@ -334,7 +357,7 @@ impl<'a> Run<'a> {
         let sizes = conditions.iter().map(|r| r.abs());
         let quality = Quality {
             defects,
-            conditions: sizes.clone().fold(0.0, f64::max),
+            conditions: sizes.clone().collect(),
             errors: None,
         };
         let solution = self.solution(mesh, x, quality);
@@ -342,7 +365,7 @@ impl<'a> Run<'a> {
         let violated = sizes
             .zip(allowed)
             .enumerate()
-            .find(|(_, (residual, allowed))| residual > allowed);
+            .find(|(_, (residual, allowed))| fraction < 1.0 && residual > allowed);
         match violated {
             None => Ok(solution),
             Some((condition, (residual, tolerance))) => Err(Box::new(Error::ConditionViolated {

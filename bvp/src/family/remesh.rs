@@ -5,11 +5,11 @@ use crate::collocation::Collocation;
 use crate::defect::defects;
 use crate::dense::max_or_nan;
 use crate::error_control::{is_wasteful, next_mesh};
+use crate::failure::{check_mesh, numerical};
 use crate::mesh::{Mesh, halved, intervals, is_representable};
 use crate::newton::Failure;
 use crate::restriction::restrict;
 use crate::solution::Quality;
-use crate::failure::{check_mesh, numerical};
 use crate::{Equations, Error};
 use std::sync::Arc;
 
@@ -60,7 +60,12 @@ impl Family<'_> {
                 return Err(numerical(Failure::NonFinite(what), best, 0.0));
             }
         };
-        let largest = defects.relative.iter().flatten().copied().fold(0.0, max_or_nan);
+        let largest = defects
+            .relative
+            .iter()
+            .flatten()
+            .copied()
+            .fold(0.0, max_or_nan);
         let resolved = largest <= tolerance;
         if resolved && (self.settled < SETTLED || !is_wasteful(&defects.relative, wanted, m)) {
             return Ok(false);
@@ -127,7 +132,10 @@ impl Family<'_> {
                 if damping < SMALLEST_DAMPING {
                     let best = self.iterate(&z);
                     let best = self.wrap(best, Quality::unknown(&self.collocation.mesh));
-                    let failure = Failure::NoConvergence { correction: size };
+                    let failure = Failure::NoConvergence {
+                        correction: size,
+                        largest: None,
+                    };
                     return Err(numerical(failure, best, wanted));
                 }
             };

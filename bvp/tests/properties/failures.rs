@@ -1,4 +1,4 @@
-//! Numerical failures: the variant, its numbers, its message, and the iterate it carries.
+//! Numerical failures: the variant, its numbers and the iterate it carries.
 
 use crate::exact::exponential;
 use bvp::{
@@ -29,7 +29,7 @@ pub(crate) fn states(states: &[f64]) -> Constant {
 }
 
 /// A numerical failure: its iterate is finite and can be asked for everything.
-fn numerical(equations: &dyn Equations, guess: &dyn Guess, options: &Options) -> Error {
+pub(crate) fn numerical(equations: &dyn Equations, guess: &dyn Guess, options: &Options) -> Error {
     let error = solve(equations, guess, options).unwrap_err();
     let best = error.best().expect("an iterate");
     for (segment, shape) in equations.segments().iter().enumerate() {
@@ -56,10 +56,6 @@ fn conditions_that_do_not_determine_the_solution() {
     };
     let error = numerical(&problem, &states(&[1.0, 0.0]), &Options::default());
     assert!(matches!(error, Error::SingularConditions { .. }));
-    assert_eq!(
-        error.to_string(),
-        "singular Newton matrix: the conditions do not determine the solution locally"
-    );
 }
 
 #[test]
@@ -85,10 +81,6 @@ fn stages_that_have_no_solution() {
             ..
         }
     ));
-    assert_eq!(
-        error.to_string(),
-        "singular Newton matrix in segment 0 at node 0"
-    );
     // With room for a finer mesh it is no obstacle.
     options.max_intervals = 10_000;
     assert!(solve(&*exact.equations, &states(&[1.0, 0.0]), &options).is_ok());
@@ -111,10 +103,6 @@ fn values_that_are_not_finite() {
         panic!("{error}")
     };
     assert!(s > 0.0 && s < 0.025);
-    assert_eq!(
-        error.to_string(),
-        format!("right-hand side of component 0 is not finite in segment 0 at s = {s}")
-    );
 
     problem = growth();
     problem.segments = vec![Segment::new(2)];
@@ -131,10 +119,6 @@ fn values_that_are_not_finite() {
         error,
         Error::NonFiniteCondition { condition: 1, .. }
     ));
-    assert_eq!(
-        error.to_string(),
-        "condition 1 is not finite or was not written"
-    );
 }
 
 #[test]
@@ -189,16 +173,10 @@ fn no_convergence_and_its_numbers() {
     };
     assert!(correction > 1e-3 && steps > 0);
     assert_eq!(tolerance, 1e-8);
-    assert_eq!(
-        error.to_string(),
-        format!(
-            "newton: relative correction {correction:.1e} after {steps} steps, tolerance 1.0e-8"
-        )
-    );
 }
 
 /// y' = 1 / (10⁻⁸ + (s − ½)²): a bump far narrower than an interval.
-fn bump() -> FiniteDifferences<Rhs, Conditions> {
+pub(crate) fn bump() -> FiniteDifferences<Rhs, Conditions> {
     let mut problem = growth();
     problem.rhs = |_, s, _, _, dy| dy[0] = 1.0 / (1e-8 + (s - 0.5) * (s - 0.5));
     problem
@@ -218,24 +196,18 @@ fn the_mesh_limit_and_its_numbers() {
         error: estimate,
         tolerance: 1e-6,
         ref best,
+        ..
     } = error
     else {
         panic!("{error}")
     };
     assert!(needed > 20 && defect > 1e-6 && estimate == f64::INFINITY);
     assert_eq!(best.defect(), defect);
-    assert_eq!(
-        error.to_string(),
-        format!(
-            "mesh limit: {needed} intervals needed, 20 allowed; defect {defect:.1e}, estimated error inf, tolerance 1.0e-6"
-        )
-    );
     assert!(solve(&bump(), &states(&[0.0]), &Options::default()).is_ok());
 }
 
-#[test]
-fn a_jump_inside_a_segment_is_located() {
-    let place = std::f64::consts::FRAC_1_SQRT_2;
+/// y' = y + 1, + 3 right of 1/√2.
+pub(crate) fn jump() -> FiniteDifferences<Rhs, Conditions> {
     let mut problem = growth();
     problem.rhs = |_, s, y, _, dy| {
         dy[0] = y[0]
@@ -245,12 +217,18 @@ fn a_jump_inside_a_segment_is_located() {
                 3.0
             };
     };
+    problem
+}
+
+#[test]
+fn a_jump_inside_a_segment_is_located() {
+    let place = std::f64::consts::FRAC_1_SQRT_2;
     // Points at both ends of every interval cannot overlook it.
     let options = Options {
         scheme: Some(Scheme::LobattoIIIA { stages: 3 }),
         ..Options::default()
     };
-    let error = numerical(&problem, &states(&[1.0]), &options);
+    let error = numerical(&jump(), &states(&[1.0]), &options);
     let Error::Unresolved {
         segment: 0,
         s,
@@ -266,15 +244,10 @@ fn a_jump_inside_a_segment_is_located() {
     };
     assert!((s - place).abs() < 1e-12 && length < 1e-12, "{error}");
     assert!(meshes > 1 && defect > 1e-6);
-    let message = error.to_string();
-    assert!(
-        message.contains("worst in segment 0 near s = 0.7071"),
-        "{message}"
-    );
 }
 
 /// y' = y, y(0) = 1 with a derivative of the condition far too large.
-struct WrongJacobian;
+pub(crate) struct WrongJacobian;
 
 impl Equations for WrongJacobian {
     fn segments(&self) -> &[Segment] {
@@ -334,8 +307,4 @@ fn a_violated_condition_is_no_success() {
     };
     assert!((residual - 1.0).abs() < 1e-6 && tolerance < 1e-5);
     assert_eq!(best.condition_residual(), residual);
-    assert_eq!(
-        error.to_string(),
-        format!("condition 0 violated: residual 1.0e0, tolerance {tolerance:.1e}")
-    );
 }
