@@ -4,6 +4,9 @@ use crate::mesh::{Mesh, ceil, equidistribute, split};
 
 /// New meshes aim at this fraction of the tolerance, so that one step usually suffices.
 const AIM: f64 = 0.3;
+/// With a larger relative defect than this an interval does not resolve the solution: no power law holds
+/// yet, and it is halved at least.
+pub(crate) const UNRESOLVED: f64 = 0.5;
 /// An interval is not asked to be cut into more than this many at once: defects on intervals that
 /// coarse do not yet follow their power law.
 const LARGEST_CUT: f64 = 8.0;
@@ -60,7 +63,8 @@ pub(crate) fn is_wasteful(defects: &[Vec<f64>], tolerance: f64, m: usize) -> boo
 /// How many parts an interval with the relative defect r wants to be cut into.
 fn wanted(r: f64, tolerance: f64, m: usize) -> f64 {
     let cut = (r / (AIM * tolerance)).powf(1.0 / m as f64);
-    cut.clamp(SMALLEST_CUT, LARGEST_CUT)
+    let least = if r > UNRESOLVED { 2.0 } else { SMALLEST_CUT };
+    cut.clamp(least, LARGEST_CUT)
 }
 
 /// Raises densities until neighbours differ by at most [`GRADING`].

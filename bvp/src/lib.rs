@@ -17,32 +17,25 @@
 //! ```
 //!
 //! and [`solve`] refuses any other count; with fewer conditions the solutions form a [`Family`].
-//! Conditions may be nonlinear and may couple everything
-//! with everything. This one form holds
+//! Conditions may be nonlinear and may couple everything with everything. This one form holds
 //!
 //! * two-point problems: one segment;
-//! * eigenvalues and unknown loads: parameters, each with one more condition;
+//! * [eigenvalues](guide::eigenvalues) and unknown loads: parameters, each with one more condition;
 //! * periodic orbits: y(a) = y(b), the period a parameter, and a phase condition;
-//! * multipoint and interface problems: several segments, joined by conditions;
-//! * free ends and lengths: s in \[0, 1\], the length a parameter that multiplies f;
-//! * integrals: a state each, y' = integrand, with a parameter for an unknown value;
-//! * complex states: two real ones each, by [`Complex`];
-//! * kinks and jumps of f at known places: junctions of segments.
+//! * multipoint and [interface](guide::forms#interfaces) problems: several segments, joined by
+//!   conditions;
+//! * [free ends](guide::free_boundaries) and lengths: s in \[0, 1\], the length a parameter that
+//!   multiplies f;
+//! * [integrals](guide::forms#integrals): a state each, y' = integrand, with a parameter for an unknown
+//!   value;
+//! * [complex states](guide::forms#complex-states): two real ones each, by [`Complex`];
+//! * kinks and jumps of f at known places: junctions of segments;
+//! * [singular ends](guide::forms#singular-ends), as of cylindrical and spherical coordinates, and
+//!   [infinite intervals](guide::forms#infinite-intervals).
 //!
-//! # Singular ends and infinite intervals
-//!
-//! With the default scheme f is never evaluated at the ends of a segment, so a term S y/(s − a), as of
-//! cylindrical and spherical coordinates, is written as it stands. What keeps the solution finite,
-//! S y(a) = 0, is among the conditions. Where the solution is smooth the order in between is kept and
-//! the mesh is not refined towards a. A solution with a fractional power of s − a is not smooth:
-//! substitute s − a = tᵏ. Lobatto schemes ask for f at a; there write its limit, (I − S)⁻¹ times the
-//! rest of f.
-//!
-//! An infinite interval is cut off, with conditions that forbid the growing solutions of the equations
-//! linearised about the state at infinity, and lengthened until that changes nothing. Or it is mapped,
-//! x = L s/(1 − s), with f multiplied by dx/ds: shorter to write, but the factor magnifies the rounding
-//! of states that decay, so that the mesh is to be chosen for the error ([`Options::to`]), and states
-//! must be bounded.
+//! The [`guide`] shows all of it by example, begins with [what users of `bvp4c`, `solve_bvp`, COLNEW and
+//! TWPBVPC know](guide::other_solvers), and says [what to do when a problem does not
+//! solve](guide::failures).
 //!
 //! # Example
 //!
@@ -83,8 +76,7 @@
 //!     },
 //!     parameters: vec![15.0],
 //! };
-//! let options = Options { tolerance: 1e-9, ..Options::default() };
-//! let solution = solve(&Mathieu, &guess, &options)?;
+//! let solution = solve(&Mathieu, &guess, &Options::to(1e-9))?;
 //!
 //! let mut y = [0.0; 2];
 //! solution.state(0, PI / 2.0, &mut y);
@@ -96,61 +88,8 @@
 //! The right-hand side is generic in its scalar [`Real`], so the solver has exact Jacobians
 //! without being given any.
 //!
-//! # Families of solutions
-//!
-//! Where a parameter is left free, the solutions form a curve. [`Family`] is the discretised problem
-//! as the curve sees it, n equations for n + 1 unknowns, on a mesh that follows the solution: what a
-//! continuation method needs. Bratu's problem u'' + λ eᵘ = 0, u(0) = u(1) = 0, which has two
-//! solutions up to λ = 3.5138… and none beyond:
-//!
-//! ```
-//! use bvp::{Constant, Ends, Family, Options, Problem, Real, Segment};
-//!
-//! struct Bratu;
-//!
-//! impl Problem for Bratu {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::new(2)] }
-//!     }
-//!
-//!     fn parameters(&self) -> usize {
-//!         1
-//!     }
-//!
-//!     fn condition_count(&self) -> usize {
-//!         2
-//!     }
-//!
-//!     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
-//!         dy[0] = y[1];
-//!         dy[1] = -p[0] * y[0].exp();
-//!     }
-//!
-//!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
-//!         r[0] = at.start(0)[0];
-//!         r[1] = at.end(0)[0];
-//!     }
-//! }
-//!
-//! let guess = Constant { states: vec![vec![0.0; 2]], parameters: vec![1.0] };
-//! let (mut family, mut z) = Family::new(&Bratu, 0, &[], &guess, &Options::default())?;
-//! let n = family.unknowns() - 1;
-//! let (mut g, mut v, mut t) = (vec![0.0; n], vec![0.0; n + 1], vec![0.0; n + 1]);
-//!
-//! // Along the tangent to the solution with λ = 1.2, then corrections by Newton's method.
-//! family.linearise(&z)?;
-//! family.null_vector(&mut t);
-//! let step = 0.2 / t[n];
-//! z.iter_mut().zip(&t).for_each(|(z, t)| *z += step * t);
-//! for _ in 0..3 {
-//!     family.residual(&z, &mut g);
-//!     family.linearise(&z)?;
-//!     family.particular(&g, &mut v);
-//!     z.iter_mut().zip(&v).for_each(|(z, v)| *z -= v);
-//! }
-//! assert!(family.solution(&z).defect() < 1e-6 && (z[n] - 1.2).abs() < 0.1);
-//! # Ok::<(), bvp::Error>(())
-//! ```
+//! Where a parameter is left free, the solutions form a curve. [`Family`] is the discretised problem as
+//! the curve sees it, for a continuation method; [`guide::families`] has an example.
 //!
 //! # The method
 //!
@@ -160,52 +99,47 @@
 //!
 //! | scheme | stages m | order at the nodes | order in between |
 //! | --- | --- | --- | --- |
+//! | Gauss; default m = 6 or 7, [by the tolerance](Scheme::for_tolerance) | 1 … 7 | 2m | m + 1 |
 //! | Lobatto IIIA | 3, 4 | 2m − 2 | m + 1 |
-//! | Gauss (default, m = 4) | 1 … 7 | 2m | m + 1 |
 //!
 //! **Newton's method** with affine-invariant damping: a step is judged by corrections, not by
 //! residuals, so the scaling of equations and conditions does not matter; Jacobians are kept while
-//! corrections contract fast.
+//! corrections contract fast. Where it fails, the slopes of the guess are integrated, the mesh is
+//! halved, and at last a homotopy from a straight line is followed ([`Options::retries`]).
+//! [`solve_embedded`] is for problems that have an easy case of their own.
 //!
 //! **Linear algebra.** The stages of every interval are condensed, the interior nodes eliminated by
 //! Householder reflections, and a small dense system is left for all ends and parameters. The cost
 //! is proportional to the number of intervals. Orthogonal elimination is stable for growing and
 //! decaying modes with coupled ends, where row pivoting is not.
 //!
-//! **Mesh selection.** The defect S' − f(s, S, p) of the polynomials S, measured on every interval,
-//! decides where nodes are added, moved and removed; the tolerance is one for the defect, or for the
-//! error alone ([`Control`]). [`Options::to`] chooses the scheme and the mesh for the least time.
+//! **Error estimate.** The problem is solved on a mesh and on that with every interval halved; how the
+//! two solutions differ tells the error of the second, which is the one returned.
+//!
+//! **Mesh selection.** From one mesh to the next, nodes are added, moved and removed. With S the
+//! polynomials of the solution, the local defects h |S' − f(s, S, p)| / (1 + |y|) of intervals of
+//! length h are equidistributed over as many intervals as the estimated error asks. Where a mesh does
+//! not resolve the solution yet, its largest relative defect |S' − f| / (1 + |f|) above one half, that
+//! takes the place of the error. With [`GlobalError::Skip`] nothing is estimated and the mesh is chosen
+//! for the relative defect.
 //!
 //! # What success means
 //!
-//! [`solve`] returns `Ok` only if all of these are at most [`Options::tolerance`]:
+//! [`solve`] returns `Ok` only if these are at most [`Options::tolerance`]:
 //!
-//! * the defect of every interval relative to 1 + |f|, root mean square over the interval
-//!   ([`Control::Error`] omits it);
+//! * the estimated global error of every state and parameter relative to 1 + |value|, or, with
+//!   [`GlobalError::Skip`], the defect of every interval relative to 1 + |f|, root mean square over the
+//!   interval;
 //! * the residual of every condition, relative to the size of its terms where that exceeds one;
-//! * the estimated global error of every state and parameter relative to 1 + |value|, from one
-//!   Newton correction on the mesh with every interval halved ([`GlobalError::Skip`] omits it).
 //!
-//! Everything else is an [`Error`]: mistakes of the statement are found before any arithmetic, and
-//! numerical failures carry their best iterate, which is a [`Guess`] for another attempt.
-//! Like every estimate, the one of the error sees the problem only at finitely many points; and a
-//! solution found need not be the only one.
+//! and, where the error is estimated, if rounding does not hide the solution. Everything else is an [`Error`]: mistakes of the
+//! statement are found before any arithmetic, and numerical failures carry their best iterate, which is
+//! a [`Guess`] for another attempt. What it does not mean is said in [`guide::accuracy`].
 //!
-//! # From `bvp4c` or `solve_bvp`
+//! # Features
 //!
-//! | `bvp4c` | `solve_bvp` | here |
-//! | --- | --- | --- |
-//! | `odefun(x, y, p)` | `fun(x, y, p)`, vectorised | [`Problem::rhs`], one point at a time |
-//! | `bcfun(ya, yb, p)` | `bc(ya, yb, p)` | [`Problem::conditions`] on [`Ends`] |
-//! | `bvpinit` | `x`, `y`, `p` | [`Constant`], [`Function`], [`Table`], or a [`Solution`] |
-//! | `FJacobian`, `BCJacobian` | `fun_jac`, `bc_jac` | exact; or [`Equations`] by hand, or [`FiniteDifferences`] |
-//! | region index of multipoint problems | — | segment index |
-//! | `RelTol`, `AbsTol` | `tol`, `bc_tol` | [`Options::tolerance`], of defect and global error |
-//! | `NMax` | `max_nodes` | [`Options::max_intervals`] |
-//! | Lobatto IIIA, order 4 | the same | [`Scheme::LobattoIIIA`] with 3 stages; default Gauss, order 8 |
-//! | `deval(sol, x)` | `sol.sol(x)` | [`Solution::state`], [`Solution::derivative`] |
-//! | `sol.stats` | `rms_residuals`, `niter` | [`Solution::defects`], [`Solution::stats`] |
-//! | `SingularTerm` | `S` | S y/(s − a) as part of [`Problem::rhs`]; Gauss points avoid the ends |
+//! `parallel` shares the intervals of large problems among threads. Without it a call uses one thread,
+//! and any number of threads may call.
 //!
 //! # References
 //!
@@ -240,6 +174,7 @@ mod failure;
 mod family;
 mod global_error;
 mod guess;
+pub mod guide;
 mod held;
 mod homotopy;
 mod householder;

@@ -2,14 +2,14 @@
 
 use crate::collocation::Collocation;
 use crate::defect::defects;
-use crate::error_control::next_mesh;
+use crate::error_control::{UNRESOLVED, next_mesh};
 use crate::failure::{check_mesh, ill_conditioned, numerical, unresolved};
 use crate::global_error::global_errors;
 use crate::held::Held;
 use crate::homotopy::rough_solution;
 use crate::iterate::Iterate;
 use crate::mesh::{Mesh, halved, intervals, thinned};
-use crate::newton::{Failure, Newton};
+use crate::newton::{Failure, Newton, norm};
 use crate::restriction::restrict;
 use crate::rounding::hides;
 use crate::scheme::Tableau;
@@ -22,11 +22,8 @@ use std::time::Instant;
 /// Newton's method stops when its corrections are this fraction of the tolerance, so that what is
 /// left of them is invisible beside the discretisation error.
 const NEWTON_FRACTION: f64 = 0.01;
-/// With a larger relative defect than this a mesh does not resolve the solution, and its error is not
-/// worth an estimate, ...
-const UNRESOLVED: f64 = 0.5;
-/// ... and the next mesh aims at this fraction of it: where nothing is resolved a defect is about one
-/// however fine the mesh is.
+/// Where a mesh does not resolve the solution, the next one aims at this fraction of the largest
+/// defect that does: where nothing is resolved a defect is about one however fine the mesh is.
 const RESOLVED: f64 = 0.3;
 /// The first mesh that is to be halved has so many intervals less than the one stated.
 const THINNED: f64 = 3.4;
@@ -34,6 +31,8 @@ const THINNED: f64 = 3.4;
 const AIM: f64 = 0.5;
 /// From this mesh on, halves are preferred to another distribution of the nodes, which has been tried.
 const MESHES_DISTRIBUTED: usize = 3;
+/// A solution whose correction on another mesh is so many tolerances or less is the same there.
+const KEPT: f64 = 3.0;
 /// Meshes tried before the tolerance is declared out of reach.
 const MAX_MESHES: usize = 40;
 
@@ -143,7 +142,12 @@ impl<'a> Run<'a> {
                 Next::Done => return Ok(solution),
                 Next::Halved => solution,
                 Next::Mesh(mesh) => {
-                    check_mesh(&mesh, self.options, &solution)?;
+                    let finest = if self.refines() {
+                        &halved(&mesh)
+                    } else {
+                        &mesh
+                    };
+                    check_mesh(finest, self.options, &solution)?;
                     if solution.stats.meshes >= MAX_MESHES {
                         return Err(unresolved(self.options, &solution));
                     }
@@ -218,7 +222,8 @@ impl<'a> Run<'a> {
         };
         let error = fine.error_estimate().unwrap_or(f64::INFINITY);
         if error <= tolerance {
-            return Ok((fine, resolving.map_or(Next::Done, Next::Mesh)));
+            let changed = resolving.filter(|mesh| !self.is_kept(&fine, mesh));
+            return Ok((fine, changed.map_or(Next::Done, Next::Mesh)));
         }
         // Before the next mesh is halved its errors may be larger by this factor.
         let order = self.tableau.scheme.dense_order();
@@ -270,6 +275,19 @@ impl<'a> Run<'a> {
             resolving = collocation.with_possible_layers();
         }
         Ok(Some((fine, resolving)))
+    }
+
+    /// Whether a solution within the tolerance on its own mesh is so on another one, by its correction
+    /// there.
+    fn is_kept(&mut self, solution: &Solution, mesh: &Mesh) -> bool {
+        let mut collocation = self.collocation(mesh.clone());
+        let x = Iterate::transfer(mesh, &self.tableau, solution);
+        let (mut residual, mut correction) = (collocation.residual_buffer(), collocation.zeros());
+        let linearised = collocation.linearise(&x, &mut residual, &mut self.stats);
+        linearised.is_ok() && {
+            collocation.node_correction(&residual, &mut correction);
+            norm(&x, &[(1.0, &correction)]).largest <= KEPT * self.options.tolerance
+        }
     }
 
     /// Whether the global error is to be known: the solution is then the one on a halved mesh.

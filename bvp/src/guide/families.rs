@@ -1,0 +1,125 @@
+//! Problems with several solutions or none: curves of solutions and their folds.
+//!
+//! Nonlinear problems have several solutions more often than not, and over a load, a temperature or a
+//! speed they form curves that turn back. At such a *fold* two solutions merge, and beyond it there is
+//! none: [`solve`](crate::solve) ends in [`Error::NoConvergence`](crate::Error::NoConvergence), whatever
+//! the guess, and [`solve_embedded`](crate::solve_embedded) in
+//! [`Error::Unreached`](crate::Error::Unreached) with a value just below the fold.
+//!
+//! # Is there a fold?
+//!
+//! Bratu's problem u″ + λ eᵘ = 0, u(0) = u(1) = 0 has two solutions up to λ = 3.513830719 and none
+//! beyond:
+//!
+//! ```
+//! # use bvp::{Constant, Ends, Problem, Real, Segment};
+//! use bvp::{Embedding, Error, Options, solve_embedded};
+//! # struct Bratu;
+//! # impl Problem for Bratu {
+//! #     fn segments(&self) -> &[Segment] {
+//! #         const { &[Segment::new(2)] }
+//! #     }
+//! #     fn parameters(&self) -> usize {
+//! #         1
+//! #     }
+//! #     fn condition_count(&self) -> usize {
+//! #         2
+//! #     }
+//! #     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
+//! #         dy[0] = y[1];
+//! #         dy[1] = -p[0] * y[0].exp();
+//! #     }
+//! #     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+//! #         r[0] = at.start(0)[0];
+//! #         r[1] = at.end(0)[0];
+//! #     }
+//! # }
+//! let guess = Constant { states: vec![vec![0.0; 2]], parameters: vec![1.0] };
+//! let embedding = Embedding { parameter: 0, from: 1.0, to: 5.0 };
+//! match solve_embedded(&Bratu, &embedding, &guess, &Options::default()) {
+//!     Err(Error::Unreached { reached, best, .. }) => {
+//!         println!("λ = {reached}, u′(0) = {}", best.start(0)[1]);
+//!         assert!((3.4..3.514).contains(&reached));
+//!     }
+//!     other => panic!("{other:?}"),
+//! }
+//! # Ok::<(), Error>(())
+//! ```
+//!
+//! # Around the fold
+//!
+//! With λ free, the solutions are a [`Family`](crate::Family): the discretised problem as the curve sees
+//! it, n equations for n + 1 unknowns, on a mesh that follows the solution. Nothing of it is special at a
+//! fold.
+//!
+//! ```
+//! use bvp::{Constant, Ends, Family, Options, Problem, Real, Segment};
+//!
+//! /// p = (λ): two states and one parameter, but two conditions.
+//! struct Bratu;
+//!
+//! impl Problem for Bratu {
+//!     fn segments(&self) -> &[Segment] {
+//!         const { &[Segment::new(2)] }
+//!     }
+//!
+//!     fn parameters(&self) -> usize {
+//!         1
+//!     }
+//!
+//!     fn condition_count(&self) -> usize {
+//!         2
+//!     }
+//!
+//!     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
+//!         dy[0] = y[1];
+//!         dy[1] = -p[0] * y[0].exp();
+//!     }
+//!
+//!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+//!         r[0] = at.start(0)[0];
+//!         r[1] = at.end(0)[0];
+//!     }
+//! }
+//!
+//! let guess = Constant { states: vec![vec![0.0; 2]], parameters: vec![1.0] };
+//! let (mut family, mut z) = Family::new(&Bratu, 0, &[], &guess, &Options::default())?;
+//! let n = family.unknowns() - 1; // λ is z[n]
+//! let (mut g, mut v, mut t) = (vec![0.0; n], vec![0.0; n + 1], vec![0.0; n + 1]);
+//!
+//! family.linearise(&z)?;
+//! family.null_vector(&mut t);
+//! let forward = t[n].signum(); // λ grows at first
+//!
+//! // Steps along the tangent, each with corrections by Newton's method, until λ turns back.
+//! let mut before = f64::NEG_INFINITY;
+//! while z[n] > before {
+//!     before = z[n];
+//!     let length = t.iter().map(|t| t * t).sum::<f64>().sqrt();
+//!     z.iter_mut().zip(&t).for_each(|(z, t)| *z += forward * 2.0 / length * t);
+//!     for _ in 0..4 {
+//!         family.residual(&z, &mut g);
+//!         family.linearise(&z)?;
+//!         family.particular(&g, &mut v);
+//!         z.iter_mut().zip(&v).for_each(|(z, v)| *z -= v);
+//!     }
+//!     family.linearise(&z)?;
+//!     family.null_vector(&mut t); // keeps its direction around the fold
+//!     println!("λ = {:.4}, u′(0) = {:.4}", z[n], family.start(&z, 0)[1]);
+//! }
+//! assert!(family.start(&z, 0)[1] > 4.0); // it is 4 at the fold
+//! assert!(before < 3.514 && z[n] > 3.0);
+//! assert!(family.solution(&z).defect() < 1e-3);
+//! # Ok::<(), bvp::Error>(())
+//! ```
+//!
+//! This is the principle; the crate `continuation` of the same workspace does it with steps of the right
+//! length, locates folds and crossings of curves, switches to the other curve, and finds solutions on
+//! curves that are connected to no known one. Its trait `System` has the methods of
+//! [`Family`](crate::Family) under the same names, so that joining the two takes no more than the type
+//! `Curve` in `tests/curve.rs`; `tests/branches` follows Bratu's curve to far beyond the fold.
+//!
+//! # The fold itself
+//!
+//! The fold is where the linearised problem has a solution v other than zero. Stated together, u, v and
+//! λ are an ordinary problem: twice the states, λ a parameter, v normalised. Example: `explosion`.
