@@ -4,6 +4,7 @@ use crate::Segment;
 use crate::iterate::{Interval, Iterate, SegmentIterate};
 use crate::mesh::Mesh;
 use crate::scheme::Tableau;
+use crate::specialise::specialise;
 
 /// The polynomials of `x`, given on `mesh`, on the mesh with every interval halved: exactly, but
 /// for rounding.
@@ -11,12 +12,16 @@ pub(crate) fn restrict(t: &Tableau, segments: &[Segment], mesh: &Mesh, x: &Itera
     let pairs = segments.iter().zip(mesh).zip(&x.segments);
     Iterate {
         segments: pairs
-            .map(|((segment, nodes), x)| restrict_segment(t, segment.states, nodes, x))
+            .map(|((segment, nodes), x)| {
+                let n = segment.states;
+                specialise!(n in [1, 2, 3, 4, 5, 6] => restrict_segment(t, n, nodes, x))
+            })
             .collect(),
         p: x.p.clone(),
     }
 }
 
+#[inline(always)]
 fn restrict_segment(t: &Tableau, n: usize, mesh: &[f64], from: &SegmentIterate) -> SegmentIterate {
     let size = t.stages * n;
     let mut to = SegmentIterate {

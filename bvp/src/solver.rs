@@ -142,12 +142,7 @@ impl<'a> Run<'a> {
                 Next::Done => return Ok(solution),
                 Next::Halved => solution,
                 Next::Mesh(mesh) => {
-                    let finest = if self.refines() {
-                        &halved(&mesh)
-                    } else {
-                        &mesh
-                    };
-                    check_mesh(finest, self.options, &solution)?;
+                    check_mesh(&mesh, self.options, &solution)?;
                     if solution.stats.meshes >= MAX_MESHES {
                         return Err(unresolved(self.options, &solution));
                     }
@@ -216,6 +211,7 @@ impl<'a> Run<'a> {
             let next = by_defect(RESOLVED * UNRESOLVED);
             return Ok((coarse, next));
         }
+        check_mesh(&halved(&coarse.mesh), self.options, &coarse)?;
         let Some((fine, resolving)) = self.refined(&coarse)? else {
             let next = Next::Mesh(halved(&coarse.mesh));
             return Ok((coarse, next));
@@ -234,11 +230,6 @@ impl<'a> Run<'a> {
         let few = 2 * intervals(&fine.mesh) < 4 * intervals(&next);
         let tried = self.stats.meshes >= MESHES_DISTRIBUTED;
         if error < 0.5 * halves_gain * tolerance && (few || tried) {
-            check_mesh(
-                &halved(&fine.mesh),
-                self.options,
-                &self.finish(fine.clone()),
-            )?;
             return Ok((fine, Next::Halved));
         }
         Ok((fine, Next::Mesh(next)))
