@@ -1,7 +1,7 @@
 //! States whose derivative is another state.
 //!
 //! An equation of order two or more becomes a system by y' = z, z' = …: rows of the Jacobian that are
-//! unit vectors. On an interval the slopes of such a state, K = h A K_source + known, follow from those
+//! unit vectors. On an interval the slopes of such a state, `K = h A K_source + known`, follow from those
 //! of its source, so that only those of the other, *free* states are unknown: the system for the slopes
 //! is as small as if the equation were collocated in its own form, and its solution is the same. The
 //! stages see y⁽ᵈ⁾ through h^(d+1) A^(d+1), the Runge-Kutta-Nyström form of the scheme (Hairer, Nørsett &
@@ -93,9 +93,9 @@ impl Chains {
         }
         let old = std::mem::take(self);
         let mut place = vec![None; n];
-        for c in 0..n {
-            if !matches!(watch.rows[c], Row::Unit(source) if source != c) {
-                place[c] = Some((self.free.len(), 0));
+        for (c, (place, row)) in place.iter_mut().zip(&watch.rows).enumerate() {
+            if !matches!(row, Row::Unit(source) if *source != c) {
+                *place = Some((self.free.len(), 0));
                 self.free.push(c);
             }
         }

@@ -1,5 +1,7 @@
 //! Dense factorisations of the small matrices inside the solver, row-major in slices.
 
+use crate::small;
+
 /// The matrix is singular: the pivot of this row vanishes or is not finite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SingularRow(pub(crate) usize);
@@ -12,50 +14,7 @@ const PANEL: usize = 4;
 /// *Matrix Computations*, 4th ed., section 3.4); the diagonal of U by its inverse, which is what solving
 /// needs. `pivots[i]` is the row that was exchanged with row i.
 pub(crate) fn lu_factor(a: &mut [f64], n: usize, pivots: &mut [usize]) -> Result<(), SingularRow> {
-    match n {
-        1 => lu_factor_small::<1>(a, pivots),
-        2 => lu_factor_small::<2>(a, pivots),
-        3 => lu_factor_small::<3>(a, pivots),
-        4 => lu_factor_small::<4>(a, pivots),
-        5 => lu_factor_small::<5>(a, pivots),
-        6 => lu_factor_small::<6>(a, pivots),
-        7 => lu_factor_small::<7>(a, pivots),
-        8 => lu_factor_small::<8>(a, pivots),
-        _ => lu_factor_in_panels(a, n, pivots),
-    }
-}
-
-/// [`lu_factor`] of a matrix of few rows, one column after the other.
-fn lu_factor_small<const N: usize>(a: &mut [f64], pivots: &mut [usize]) -> Result<(), SingularRow> {
-    let (a, _) = a.as_chunks_mut::<N>();
-    let a: &mut [[f64; N]; N] = a.try_into().expect("n rows");
-    let pivots: &mut [usize; N] = pivots.try_into().expect("n pivots");
-    for column in 0..N {
-        let (mut pivot, mut largest) = (column, a[column][column].abs());
-        for row in column + 1..N {
-            let candidate = a[row][column].abs();
-            if candidate > largest {
-                (pivot, largest) = (row, candidate);
-            }
-        }
-        if !(largest > 0.0 && largest.is_finite()) {
-            return Err(SingularRow(column));
-        }
-        pivots[column] = pivot;
-        a.swap(column, pivot);
-        let mut pivot_row = a[column];
-        let inverse = 1.0 / pivot_row[column];
-        pivot_row[column] = inverse;
-        a[column] = pivot_row;
-        for row in &mut a[column + 1..] {
-            let factor = row[column] * inverse;
-            row[column] = factor;
-            for j in column + 1..N {
-                row[j] -= factor * pivot_row[j];
-            }
-        }
-    }
-    Ok(())
+    small::of_size!(n => lu_factor(a, pivots), lu_factor_in_panels(a, n, pivots))
 }
 
 /// [`lu_factor`] in panels of [`PANEL`] columns (Golub & Van Loan, section 3.2.11).
@@ -130,41 +89,7 @@ fn subtract_four(x: &mut [f64], f: &[f64], u: [&[f64]; PANEL]) {
 
 /// Solves A x = b in place with the factors of [`lu_factor`].
 pub(crate) fn lu_solve(lu: &[f64], n: usize, pivots: &[usize], b: &mut [f64]) {
-    match n {
-        1 => lu_solve_small::<1>(lu, pivots, b),
-        2 => lu_solve_small::<2>(lu, pivots, b),
-        3 => lu_solve_small::<3>(lu, pivots, b),
-        4 => lu_solve_small::<4>(lu, pivots, b),
-        5 => lu_solve_small::<5>(lu, pivots, b),
-        6 => lu_solve_small::<6>(lu, pivots, b),
-        7 => lu_solve_small::<7>(lu, pivots, b),
-        8 => lu_solve_small::<8>(lu, pivots, b),
-        _ => lu_solve_in_panels(lu, n, pivots, b),
-    }
-}
-
-/// [`lu_solve`] of few equations, column by column: no sum waits for another.
-fn lu_solve_small<const N: usize>(lu: &[f64], pivots: &[usize], b: &mut [f64]) {
-    let (lu, _) = lu.as_chunks::<N>();
-    let lu: &[[f64; N]; N] = lu.try_into().expect("n rows");
-    let pivots: &[usize; N] = pivots.try_into().expect("n pivots");
-    let b: &mut [f64; N] = b.try_into().expect("n numbers");
-    for (i, &pivot) in pivots.iter().enumerate() {
-        b.swap(i, pivot);
-    }
-    let mut x = *b;
-    for k in 0..N {
-        for i in k + 1..N {
-            x[i] -= lu[i][k] * x[k];
-        }
-    }
-    for k in (0..N).rev() {
-        x[k] *= lu[k][k];
-        for i in 0..k {
-            x[i] -= lu[i][k] * x[k];
-        }
-    }
-    *b = x;
+    small::of_size!(n => lu_solve(lu, pivots, b), lu_solve_in_panels(lu, n, pivots, b));
 }
 
 /// [`lu_solve`] of many equations. Rows go in panels, whose products with what is already known do not
@@ -206,42 +131,7 @@ fn lu_solve_in_panels(lu: &[f64], n: usize, pivots: &[usize], b: &mut [f64]) {
 /// Solves xᵀ A = bᵀ in place with the factors of [`lu_factor`], for each row b of `rows` (n numbers
 /// each).
 pub(crate) fn lu_solve_transposed(lu: &[f64], n: usize, pivots: &[usize], rows: &mut [f64]) {
-    match n {
-        1 => lu_solve_transposed_small::<1>(lu, pivots, rows),
-        2 => lu_solve_transposed_small::<2>(lu, pivots, rows),
-        3 => lu_solve_transposed_small::<3>(lu, pivots, rows),
-        4 => lu_solve_transposed_small::<4>(lu, pivots, rows),
-        5 => lu_solve_transposed_small::<5>(lu, pivots, rows),
-        6 => lu_solve_transposed_small::<6>(lu, pivots, rows),
-        7 => lu_solve_transposed_small::<7>(lu, pivots, rows),
-        8 => lu_solve_transposed_small::<8>(lu, pivots, rows),
-        _ => lu_solve_transposed_in_panels(lu, n, pivots, rows),
-    }
-}
-
-/// [`lu_solve_transposed`] of few equations.
-fn lu_solve_transposed_small<const N: usize>(lu: &[f64], pivots: &[usize], rows: &mut [f64]) {
-    let (lu, _) = lu.as_chunks::<N>();
-    let lu: &[[f64; N]; N] = lu.try_into().expect("n rows");
-    let pivots: &[usize; N] = pivots.try_into().expect("n pivots");
-    for b in rows.as_chunks_mut::<N>().0 {
-        let mut x = *b;
-        for k in 0..N {
-            x[k] *= lu[k][k];
-            for j in k + 1..N {
-                x[j] -= lu[k][j] * x[k];
-            }
-        }
-        for k in (1..N).rev() {
-            for j in 0..k {
-                x[j] -= lu[k][j] * x[k];
-            }
-        }
-        *b = x;
-        for i in (0..N).rev() {
-            b.swap(i, pivots[i]);
-        }
-    }
+    small::of_size!(n => lu_solve_transposed(lu, pivots, rows), lu_solve_transposed_in_panels(lu, n, pivots, rows));
 }
 
 /// [`lu_solve_transposed`] of many equations, [`PANEL`] right-hand sides at a time.

@@ -42,7 +42,7 @@ pub(crate) fn global_errors(
     fine: &Solution,
 ) -> Option<GlobalErrors> {
     let t = &*fine.tableau;
-    let least = 0.5f64.powi(i32::try_from(t.scheme.dense_order()).ok()?);
+    let least = t.scheme.share_left();
     let [before, after] = [coarse, fine].map(|solution| solution.quality.defects.largest_local());
     let left = (CAUTION * after / before).clamp(CAUTION * least, 0.5);
     // Of nothing nothing is left.

@@ -193,6 +193,7 @@ mod report;
 mod restriction;
 mod rounding;
 mod scheme;
+mod small;
 mod solution;
 mod solver;
 mod specialise;

@@ -108,12 +108,12 @@ impl<'a> Run<'a> {
         };
         for _ in 0..self.options.retries {
             let finer = halved(&first);
-            match self.from_guess(guess, first) {
+            match self.begin(guess, first) {
                 Err(error) if error.is_of_newton() && self.is_allowed(&finer) => first = finer,
                 outcome => return outcome,
             }
         }
-        match self.from_guess(guess, first) {
+        match self.begin(guess, first) {
             Err(error) if error.is_of_newton() && self.options.retries > 0 => {
                 match rough_solution(self.equations, guess, self.options, &mut self.stats) {
                     None => Err(error),
@@ -128,7 +128,7 @@ impl<'a> Run<'a> {
     }
 
     /// Solves from the guess on a first mesh.
-    fn from_guess(&mut self, guess: &dyn Guess, first: Mesh) -> Result<Solution, Error> {
+    fn begin(&mut self, guess: &dyn Guess, first: Mesh) -> Result<Solution, Error> {
         let coarse = self.on(first, Start::Guess(guess))?;
         self.adapt(coarse)
     }
@@ -223,7 +223,7 @@ impl<'a> Run<'a> {
         }
         // Before the next mesh is halved its errors may be larger by this factor.
         let order = self.tableau.scheme.dense_order();
-        let halves_gain = 2.0f64.powi(order as i32);
+        let halves_gain = 1.0 / self.tableau.scheme.share_left();
         let local = &fine.quality.defects.local;
         let wanted = AIM * halves_gain * tolerance * fine.quality.defects.largest_local() / error;
         let next = next_mesh(&fine.mesh, local, wanted, order);
