@@ -9,13 +9,14 @@
 mod banded;
 #[path = "continuation/problems.rs"]
 mod problems;
+mod processor_time;
 
 use bvp::{Constant, Equations, Family, GlobalError, Scheme};
 use continuation::{Branch, Cause, Direction, Kind, Options, System};
 use criterion::{BenchmarkId, Criterion, SamplingMode};
 use problems::{Bratu, Copies, Swirl};
+use processor_time::processor_time;
 use reference_problems::Curve;
-use std::time::{Duration, SystemTime};
 
 /// Limit points are met with this accuracy: those of Bratu's problem on ten intervals differ by
 /// 1.9e-10 from the exact ones, and AUTO's have eleven digits.
@@ -209,19 +210,6 @@ fn print(name: &str, setting: &str, run: &Run) {
         "\n{name}, {setting}: {steps} steps, {steps_to_limit} to the first limit point, \
          {factorisations:.2} factorisations per step, limit points off by {error:.1e}"
     );
-}
-
-/// The processor time of this thread, which is what was measured of AUTO; the time of day where the
-/// system does not tell.
-fn processor_time() -> Duration {
-    // It is brought up to date when the thread is scheduled.
-    std::thread::yield_now();
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let first = told.and_then(|told| told.split_whitespace().next()?.parse().ok());
-    first.map_or_else(
-        || SystemTime::UNIX_EPOCH.elapsed().unwrap_or_default(),
-        Duration::from_nanos,
-    )
 }
 
 /// A family of boundary value problems from a constant solution with this value of its parameter, on

@@ -1,90 +1,20 @@
 //! How does the cost of one Newton solve grow with the intervals and with the states?
 //!
-//! Expected: linear in the intervals; cubic in the states, once they are many.
+//! Expected: linear in the intervals; between quadratic and cubic in the states, once they are many.
+//! Processor time of linear problems on a mesh of exactly so many intervals, and of a nonlinear
+//! one with up to 100 states from a zero guess to its error estimate. At the end the fastest runs are
+//! printed as tables, with the exponent α of time ∝ sizeᵅ between neighbouring columns.
 
-use bvp::{Ends, Equations, GlobalError, Options, Segment, Solution, Table, solve};
-use criterion::{BenchmarkId, Criterion, Throughput};
+#[path = "scaling/problems.rs"]
+mod problems;
+mod processor_time;
+
+use bvp::{Equations, GlobalError, Options, Solution, Table, solve};
+use criterion::{BenchmarkId, Criterion, SamplingMode};
+use problems::{ReactionDiffusion, Rotation};
+use processor_time::processor_time;
 use std::hint::black_box;
-
-/// y′ = A y with a full antisymmetric A; the first half of the states is 1 at s = 0, the others
-/// are 1 at s = 1. The Jacobian costs no more than to copy A.
-struct Rotation {
-    segments: [Segment; 1],
-    a: Vec<f64>,
-}
-
-impl Rotation {
-    fn new(states: usize) -> Self {
-        let mut a = vec![0.0; states * states];
-        for i in 0..states {
-            for j in 0..i {
-                // Spread over [−1, 1] and of bounded norm.
-                let value = ((i * 7 + j * 13) as f64).sin() / states as f64;
-                a[i * states + j] = value;
-                a[j * states + i] = -value;
-            }
-        }
-        Self {
-            segments: [Segment::new(states)],
-            a,
-        }
-    }
-
-    fn states(&self) -> usize {
-        self.segments[0].states
-    }
-}
-
-impl Equations for Rotation {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
-    }
-
-    fn parameters(&self) -> usize {
-        0
-    }
-
-    fn condition_count(&self) -> usize {
-        self.states()
-    }
-
-    fn rhs(&self, _: usize, _: f64, y: &[f64], _: &[f64], dy: &mut [f64]) {
-        for (dy, row) in dy.iter_mut().zip(self.a.chunks_exact(y.len())) {
-            *dy = row.iter().zip(y).map(|(a, y)| a * y).sum();
-        }
-    }
-
-    fn rhs_jacobian(
-        &self,
-        segment: usize,
-        s: f64,
-        y: &[f64],
-        p: &[f64],
-        dy: &mut [f64],
-        jacobian: &mut [f64],
-    ) {
-        self.rhs(segment, s, y, p, dy);
-        jacobian.copy_from_slice(&self.a);
-    }
-
-    fn conditions(&self, at: Ends<'_, f64>, _: &[f64], r: &mut [f64]) {
-        let half = self.states() / 2;
-        for (i, r) in r.iter_mut().enumerate() {
-            let end = if i < half { at.start(0) } else { at.end(0) };
-            *r = end[i] - 1.0;
-        }
-    }
-
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
-        self.conditions(Ends::new(&self.segments, ends), p, r);
-        let n = self.states();
-        jacobian.fill(0.0);
-        for i in 0..n {
-            let column = if i < n / 2 { i } else { n + i };
-            jacobian[i * 2 * n + column] = 1.0;
-        }
-    }
-}
+use std::time::Duration;
 
 /// The zero guess on equal intervals.
 fn guess(states: usize, intervals: usize) -> Table {
@@ -96,41 +26,133 @@ fn guess(states: usize, intervals: usize) -> Table {
     }
 }
 
-/// Solves the linear problem on the mesh of the guess: one factorisation and nothing more.
-fn newton(equations: &Rotation, guess: &Table) -> Solution {
+/// Solves on the mesh of the guess, which must do.
+fn solved(equations: &dyn Equations, guess: &Table, global_error: GlobalError) -> Solution {
     let options = Options {
         tolerance: 1e-3,
-        max_intervals: 20_000,
-        global_error: GlobalError::Skip,
+        max_intervals: guess.nodes[0].len(),
+        global_error,
         ..Options::default()
     };
-    solve(equations, guess, &options).expect("a well-posed linear problem")
+    let solution = solve(equations, guess, &options).expect("a well-posed problem");
+    assert_eq!(solution.mesh(0), guess.nodes[0], "the mesh of the guess");
+    solution
 }
 
-fn bench(
-    criterion: &mut Criterion,
-    name: &str,
-    sizes: impl Iterator<Item = (usize, usize, usize)>,
-) {
-    let mut group = criterion.benchmark_group(name);
-    for (states, intervals, shown) in sizes {
-        let (equations, guess) = (Rotation::new(states), guess(states, intervals));
-        let stats = *newton(&equations, &guess).stats();
-        assert_eq!((stats.meshes, stats.factorisations), (1, 1));
-        group.throughput(Throughput::Elements(intervals as u64));
-        let id = BenchmarkId::new("one Newton solve", shown);
-        group.bench_function(id, |b| b.iter(|| newton(&equations, black_box(&guess))));
+/// A kind of problem, to be solved in several sizes.
+struct Bench<'a> {
+    /// Heading and name of the function.
+    names: [&'a str; 2],
+    global_error: GlobalError,
+    /// Size and the fastest of all solutions.
+    fastest: Vec<(usize, Duration)>,
+}
+
+impl<'a> Bench<'a> {
+    fn new(names: [&'a str; 2], global_error: GlobalError) -> Self {
+        Self {
+            names,
+            global_error,
+            fastest: vec![],
+        }
     }
-    group.finish();
+
+    /// Times one size.
+    fn time(
+        &mut self,
+        criterion: &mut Criterion,
+        equations: &dyn Equations,
+        intervals: usize,
+        size: usize,
+    ) {
+        let guess = guess(equations.segments()[0].states, intervals);
+        let mut fastest = Duration::MAX;
+        let mut group = criterion.benchmark_group(self.names[0]);
+        group.sampling_mode(SamplingMode::Flat);
+        group.bench_function(BenchmarkId::new(self.names[1], size), |b| {
+            b.iter_custom(|iterations| {
+                let runs = (0..iterations).map(|_| {
+                    let start = processor_time();
+                    black_box(solved(equations, black_box(&guess), self.global_error));
+                    let time = processor_time() - start;
+                    fastest = fastest.min(time);
+                    time
+                });
+                runs.sum()
+            });
+        });
+        group.finish();
+        // Not if the filter of the command line leaves it out.
+        if fastest < Duration::MAX {
+            self.fastest.push((size, fastest));
+        }
+    }
+
+    /// Prints the fastest solutions and the exponents of their growth as a table.
+    fn print(&self) {
+        let [heading, function] = self.names;
+        let cells = |cell: &dyn Fn(usize) -> String| -> String {
+            (0..self.fastest.len())
+                .map(|i| format!(" {} |", cell(i)))
+                .collect()
+        };
+        let exponent = |i: usize| {
+            let (now, before) = (self.fastest[i], self.fastest[i - 1]);
+            (now.1.as_secs_f64() / before.1.as_secs_f64()).ln()
+                / (now.0 as f64 / before.0 as f64).ln()
+        };
+        println!("\n{heading}\n");
+        println!("|  |{}", cells(&|i| self.fastest[i].0.to_string()));
+        println!("| --- |{}", cells(&|_| "---:".to_owned()));
+        println!(
+            "| {function} |{}",
+            cells(&|i| format!("{:.4} ms", 1e3 * self.fastest[i].1.as_secs_f64()))
+        );
+        let exponents = cells(&|i| {
+            if i == 0 {
+                String::new()
+            } else {
+                format!("{:.2}", exponent(i))
+            }
+        });
+        println!("| exponent |{exponents}");
+    }
 }
 
 fn main() {
-    let mut criterion = Criterion::default().configure_from_args();
-    let intervals = (0..8).map(|i| 100 << i);
-    let sizes = intervals.map(|intervals| (4, intervals, intervals));
-    bench(&mut criterion, "intervals, 4 states", sizes);
-    let states = [2, 4, 8, 16, 32, 64].into_iter();
-    let sizes = states.map(|states| (states, 200, states));
-    bench(&mut criterion, "states, 200 intervals", sizes);
+    let short = Duration::from_millis(500);
+    let criterion = Criterion::default()
+        .warm_up_time(short)
+        .measurement_time(4 * short);
+    let mut criterion = criterion.sample_size(10).configure_from_args();
+    let newton = |heading| Bench::new([heading, "one Newton solve"], GlobalError::Skip);
+
+    let mut by_intervals = newton("intervals, 4 states");
+    for intervals in [100, 1_000, 10_000, 100_000] {
+        by_intervals.time(&mut criterion, &Rotation::new(4), intervals, intervals);
+    }
+    let mut by_states = newton("states, 50 intervals");
+    for states in [2, 4, 8, 16, 32, 64, 100] {
+        by_states.time(&mut criterion, &Rotation::new(states), 50, states);
+    }
+    let mut nonlinear = Bench::new(
+        [
+            "states, reaction with diffusion, 20 intervals",
+            "solution with its estimate",
+        ],
+        GlobalError::HalvedMesh,
+    );
+    for lines in [5, 10, 25, 50] {
+        nonlinear.time(
+            &mut criterion,
+            &ReactionDiffusion::new(lines),
+            20,
+            2 * lines,
+        );
+    }
+
     criterion.final_summary();
+    for bench in [by_intervals, by_states, nonlinear] {
+        bench.print();
+    }
 }

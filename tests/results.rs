@@ -1,6 +1,6 @@
 //! Writes the table of results, RESULTS.md.
 //!
-//! `cargo test -p reference-problems --release -- --ignored write_table`
+//! `cargo test -p reference-problems --release --test results -- --ignored write_table`
 
 use bvp::Options;
 use reference_problems::{Attempt, FALSE_FROM, Outcome, TOLERANCES, all, quantile};
@@ -11,29 +11,20 @@ use std::fs;
 const HEAD: &str = "\
 # Results of the reference problems
 
-Every case from its stated guess on its stated mesh with `Options::to(tolerance)`: the mesh chosen for
-the error, the scheme for the tolerance. Written by
+Every case from its stated guess on its stated mesh with `Options::to(tolerance)`. Written by
 
-    cargo test -p reference-problems --release -- --ignored write_table
+    cargo test -p reference-problems --release --test results -- --ignored write_table
 
 The true error is max |y − yref| / (1 + |yref|) over the points of the reference table and the
 parameters, the estimate that of the solver; both are divided by the tolerance. \"N\" is the number of
-intervals of the last mesh, \"steps\" and \"LU\" are the Newton steps and the factorisations of the
-Newton matrix over all meshes, the estimate of the error included.
+intervals of the mesh returned, \"steps\" and \"LU\" are the Newton steps and the factorisations of the
+Newton matrix over all meshes, their halves included.
 ";
 
-/// The mesh chosen for the defect with the default scheme.
-fn by_defect(tolerance: f64) -> Options {
-    Options {
-        tolerance,
-        ..Options::default()
-    }
-}
-
 /// All cases at all tolerances, one row per tolerance.
-fn attempts(setting: fn(f64) -> Options) -> Vec<Vec<Attempt>> {
+fn attempts() -> Vec<Vec<Attempt>> {
     let at = |tolerance| {
-        let options = setting(tolerance);
+        let options = Options::to(tolerance);
         let of_case = |case| Attempt::new(&case, &options);
         all().into_iter().map(of_case).collect()
     };
@@ -57,9 +48,9 @@ fn cells(attempt: &Attempt) -> String {
 }
 
 /// The lines on all cases: one per tolerance.
-fn summary(title: &str, rows: &[Vec<Attempt>]) -> String {
+fn summary(rows: &[Vec<Attempt>]) -> String {
     let mut text = format!(
-        "\n## {title}\n\nSolved: a solution with a true error of at most {FALSE_FROM} tolerances; false: one \
+        "\n## All cases\n\nSolved: a solution with a true error of at most {FALSE_FROM} tolerances; false: one \
          with a larger\nerror. The other columns are the true error over the tolerance and medians over \
          all solutions.\n\n\
          | tolerance | solved | false | failed | median | 90 % | largest | N, median | LU, median |\n\
@@ -128,14 +119,10 @@ fn table(rows: &[Vec<Attempt>]) -> String {
 #[test]
 #[ignore = "writes RESULTS.md; run it in release"]
 fn write_table() {
-    let rows = attempts(Options::to);
+    let rows = attempts();
     let text = [
         HEAD.to_owned(),
-        summary("All cases", &rows),
-        summary(
-            "With the mesh chosen for the defect, four stages",
-            &attempts(by_defect),
-        ),
+        summary(&rows),
         remarks(&rows),
         table(&rows),
     ]

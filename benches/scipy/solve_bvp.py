@@ -1,7 +1,8 @@
 """Times scipy.integrate.solve_bvp on the reference problems; see run.sh.
 
-The best of five runs, with analytic Jacobians, from the same guesses on the same meshes as the
-cases of the Rust crate `reference-problems`. Prints comma-separated values, one line per case and
+The best of five runs in processor time, which other programs do not lengthen, with analytic
+Jacobians, from the same guesses on the same meshes as the cases of the Rust crate
+`reference-problems`. Prints comma-separated values, one line per case and
 tolerance. A solution counts if SciPy reports success and its error at the points of the reference
 table is at most ten times the tolerance; for the others the column of the time is empty.
 """
@@ -70,9 +71,9 @@ def measured(problem, tolerance):
     """A result and the least seconds of its runs; a failure is not repeated."""
     least, runs = math.inf, RUNS
     while runs > 0:
-        start = time.perf_counter()
+        start = time.process_time()
         result = solve(problem, tolerance)
-        seconds = time.perf_counter() - start
+        seconds = time.process_time() - start
         least = min(least, seconds)
         runs = 0 if result.status != 0 else runs - 1
     return result, least

@@ -375,4 +375,21 @@ impl Error {
             _ => None,
         }
     }
+
+    /// The same, to be changed.
+    pub(crate) fn best_mut(&mut self) -> Option<&mut Solution> {
+        match self {
+            Self::NonFiniteRhs { best, .. }
+            | Self::NonFiniteCondition { best, .. }
+            | Self::SingularNode { best, .. }
+            | Self::SingularConditions { best, .. }
+            | Self::NoConvergence { best, .. }
+            | Self::MeshLimit { best, .. }
+            | Self::Unresolved { best, .. }
+            | Self::ConditionViolated { best, .. }
+            | Self::IllConditioned { best, .. }
+            | Self::Unreached { best, .. } => Some(best),
+            _ => None,
+        }
+    }
 }

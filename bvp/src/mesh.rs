@@ -123,6 +123,22 @@ mod tests {
     }
 
     #[test]
+    fn thinning_keeps_the_distribution_and_an_interval() {
+        // Node i of 68 stands at (i/68)²; of 20 at (i/20)², but for the chords in between.
+        let nodes: Vec<f64> = (0..=68).map(|i| (f64::from(i) / 68.0).powi(2)).collect();
+        let few = thinned(&vec![nodes, vec![0.0, 0.1, 1.0]], 3.4);
+        assert_eq!(few[0].len(), 21);
+        for (i, s) in few[0].iter().enumerate() {
+            let exact = (i as f64 / 20.0).powi(2);
+            assert!(
+                (s - exact).abs() <= 0.25 / (68.0 * 68.0) + 1e-15,
+                "{i}: {s}"
+            );
+        }
+        assert_eq!(few[1], [0.0, 1.0]);
+    }
+
+    #[test]
     fn splitting_keeps_the_old_nodes() {
         assert_eq!(
             split(&[0.0, 1.0, 3.0], &[1, 4]),

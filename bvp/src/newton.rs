@@ -140,7 +140,8 @@ impl Newton {
             if !size.largest.is_finite() {
                 return Err(Failure::Ends(collocation.dependence()));
             }
-            let predicted = 0.5 * self.curvature * size.mean * size.largest;
+            // The mean would hide an entry that is far larger than the others.
+            let predicted = 0.5 * self.curvature * size.largest * size.largest;
             if size.largest <= tolerance || fresh && PREDICTION_SAFETY * predicted <= tolerance {
                 self.trial.set_sum(x, 1.0, &self.delta);
                 std::mem::swap(x, &mut self.trial);

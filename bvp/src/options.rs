@@ -41,6 +41,9 @@ pub enum GlobalError {
     /// From the solutions on a mesh and on that with every interval halved, of which the second is
     /// returned. The mesh is chosen for the error.
     HalvedMesh,
+    /// From the same two solutions, but on a mesh on which the defect, too, is at most the tolerance. For
+    /// what depends on slopes or integrates right-hand sides; asks for more intervals.
+    BesideDefect,
     /// Not at all: for intermediate solutions on the way to another one. The mesh is chosen for the
     /// defect, which asks for more intervals than the error does.
     Skip,

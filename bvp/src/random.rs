@@ -22,3 +22,23 @@ impl Signs {
         if self.state >> 63 == 1 { -x } else { x }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signs_repeat_and_are_both_as_frequent() {
+        let draw = || {
+            let mut signs = Signs::default();
+            (0..10_000).map(|_| signs.turn(2.0)).collect::<Vec<f64>>()
+        };
+        let drawn = draw();
+        assert_eq!(drawn, draw());
+        assert!(drawn.iter().all(|x| x.abs() == 2.0));
+        // Four standard deviations of the sum of so many signs.
+        assert!(drawn.iter().sum::<f64>().abs() < 2.0 * 4.0 * 100.0);
+        let changes = drawn.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        assert!(changes.abs_diff(5_000) < 200, "{changes}");
+    }
+}

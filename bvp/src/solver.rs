@@ -101,10 +101,9 @@ struct Run<'a> {
 impl<'a> Run<'a> {
     /// Solves from the guess on a first mesh, and on finer ones where Newton's method fails.
     fn solve(mut self, guess: &dyn Guess, mesh: Mesh) -> Result<Solution, Error> {
-        let mut first = if self.refines() {
-            thinned(&mesh, THINNED)
-        } else {
-            mesh
+        let mut first = match self.options.global_error {
+            GlobalError::HalvedMesh => thinned(&mesh, THINNED),
+            GlobalError::BesideDefect | GlobalError::Skip => mesh,
         };
         for _ in 0..self.options.retries {
             let finer = halved(&first);
@@ -114,9 +113,14 @@ impl<'a> Run<'a> {
             }
         }
         match self.begin(guess, first) {
-            Err(error) if error.is_of_newton() && self.options.retries > 0 => {
+            Err(mut error) if error.is_of_newton() && self.options.retries > 0 => {
                 match rough_solution(self.equations, guess, self.options, &mut self.stats) {
-                    None => Err(error),
+                    None => {
+                        if let Some(best) = error.best_mut() {
+                            best.stats = self.cost();
+                        }
+                        Err(error)
+                    }
                     Some(rough) => {
                         let coarse = self.on(rough.mesh.clone(), Start::Solution(&rough))?;
                         self.adapt(coarse)
@@ -199,16 +203,14 @@ impl<'a> Run<'a> {
             let defects = &coarse.quality.defects.relative;
             Next::Mesh(next_mesh(&coarse.mesh, defects, wanted, m))
         };
-        if !self.refines() {
-            let next = if defect <= tolerance {
-                Next::Done
-            } else {
-                by_defect(tolerance)
-            };
-            return Ok((coarse, next));
-        }
-        if defect > UNRESOLVED || defect.is_nan() {
-            let next = by_defect(RESOLVED * UNRESOLVED);
+        let next = match self.options.global_error {
+            GlobalError::HalvedMesh if defect <= UNRESOLVED => None,
+            GlobalError::HalvedMesh => Some(by_defect(RESOLVED * UNRESOLVED)),
+            GlobalError::BesideDefect if defect <= tolerance => None,
+            GlobalError::Skip if defect <= tolerance => Some(Next::Done),
+            GlobalError::BesideDefect | GlobalError::Skip => Some(by_defect(tolerance)),
+        };
+        if let Some(next) = next {
             return Ok((coarse, next));
         }
         check_mesh(&halved(&coarse.mesh), self.options, &coarse)?;
@@ -283,7 +285,7 @@ impl<'a> Run<'a> {
 
     /// Whether the global error is to be known: the solution is then the one on a halved mesh.
     fn refines(&self) -> bool {
-        self.options.global_error == GlobalError::HalvedMesh
+        self.options.global_error != GlobalError::Skip
     }
 
     /// Whether a mesh is within the limit.
@@ -397,10 +399,17 @@ impl<'a> Run<'a> {
         })
     }
 
+    /// The cost so far.
+    fn cost(&self) -> Stats {
+        Stats {
+            seconds: self.start.elapsed().as_secs_f64(),
+            ..self.stats
+        }
+    }
+
     /// Stamps the cost so far on a solution.
     fn finish(&self, mut solution: Solution) -> Solution {
-        solution.stats = self.stats;
-        solution.stats.seconds = self.start.elapsed().as_secs_f64();
+        solution.stats = self.cost();
         solution
     }
 }

@@ -203,7 +203,11 @@ impl Path<'_> {
     /// successive parabolas (Brent 1973, chapter 5, without the safeguard of golden sections: the
     /// states bracket one smooth maximum).
     fn maximum(&mut self, states: [Solved; 3]) -> Result<Found, Stuck> {
-        let [mut low, mut top, mut high] = states;
+        let [low, top, high] = states;
+        // As accurate as those to come: else a rough state may seem to be the highest.
+        let mut low = self.again(low, Effort::Full)?;
+        let mut top = self.again(top, Effort::Full)?;
+        let mut high = self.again(high, Effort::Full)?;
         for _ in 0..20 {
             let point = |s: &Solved| (s.driver_length(), s.tight_tension());
             let [(a, fa), (b, fb), (c, fc)] = [point(&low), point(&top), point(&high)];

@@ -157,7 +157,8 @@ impl<'a> Path<'a> {
             // A shorter step of the homotopy is a better answer to a failure than a finer mesh.
             retries: if effort == Effort::Start { 2 } else { 0 },
             global_error: match effort {
-                Effort::Final => GlobalError::HalvedMesh,
+                // Integrals of friction need a small defect.
+                Effort::Final => GlobalError::BesideDefect,
                 _ => GlobalError::Skip,
             },
         };

@@ -70,5 +70,5 @@ fn work_of_a_boundary_layer() {
         let stats = solution.stats();
         [stats.factorisations, stats.meshes, intervals(&solution)]
     });
-    assert_eq!(work, [[9, 7, 22], [9, 7, 44], [10, 8, 76]]);
+    assert_eq!(work, [[9, 7, 14], [10, 7, 24], [11, 8, 42]]);
 }

@@ -118,6 +118,7 @@ fn stages_that_have_no_solution() {
         tolerance: 1e-2,
         initial_intervals: 2,
         max_intervals: 2,
+        global_error: GlobalError::Skip,
         ..Options::default()
     };
     let error = failure(&*exponential(4.0).equations, &states(&[1.0, 0.0]), &options);
@@ -270,6 +271,7 @@ fn the_mesh_limit_says_what_is_missing() {
 fn a_jump_is_to_be_a_junction() {
     let options = Options {
         scheme: Some(Scheme::LobattoIIIA { stages: 3 }),
+        global_error: GlobalError::Skip,
         ..Options::default()
     };
     let error = failure(&jump(), &states(&[1.0]), &options);

@@ -122,7 +122,6 @@ fn a_corner_sharper_than_newtons_method_can_guess() {
 #[test]
 fn troeschs_problem_with_a_slope_of_1e10() {
     let mu = 50.0;
-    assert!(direct(Equation::Troesch, mu).is_err());
     let solution = follow(Equation::Troesch, 1.0, mu).unwrap();
     // y'² = 2 cosh μy − 2 + y'(1)², and y'(1) is below 10⁻²⁰.
     let exact = -2.0 * (mu / 2.0).sinh();

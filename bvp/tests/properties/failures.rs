@@ -68,6 +68,7 @@ fn stages_that_have_no_solution() {
         tolerance: 1e-2,
         initial_intervals: 2,
         max_intervals: 2,
+        global_error: GlobalError::Skip,
         ..Options::default()
     };
     // Central differences would miss the exact zero.
@@ -172,7 +173,8 @@ fn no_convergence_and_its_numbers() {
         panic!("{error}")
     };
     assert!(correction > 1e-3 && steps > 0);
-    assert_eq!(tolerance, 1e-8);
+    // On a mesh that is to be halved corrections need not be smaller than the tolerance itself.
+    assert_eq!(tolerance, 1e-6);
 }
 
 /// y' = 1 / (10⁻⁸ + (s − ½)²): a bump far narrower than an interval.
@@ -184,25 +186,29 @@ pub(crate) fn bump() -> FiniteDifferences<Rhs, Conditions> {
 
 #[test]
 fn the_mesh_limit_and_its_numbers() {
-    let options = Options {
-        max_intervals: 20,
-        ..Options::default()
-    };
-    let error = numerical(&bump(), &states(&[0.0]), &options);
-    let Error::MeshLimit {
-        needed,
-        limit: 20,
-        defect,
-        error: estimate,
-        tolerance: 1e-6,
-        ref best,
-        ..
-    } = error
-    else {
-        panic!("{error}")
-    };
-    assert!(needed > 20 && defect > 1e-6 && estimate == f64::INFINITY);
-    assert_eq!(best.defect(), defect);
+    for global_error in [GlobalError::HalvedMesh, GlobalError::Skip] {
+        let options = Options {
+            max_intervals: 20,
+            global_error,
+            ..Options::default()
+        };
+        let error = numerical(&bump(), &states(&[0.0]), &options);
+        let Error::MeshLimit {
+            needed,
+            limit: 20,
+            defect,
+            error: estimate,
+            tolerance: 1e-6,
+            ref best,
+            ..
+        } = error
+        else {
+            panic!("{error}")
+        };
+        assert!(needed > 20 && defect > 1e-6 && estimate > 1e-6);
+        assert_eq!(best.defect(), defect);
+        assert_eq!(best.error_estimate().unwrap_or(f64::INFINITY), estimate);
+    }
     assert!(solve(&bump(), &states(&[0.0]), &Options::default()).is_ok());
 }
 
@@ -221,11 +227,12 @@ pub(crate) fn jump() -> FiniteDifferences<Rhs, Conditions> {
 }
 
 #[test]
-fn a_jump_inside_a_segment_is_located() {
+fn a_jump_inside_a_segment_is_located_where_the_defect_is_to_be_small() {
     let place = std::f64::consts::FRAC_1_SQRT_2;
     // Points at both ends of every interval cannot overlook it.
     let options = Options {
         scheme: Some(Scheme::LobattoIIIA { stages: 3 }),
+        global_error: GlobalError::Skip,
         ..Options::default()
     };
     let error = numerical(&jump(), &states(&[1.0]), &options);

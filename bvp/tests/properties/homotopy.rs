@@ -65,10 +65,11 @@ fn a_guess_far_above_every_solution() {
 #[test]
 fn several_segments_and_a_parameter() {
     let guess = Constant {
-        states: vec![vec![30.0, 0.0]; 2],
-        parameters: vec![3.0],
+        states: vec![vec![100.0, 0.0]; 2],
+        parameters: vec![50.0],
     };
-    assert!(unaided(&Joined, &guess).is_err());
+    let error = unaided(&Joined, &guess).unwrap_err();
+    assert!(matches!(error, Error::NoConvergence { .. }), "{error}");
     let solution = solve(&Joined, &guess, &Options::default()).unwrap();
     assert!((solution.parameters()[0] - 1.0).abs() < 1e-6);
     assert!((solution.end(0)[1]).abs() < 1e-6);
@@ -76,9 +77,10 @@ fn several_segments_and_a_parameter() {
 
 #[test]
 fn a_guess_where_the_right_hand_side_is_not_finite() {
-    // y' = 1/y, y(0) = 1, guessed zero: y = √(1 + 2 s).
+    // y' = 1/y, y(0) + y(1) = 1 + √3, guessed zero: y = √(1 + 2 s).
     let mut problem = growth();
     problem.rhs = |_, _, y, _, dy| dy[0] = 1.0 / y[0];
+    problem.conditions = |at, _, r| r[0] = at.start(0)[0] + at.end(0)[0] - 1.0 - 3f64.sqrt();
     let error = unaided(&problem, &states(&[0.0])).unwrap_err();
     assert!(matches!(error, Error::NonFiniteRhs { .. }), "{error}");
     let solution = solve(&problem, &states(&[0.0]), &Options::default()).unwrap();

@@ -1,5 +1,6 @@
 //! What the solver promises, one property per file.
 
+mod chains;
 mod classes;
 mod complex;
 mod conditioning;

@@ -117,8 +117,8 @@ fn refinement_by_halves_is_exact() {
     let mut vectors = vec![z.clone(), t];
     let mut fine = family.refined(&mut vectors).unwrap();
     let count = fine.unknowns();
-    // Two segments with ten and with twenty intervals of (1 + 4) × 2, one more node each, and λ.
-    assert_eq!((n + 1, count), (205, 405));
+    // Two segments with six and with twelve intervals of (1 + 7) × 2, one more node each, and λ.
+    assert_eq!((n + 1, count), (197, 389));
     let (coarse_solution, solution) = (family.solution(&z), fine.solution(&vectors[0]));
     for vector in &vectors {
         let mut g = vec![0.0; count - 1];
@@ -126,7 +126,7 @@ fn refinement_by_halves_is_exact() {
         let size = dot(vector, vector).sqrt();
         for segment in 0..2 {
             let intervals = solution.mesh(segment).len() - 1;
-            let first = segment * 10 * intervals;
+            let first = segment * 16 * intervals;
             let continuity = &g[first..first + 2 * intervals];
             assert!(continuity.iter().all(|g| g.abs() < 1e-14 * (1.0 + size)));
         }
@@ -138,7 +138,7 @@ fn refinement_by_halves_is_exact() {
         solution.state(1, s, &mut y);
         assert!((y[0] - coarse[0]).abs() + (y[1] - coarse[1]).abs() < 1e-14);
     }
-    // 20, 40 and 80 intervals; 160 are more than four times those allowed.
+    // 12, 24 and 48 intervals; 96 are more than four times those allowed.
     let finer = fine.refined(&mut []).unwrap();
     let kept = vectors.clone();
     assert!(finer.refined(&mut vectors).is_none());

@@ -59,7 +59,7 @@ fn a_report_says_what_is_known_and_where() {
     assert_eq!(
         lines[0],
         format!(
-            "Gauss, 4 stages: {intervals} intervals in 2 segments, meshes tried: {}",
+            "Gauss, 7 stages: {intervals} intervals in 2 segments, meshes tried: {}",
             stats.meshes
         )
     );

@@ -1,7 +1,10 @@
 //! Statements that are refused: the variant, its numbers and its message.
 
 use crate::failures::{growth, states};
-use bvp::{Constant, Equations, Error, Function, Guess, Options, Scheme, Segment, Table, solve};
+use bvp::{
+    Constant, Equations, Error, Function, GlobalError, Guess, Options, Scheme, Segment, Table,
+    solve,
+};
 
 /// The error of a statement: it carries no iterate.
 fn statement(equations: &dyn Equations, guess: &dyn Guess, options: &Options) -> Error {
@@ -171,7 +174,11 @@ fn guesses_that_do_not_fit() {
         },
         parameters: vec![],
     };
-    let error = statement(&growth(), &guess, &options);
+    let as_stated = Options {
+        global_error: GlobalError::Skip,
+        ..options.clone()
+    };
+    let error = statement(&growth(), &guess, &as_stated);
     assert!(matches!(error, Error::Guess { segment: 0, s: 0.5 }));
 
     let mut problem = growth();

@@ -59,8 +59,8 @@ enum Failure {
 }
 
 impl BoundaryValue {
-    /// The steady state of a flat-belt drive, to this tolerance of defects and errors relative to the
-    /// units of the problem.
+    /// The steady state of a flat-belt drive, with estimated errors within this tolerance relative to
+    /// the units of the problem.
     ///
     /// # Errors
     /// [`Failure`].

@@ -108,7 +108,7 @@ fn closed_form_and_boundary_value_problem_agree() {
     let mut structures = BTreeMap::<String, usize>::new();
     let drives = sample();
     for (name, drive) in &drives {
-        let found = BoundaryValue::solve(drive, 1e-11, FINE);
+        let found = BoundaryValue::solve(drive, 1e-12, FINE);
         let found = found.unwrap_or_else(|failure| panic!("{name}: {failure}"));
         let kinds = |pulley| {
             found
@@ -148,7 +148,7 @@ fn they_agree_with_very_stiff_and_very_soft_bristles_and_close_to_gross_slip() {
         for convention in NormalForce::ALL {
             let law = FrictionLaw::Epp { stiffness };
             let drive = drive(law, convention, Belt(200.0), Belt(tight));
-            let found = BoundaryValue::solve(&drive, 1e-10, FINE).unwrap();
+            let found = BoundaryValue::solve(&drive, 1e-11, FINE).unwrap();
             let these = deviations(&drive, &found);
             let name = format!("{stiffness:e} {tight} {convention:?}");
             println!("{name} {}", show(&these));

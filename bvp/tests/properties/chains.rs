@@ -1,0 +1,182 @@
+//! States whose derivative is another state are eliminated, which changes nothing but the cost.
+
+use bvp::{
+    Constant, Ends, Equations, Family, GlobalError, Options, Scheme, Segment, Solution, solve,
+};
+
+/// How many states are chained: y₀' = y₁, y₁' = y₂, …
+const LINKS: std::ops::RangeInclusive<usize> = 1..=4;
+
+/// y₀⁽ⁿ⁻¹⁾ = −y₀ + p y₀² / 20 + cos s, n − 2 chained states, and a last state with the slope y₀ y₁.
+struct Oscillator {
+    segments: [Segment; 1],
+    links: usize,
+    /// What the first derivative of a chained row is more than a unit vector by.
+    extra: f64,
+    /// Whether p is left free.
+    free: bool,
+}
+
+impl Oscillator {
+    fn new(links: usize, extra: f64, free: bool) -> Self {
+        Self {
+            segments: [Segment::on(links + 2, 0.0, 1.0)],
+            links,
+            extra,
+            free,
+        }
+    }
+
+    fn states(&self) -> usize {
+        self.links + 2
+    }
+}
+
+impl Equations for Oscillator {
+    fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    fn parameters(&self) -> usize {
+        1
+    }
+
+    fn condition_count(&self) -> usize {
+        self.states() + usize::from(!self.free)
+    }
+
+    fn rhs(&self, _: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        dy[..self.links].copy_from_slice(&y[1..=self.links]);
+        dy[self.links] = 0.05 * p[0] * y[0] * y[0] - y[0] + s.cos();
+        dy[self.links + 1] = y[0] * y[1];
+    }
+
+    fn rhs_jacobian(
+        &self,
+        segment: usize,
+        s: f64,
+        y: &[f64],
+        p: &[f64],
+        dy: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        self.rhs(segment, s, y, p, dy);
+        jacobian.fill(0.0);
+        let (n, links, columns) = (self.states(), self.links, self.states() + 1);
+        for link in 0..links {
+            jacobian[link * columns + link + 1] = 1.0;
+            jacobian[link * columns + n - 1] = self.extra;
+        }
+        jacobian[links * columns] = 0.1 * p[0] * y[0] - 1.0;
+        jacobian[links * columns + n] = 0.05 * y[0] * y[0];
+        jacobian[(links + 1) * columns] = y[1];
+        jacobian[(links + 1) * columns + 1] = y[0];
+    }
+
+    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+        let n = self.states();
+        // One at the right end, the others at the left one.
+        for (r, y) in r.iter_mut().zip(&at.start(0)[..n]) {
+            *r = y - 0.1;
+        }
+        r[0] = at.end(0)[0] - 0.2;
+        if !self.free {
+            r[n] = p[0] - 1.0;
+        }
+    }
+
+    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
+        self.conditions(Ends::new(&self.segments, ends), p, r);
+        let (n, columns) = (self.states(), 2 * self.states() + 1);
+        jacobian.fill(0.0);
+        jacobian[n] = 1.0;
+        for i in 1..n {
+            jacobian[i * columns + i] = 1.0;
+        }
+        if !self.free {
+            jacobian[n * columns + 2 * n] = 1.0;
+        }
+    }
+}
+
+/// The smallest number that makes a row no unit vector: it changes no sum.
+const TINY: f64 = 1e-300;
+
+fn guess(links: usize) -> Constant {
+    Constant {
+        states: vec![vec![0.1; links + 2]],
+        parameters: vec![1.0],
+    }
+}
+
+fn options(stages: usize) -> Options {
+    Options {
+        scheme: Some(Scheme::Gauss { stages }),
+        global_error: GlobalError::Skip,
+        tolerance: 1e-2,
+        ..Options::default()
+    }
+}
+
+fn near(x: &[f64], y: &[f64]) -> bool {
+    x.iter()
+        .zip(y)
+        .all(|(x, y)| (x - y).abs() < 1e-12 * (1.0 + x.abs()))
+}
+
+#[test]
+fn a_chain_changes_neither_the_solution_nor_the_way_to_it() {
+    for links in LINKS {
+        for stages in [3, 4, 6, 7] {
+            let [chained, plain] = [0.0, TINY].map(|extra| -> Solution {
+                let equations = Oscillator::new(links, extra, false);
+                solve(&equations, &guess(links), &options(stages)).unwrap()
+            });
+            let [one, two] = [&chained, &plain].map(|solution| {
+                let stats = solution.stats();
+                (stats.newton_steps, stats.factorisations, stats.meshes)
+            });
+            assert_eq!(one, two, "{links} links, {stages} stages");
+            assert_eq!(chained.mesh(0), plain.mesh(0));
+            let [mut y, mut z] = [vec![0.0; links + 2], vec![0.0; links + 2]];
+            for i in 0..=50 {
+                let s = 0.02 * f64::from(i);
+                chained.state(0, s, &mut y);
+                plain.state(0, s, &mut z);
+                assert!(near(&y, &z), "{links} links, {stages} stages: {y:?} {z:?}");
+                chained.derivative(0, s, &mut y);
+                plain.derivative(0, s, &mut z);
+                assert!(near(&y, &z), "{links} links, {stages} stages: {y:?} {z:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_chain_changes_neither_corrections_nor_null_vectors_of_a_family() {
+    for links in LINKS {
+        for stages in [3, 4, 6, 7] {
+            let [one, two] = [0.0, TINY].map(|extra| {
+                let equations = Oscillator::new(links, extra, true);
+                let (mut family, mut z) =
+                    Family::new(&equations, 0, &[], &guess(links), &options(stages)).unwrap();
+                // Off the curve, where the correction is not nothing.
+                for (i, z) in z.iter_mut().enumerate() {
+                    *z += 1e-2 * (i as f64).sin();
+                }
+                let mut g = vec![0.0; z.len() - 1];
+                let [mut correction, mut t] = [z.clone(), z.clone()];
+                family.residual(&z, &mut g);
+                family.linearise(&z).unwrap();
+                family.particular(&g, &mut correction);
+                family.null_vector(&mut t);
+                assert!(correction.iter().any(|v| v.abs() > 1e-3));
+                (correction, t)
+            });
+            assert!(
+                near(&one.0, &two.0) && near(&one.1, &two.1),
+                "{links} links, {stages} stages"
+            );
+        }
+    }
+}
