@@ -88,10 +88,9 @@ impl Chain {
         }
     }
 
-    /// The block \[Γ P\] of an interval, to be filled before [`AlmostBlockDiagonal::factor`].
-    pub(crate) fn link_mut(&mut self, interval: usize) -> &mut [f64] {
-        let size = self.n * (self.n + self.k);
-        &mut self.links[interval * size..][..size]
+    /// The blocks \[Γ P\] of all intervals, to be filled before [`AlmostBlockDiagonal::factor`].
+    pub(crate) fn links_mut(&mut self) -> &mut [f64] {
+        &mut self.links
     }
 
     /// Eliminates all interior nodes; fails with the node whose R is singular.

@@ -39,6 +39,17 @@ impl Watch {
         self.rows.fill(Row::Unseen);
     }
 
+    /// Sees what another watch of the same segment has seen elsewhere.
+    pub(crate) fn learn(&mut self, other: &Self) {
+        for (seen, other) in self.rows.iter_mut().zip(&other.rows) {
+            *seen = match (*seen, *other) {
+                (Row::Unseen, one) | (one, Row::Unseen) => one,
+                (one, other) if one == other => one,
+                _ => Row::Other,
+            };
+        }
+    }
+
     /// Looks at the Jacobian of one stage, a row per state; a row may go on with derivatives with
     /// respect to parameters.
     #[inline(always)]
@@ -151,6 +162,28 @@ mod tests {
             4,
         );
         assert_eq!(watch.rows, [Row::Unit(1), Row::Other, Row::Other]);
+    }
+
+    #[test]
+    fn watches_of_two_parts_see_together_what_one_of_the_whole_sees() {
+        let rows = [Row::Unseen, Row::Unit(0), Row::Unit(1), Row::Other];
+        // The first of two rows; the second is never a unit vector.
+        let shown = |row: Row| match row {
+            Row::Unit(0) => [1.0, 0.0, 0.5, 0.5],
+            Row::Unit(_) => [0.0, 1.0, 0.5, 0.5],
+            _ => [0.5; 4],
+        };
+        for (one, other) in rows.iter().flat_map(|a| rows.map(|b| (*a, b))) {
+            let [mut first, mut second, mut whole] = [(); 3].map(|()| Watch::new(2));
+            for (watch, row) in [(&mut first, one), (&mut second, other)] {
+                if row != Row::Unseen {
+                    watch.look(&shown(row), 2, 2);
+                    whole.look(&shown(row), 2, 2);
+                }
+            }
+            first.learn(&second);
+            assert_eq!(first.rows, whole.rows);
+        }
     }
 
     #[test]

@@ -13,13 +13,14 @@
 //! Russell (1995), sections 5.6 and 7.2.
 
 use crate::almost_block_diagonal::{AlmostBlockDiagonal, Singular};
-use crate::chains::Watch;
 use crate::condensation::Condensation;
-use crate::dense::{SingularRow, add_scaled, all_finite};
+use crate::dense::add_scaled;
 use crate::dependence::Dependence;
+use crate::evaluation::{SegmentAt, StageBuffers, non_finite_row};
 use crate::held::Held;
-use crate::iterate::{Interval, Iterate, NonFinite, Residual, SegmentIterate};
+use crate::iterate::{Iterate, NonFinite, Residual, SegmentIterate};
 use crate::mesh::Mesh;
+use crate::parallel::for_each_run;
 use crate::scheme::Tableau;
 use crate::specialise::specialise;
 use crate::{Ends, Equations, Guess, Segment, Stats};
@@ -46,15 +47,13 @@ pub(crate) struct Collocation<'a> {
     pub(crate) mesh: Mesh,
     matrix: AlmostBlockDiagonal,
     pub(crate) stages: Vec<Condensation>,
-    /// What the last Jacobians have shown of every segment.
-    watches: Vec<Watch>,
+    /// For every segment.
+    buffers: Vec<StageBuffers>,
     /// Jacobian of the conditions, a row each with Σ 2n + k columns.
     pub(crate) conditions_jacobian: Vec<f64>,
     /// States at all ends, in the order of [`Ends`].
     ends: Vec<f64>,
-    /// One state, one right-hand side, and conditions with the sign turned.
-    y: Vec<f64>,
-    f: Vec<f64>,
+    /// Conditions with the sign turned.
     negative_conditions: Vec<f64>,
 }
 
@@ -69,18 +68,15 @@ impl<'a> Collocation<'a> {
             pairs.map(|(segment, nodes)| (segment.states, nodes.len() - 1))
         };
         let states: usize = segments.iter().map(|s| s.states).sum();
-        let widest = segments.iter().map(|s| s.states).max().unwrap_or(0);
         Self {
             matrix: AlmostBlockDiagonal::new(sizes(), k, conditions),
             stages: sizes()
                 .map(|(n, intervals)| Condensation::new(n, k, tableau.stages, intervals))
                 .collect(),
-            watches: segments.iter().map(|s| Watch::new(s.states)).collect(),
+            buffers: segments.iter().map(StageBuffers::new).collect(),
             mesh,
             conditions_jacobian: vec![0.0; conditions * (2 * states + k)],
             ends: vec![0.0; 2 * states],
-            y: vec![0.0; widest],
-            f: vec![0.0; widest],
             negative_conditions: vec![0.0; conditions],
             equations,
             tableau,
@@ -148,36 +144,20 @@ impl<'a> Collocation<'a> {
         stats: &mut Stats,
     ) -> Result<(), NonFinite> {
         for index in 0..self.mesh.len() {
+            let (intervals, m) = (self.mesh[index].len() - 1, self.tableau.stages);
             let n = self.equations.segments()[index].states;
-            specialise!(n in [1, 2, 3, 4, 5, 6] => self.segment_residual(index, n, x, residual))?;
-            stats.rhs_evaluations += (self.mesh[index].len() - 1) * self.tableau.stages;
+            let segment = SegmentAt::new(&self.equations, &self.tableau, &self.mesh, index, x);
+            let SegmentIterate { nodes, stages } = &mut residual.equations[index];
+            for_each_run(
+                0..intervals,
+                m * n * (m + n),
+                (&mut stages[..], &mut nodes[n..]),
+                &mut self.buffers[index],
+                &|run, (stages, nodes), buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => segment.residuals(n, run, stages, nodes, buffers)),
+            )?;
+            stats.rhs_evaluations += intervals * m;
         }
         self.conditions(x, &mut residual.conditions)
-    }
-
-    /// The residuals of a segment of n states.
-    #[inline(always)]
-    fn segment_residual(
-        &mut self,
-        index: usize,
-        n: usize,
-        x: &Iterate,
-        residual: &mut Residual,
-    ) -> Result<(), NonFinite> {
-        let t = &*self.tableau;
-        let (y, f) = (&mut self.y[..n], &mut self.f[..n]);
-        for (i, pair) in self.mesh[index].windows(2).enumerate() {
-            let interval = Interval::new(&x.segments[index], n, t, i, pair);
-            let r = interval.stages_of(&mut residual.equations[index]);
-            for (j, r) in r.chunks_exact_mut(n).enumerate() {
-                let s = interval.stage_state(t, j, y);
-                f.fill(f64::NAN);
-                self.equations.rhs(index, s, y, &x.p, f);
-                interval.stage_residual(j, f, r, index, s)?;
-            }
-            interval.continuity(t, &mut residual.equations[index]);
-        }
-        Ok(())
     }
 
     /// Evaluates the residuals of the conditions.
@@ -197,22 +177,33 @@ impl<'a> Collocation<'a> {
         stats: &mut Stats,
     ) -> Result<(), LinearisationError> {
         for index in 0..self.mesh.len() {
+            let (intervals, m) = (self.mesh[index].len() - 1, self.tableau.stages);
             let n = self.equations.segments()[index].states;
-            specialise!(n in [1, 2, 3, 4, 5, 6] => self.segment_jacobians(index, n, x, residual))?;
-            let evaluations = (self.mesh[index].len() - 1) * self.tableau.stages;
-            stats.rhs_evaluations += evaluations;
-            stats.jacobian_evaluations += evaluations;
-            let stages = &mut self.stages[index];
-            stages.chain(&self.watches[index]);
-            let chain = self.matrix.chain_mut(index);
-            for (i, pair) in self.mesh[index].windows(2).enumerate() {
-                stages
-                    .condense(i, &self.tableau, pair[1] - pair[0], chain.link_mut(i))
-                    .map_err(|SingularRow(_)| {
-                        let (segment, node) = (index, i);
-                        LinearisationError::Singular(Singular::Node { segment, node })
-                    })?;
-            }
+            let segment = SegmentAt::new(&self.equations, &self.tableau, &self.mesh, index, x);
+            let condensation = &mut self.stages[index];
+            let buffers = &mut self.buffers[index];
+            let SegmentIterate { nodes, stages } = &mut residual.equations[index];
+            buffers.watch.restart();
+            for_each_run(
+                0..intervals,
+                m * n * (m + n * (n + x.p.len())),
+                (
+                    (&mut stages[..], &mut nodes[n..]),
+                    condensation.jacobians_mut(),
+                ),
+                buffers,
+                &|run, ((stages, nodes), jacobians), buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => segment.jacobians(n, run, stages, nodes, jacobians, buffers)),
+            )?;
+            stats.rhs_evaluations += intervals * m;
+            stats.jacobian_evaluations += intervals * m;
+            condensation.chain(&buffers.watch);
+            let links = self.matrix.chain_mut(index).links_mut();
+            condensation
+                .condense(&self.tableau, &self.mesh[index], links)
+                .map_err(|node| {
+                    let segment = index;
+                    LinearisationError::Singular(Singular::Node { segment, node })
+                })?;
         }
         gather_ends(self.equations.segments(), x, &mut self.ends);
         residual.conditions.fill(f64::NAN);
@@ -229,46 +220,6 @@ impl<'a> Collocation<'a> {
         self.matrix
             .factor(&self.conditions_jacobian)
             .map_err(LinearisationError::Singular)
-    }
-
-    /// The residuals of a segment of n states, and the Jacobians.
-    #[inline(always)]
-    fn segment_jacobians(
-        &mut self,
-        index: usize,
-        n: usize,
-        x: &Iterate,
-        residual: &mut Residual,
-    ) -> Result<(), NonFinite> {
-        let t = &*self.tableau;
-        let columns = n + x.p.len();
-        let (y, f) = (&mut self.y[..n], &mut self.f[..n]);
-        let stages = &mut self.stages[index];
-        let watch = &mut self.watches[index];
-        watch.restart();
-        for (i, pair) in self.mesh[index].windows(2).enumerate() {
-            let interval = Interval::new(&x.segments[index], n, t, i, pair);
-            let r = interval.stages_of(&mut residual.equations[index]);
-            let jacobians = stages.jacobians_mut(i).chunks_exact_mut(n * columns);
-            for (j, (r, jacobian)) in r.chunks_exact_mut(n).zip(jacobians).enumerate() {
-                let s = interval.stage_state(t, j, y);
-                f.fill(f64::NAN);
-                jacobian.fill(f64::NAN);
-                self.equations.rhs_jacobian(index, s, y, &x.p, f, jacobian);
-                interval.stage_residual(j, f, r, index, s)?;
-                if let Some(component) = non_finite_row(jacobian, columns) {
-                    let segment = index;
-                    return Err(NonFinite::Rhs {
-                        segment,
-                        s,
-                        component,
-                    });
-                }
-                watch.look(jacobian, n, columns);
-            }
-            interval.continuity(t, &mut residual.equations[index]);
-        }
-        Ok(())
     }
 
     /// What the conditions leave open where the last linearisation proved singular at the ends.
@@ -344,21 +295,98 @@ pub(crate) fn gather_ends(segments: &[Segment], x: &Iterate, mut ends: &mut [f64
     }
 }
 
-/// The first row of a row-major matrix with an entry that is not finite.
-fn non_finite_row(matrix: &[f64], columns: usize) -> Option<usize> {
-    if all_finite(matrix) {
-        return None;
-    }
-    matrix
-        .iter()
-        .position(|x| !x.is_finite())
-        .map(|i| i / columns)
-}
-
 /// Refuses conditions, or rows of their Jacobian, that are not finite or were not written.
 fn finite_conditions(values: &[f64], columns: usize) -> Result<(), NonFinite> {
     match non_finite_row(values, columns) {
         Some(index) => Err(NonFinite::Condition { index }),
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Problem, Real, Scheme};
+
+    /// Two states chained to the third, and one free beside it.
+    struct Chained;
+
+    impl Problem for Chained {
+        fn segments(&self) -> &[Segment] {
+            const { &[Segment::new(4)] }
+        }
+
+        fn parameters(&self) -> usize {
+            1
+        }
+
+        fn rhs<T: Real>(&self, _: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
+            dy[0] = y[1];
+            dy[1] = y[2];
+            dy[2] = -p[0] * y[1] + (y[3] * s).sin();
+            dy[3] = y[0] * y[3];
+        }
+
+        fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]) {
+            r[..4].copy_from_slice(at.start(0));
+            r[4] = p[0] - 1.0;
+        }
+    }
+
+    /// An iterate without a pattern, as it is from interval `first` of a longer segment on.
+    fn iterate(collocation: &Collocation<'_>, first: usize) -> Iterate {
+        let noise = |i: usize| (i as f64 * 0.754_877_666_246_692_8).fract();
+        let mut x = collocation.zeros();
+        x.p[0] = 2.0;
+        let SegmentIterate { nodes, stages } = &mut x.segments[0];
+        let m = collocation.tableau.stages;
+        let places = nodes.iter_mut().enumerate();
+        places.for_each(|(i, y)| *y = noise(4 * first + i));
+        let places = stages.iter_mut().enumerate();
+        places.for_each(|(i, slope)| *slope = noise(4 * m * first + i + 5));
+        x
+    }
+
+    /// Short parts are never shared among threads.
+    #[test]
+    fn a_long_segment_gives_the_numbers_of_its_parts() {
+        let tableau = Arc::new(Tableau::new(Scheme::Gauss { stages: 5 }));
+        let (intervals, part) = (3000, 10);
+        let mesh: Vec<f64> = (0..=intervals).map(|i| f64::from(i) / 300.0).collect();
+        let on = |nodes: &[f64]| {
+            let equations = Held::none(&Chained);
+            Collocation::new(equations, Arc::clone(&tableau), vec![nodes.to_vec()])
+        };
+        let stats = &mut Stats::default();
+        let mut long = on(&mesh);
+        let x = iterate(&long, 0);
+        let (mut r, mut dx) = (long.residual_buffer(), long.zeros());
+        long.residual(&x, &mut r, stats).unwrap();
+        let stages = r.equations[0].stages.clone();
+        long.linearise(&x, &mut r, stats).unwrap();
+        assert_eq!(stages, r.equations[0].stages);
+        long.correction(&r, &mut dx);
+        let mut loads = long.zeros();
+        long.stages[0].reduce(&r.equations[0], &mut loads.segments[0].nodes);
+        let (n, size) = (4, 5 * 4);
+        for first in (0..intervals as usize).step_by(part) {
+            let mut short = on(&mesh[first..=first + part]);
+            let x = iterate(&short, first);
+            let (mut own, mut correction) = (short.residual_buffer(), short.zeros());
+            short.linearise(&x, &mut own, stats).unwrap();
+            let nodes = (first + 1) * n..(first + part + 1) * n;
+            let stages = first * size..(first + part) * size;
+            let all = &r.equations[0];
+            assert_eq!(own.equations[0].stages, all.stages[stages.clone()]);
+            assert_eq!(own.equations[0].nodes[n..], all.nodes[nodes.clone()]);
+            let to = &mut correction.segments[0].nodes;
+            short.stages[0].reduce(&own.equations[0], to);
+            assert_eq!(to[n..], loads.segments[0].nodes[nodes.clone()]);
+            to.copy_from_slice(&dx.segments[0].nodes[nodes.start - n..nodes.end]);
+            correction.p.clone_from(&dx.p);
+            short.stage_correction(&own, &mut correction);
+            let found = &correction.segments[0].stages;
+            assert_eq!(*found, dx.segments[0].stages[stages]);
+        }
     }
 }

@@ -3,9 +3,11 @@
 use crate::dense::max_or_nan;
 use crate::iterate::{Interval, Iterate, NonFinite};
 use crate::mesh::Mesh;
+use crate::parallel::{Buffers, for_each_run};
 use crate::scheme::Tableau;
 use crate::specialise::specialise;
 use crate::{Equations, Stats};
+use std::ops::Range;
 
 /// The defects of a solution, one number per interval and segment.
 #[derive(Clone, Debug, Default)]
@@ -51,58 +53,86 @@ pub(crate) fn defects(
 ) -> Result<Defects, NonFinite> {
     let mut all = Defects::default();
     for (index, segment) in equations.segments().iter().enumerate() {
-        let n = segment.states;
+        let (n, m) = (segment.states, t.stages);
         let nodes = &mesh[index];
-        specialise!(n in [1, 2, 3, 4, 5, 6] => of_segment(equations, index, n, t, nodes, x, &mut all))?;
-        stats.rhs_evaluations += (nodes.len() - 1) * t.defect_rule.points.len();
+        let intervals = nodes.len() - 1;
+        let along = Along {
+            equations,
+            tableau: t,
+            index,
+            nodes,
+            x,
+        };
+        let [mut relative, mut local] = [(); 2].map(|()| vec![0.0; intervals]);
+        for_each_run(
+            0..intervals,
+            (m + 1) * n * (2 * m + n),
+            (&mut relative[..], &mut local[..]),
+            &mut [(); 3].map(|()| vec![0.0; n]),
+            &|run, written, buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => along.defects(n, run, written, buffers)),
+        )?;
+        all.relative.push(relative);
+        all.local.push(local);
+        stats.rhs_evaluations += intervals * t.defect_rule.points.len();
     }
     Ok(all)
 }
 
-/// The defects of a segment of n states.
-#[inline(always)]
-fn of_segment(
-    equations: &dyn Equations,
+/// A state, a right-hand side and a slope.
+impl Buffers for [Vec<f64>; 3] {}
+
+/// A continuous solution on one segment.
+struct Along<'a> {
+    equations: &'a dyn Equations,
+    tableau: &'a Tableau,
+    /// Which segment it is.
     index: usize,
-    n: usize,
-    t: &Tableau,
-    nodes: &[f64],
-    x: &Iterate,
-    all: &mut Defects,
-) -> Result<(), NonFinite> {
-    let [mut y, mut f, mut slope] = [(); 3].map(|()| vec![0.0; n]);
-    let (y, f, slope) = (&mut y[..n], &mut f[..n], &mut slope[..n]);
-    let [mut relative, mut local] = [(); 2].map(|()| Vec::with_capacity(nodes.len() - 1));
-    for (i, pair) in nodes.windows(2).enumerate() {
-        let interval = Interval::new(&x.segments[index], n, t, i, pair);
-        let (mut square, mut local_square) = (0.0, 0.0);
-        for (q, weight) in t.defect_rule.weights.iter().enumerate() {
-            let s = interval.place(t.defect_rule.points[q]);
-            interval.state(&t.defect_value[q * t.stages..][..t.stages], y);
-            interval.slope(&t.defect_slope[q * t.stages..][..t.stages], slope);
-            f.fill(f64::NAN);
-            equations.rhs(index, s, y, &x.p, f);
-            if let Some(component) = f.iter().position(|f| !f.is_finite()) {
-                let segment = index;
-                return Err(NonFinite::Rhs {
-                    segment,
-                    s,
-                    component,
-                });
+    nodes: &'a [f64],
+    x: &'a Iterate,
+}
+
+impl Along<'_> {
+    /// The defects of a run of intervals with n states, relative and local.
+    #[inline(always)]
+    fn defects(
+        &self,
+        n: usize,
+        run: Range<usize>,
+        (relative, local): (&mut [f64], &mut [f64]),
+        [y, f, slope]: &mut [Vec<f64>; 3],
+    ) -> Result<(), NonFinite> {
+        let (t, x) = (self.tableau, self.x);
+        let (y, f, slope) = (&mut y[..n], &mut f[..n], &mut slope[..n]);
+        for (i, (relative, local)) in run.zip(relative.iter_mut().zip(local)) {
+            let ends = &self.nodes[i..i + 2];
+            let interval = Interval::new(&x.segments[self.index], n, t, i, ends);
+            let (mut square, mut local_square) = (0.0, 0.0);
+            for (q, weight) in t.defect_rule.weights.iter().enumerate() {
+                let s = interval.place(t.defect_rule.points[q]);
+                interval.state(&t.defect_value[q * t.stages..][..t.stages], y);
+                interval.slope(&t.defect_slope[q * t.stages..][..t.stages], slope);
+                f.fill(f64::NAN);
+                self.equations.rhs(self.index, s, y, &x.p, f);
+                if let Some(component) = f.iter().position(|f| !f.is_finite()) {
+                    let segment = self.index;
+                    return Err(NonFinite::Rhs {
+                        segment,
+                        s,
+                        component,
+                    });
+                }
+                let (mut largest, mut integrated) = (0.0f64, 0.0f64);
+                for ((slope, f), y) in slope.iter().zip(&*f).zip(&*y) {
+                    let defect = (slope - f).abs();
+                    largest = max_or_nan(largest, defect / (1.0 + f.abs()));
+                    integrated = max_or_nan(integrated, defect / (1.0 + y.abs()));
+                }
+                square += weight * largest * largest;
+                local_square += weight * integrated * integrated;
             }
-            let (mut largest, mut integrated) = (0.0f64, 0.0f64);
-            for ((slope, f), y) in slope.iter().zip(&*f).zip(&*y) {
-                let defect = (slope - f).abs();
-                largest = max_or_nan(largest, defect / (1.0 + f.abs()));
-                integrated = max_or_nan(integrated, defect / (1.0 + y.abs()));
-            }
-            square += weight * largest * largest;
-            local_square += weight * integrated * integrated;
+            *relative = square.sqrt();
+            *local = interval.h * local_square.sqrt();
         }
-        relative.push(square.sqrt());
-        local.push(interval.h * local_square.sqrt());
+        Ok(())
     }
-    all.relative.push(relative);
-    all.local.push(local);
-    Ok(())
 }

@@ -49,8 +49,8 @@ pub struct FiniteDifferences<F, G> {
 
 impl<F, G> Equations for FiniteDifferences<F, G>
 where
-    F: Fn(usize, f64, &[f64], &[f64], &mut [f64]),
-    G: Fn(Ends<'_, f64>, &[f64], &mut [f64]),
+    F: Fn(usize, f64, &[f64], &[f64], &mut [f64]) + Sync,
+    G: Fn(Ends<'_, f64>, &[f64], &mut [f64]) + Sync,
 {
     fn segments(&self) -> &[Segment] {
         &self.segments

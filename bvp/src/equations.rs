@@ -10,7 +10,9 @@ use crate::{Ends, Segment};
 ///
 /// The solver fills every result with NaN beforehand, so that an entry which is not written is found
 /// and reported: write zeros too.
-pub trait Equations {
+///
+/// A right-hand side is a pure function, and several threads may evaluate it at once.
+pub trait Equations: Sync {
     /// The smooth segments.
     fn segments(&self) -> &[Segment];
 

@@ -141,7 +141,6 @@ pub(crate) enum NonFinite {
 /// The unknowns on one interval.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Interval<'a> {
-    index: usize,
     n: usize,
     /// Left end.
     s: f64,
@@ -165,7 +164,6 @@ impl<'a> Interval<'a> {
         ends: &[f64],
     ) -> Self {
         Self {
-            index,
             n,
             s: ends[0],
             end: ends[1],
@@ -231,20 +229,12 @@ impl<'a> Interval<'a> {
         Ok(())
     }
 
-    /// Writes the continuity residual yᵢ₊₁ − yᵢ − h Σ bⱼ Kⱼ.
+    /// Writes the continuity residual c = yᵢ₊₁ − yᵢ − h Σ bⱼ Kⱼ.
     #[inline(always)]
-    pub(crate) fn continuity(&self, t: &Tableau, residual: &mut SegmentIterate) {
-        let c = &mut residual.nodes[(self.index + 1) * self.n..][..self.n];
+    pub(crate) fn continuity(&self, t: &Tableau, c: &mut [f64]) {
         self.state(&t.b, c);
         for (c, next) in c.iter_mut().zip(self.next) {
             *c = next - *c;
         }
-    }
-
-    /// The stages of this interval in another vector.
-    #[inline(always)]
-    pub(crate) fn stages_of<'r>(&self, residual: &'r mut SegmentIterate) -> &'r mut [f64] {
-        let size = self.stages.len();
-        &mut residual.stages[self.index * size..][..size]
     }
 }

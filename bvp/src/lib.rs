@@ -138,8 +138,10 @@
 //!
 //! # Features
 //!
-//! `parallel` shares the intervals of large problems among threads. Without it a call uses one thread,
-//! and any number of threads may call.
+//! `parallel` shares the intervals of large problems among the threads of
+//! [rayon](https://docs.rs/rayon)'s pool: right-hand sides, Jacobians, the condensation of the stages, not
+//! the elimination of the nodes. A solution is the same to the last bit. Without it a call uses one thread;
+//! either way, any number of threads may call.
 //!
 //! # References
 //!
@@ -170,8 +172,10 @@ mod end_system;
 mod equations;
 mod error;
 mod error_control;
+mod evaluation;
 mod failure;
 mod family;
+mod free_states;
 mod global_error;
 mod guess;
 pub mod guide;
@@ -185,6 +189,7 @@ mod lq;
 mod mesh;
 mod newton;
 mod options;
+mod parallel;
 mod problem;
 mod random;
 mod real;

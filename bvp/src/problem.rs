@@ -81,8 +81,9 @@ impl<'a, T> Ends<'a, T> {
 /// ```
 ///
 /// Every `Problem` is an [`Equations`](crate::Equations) by forward-mode automatic
-/// differentiation; this is all a user has to write.
-pub trait Problem {
+/// differentiation; this is all a user has to write. Its functions are pure, and several threads may
+/// evaluate them at once.
+pub trait Problem: Sync {
     /// The smooth segments, in the order in which they are numbered.
     fn segments(&self) -> &[Segment];
 

@@ -28,7 +28,7 @@
 use crate::Equations;
 use crate::collocation::{Collocation, gather_ends};
 use crate::dense::dot;
-use crate::iterate::{Interval, Iterate, Residual};
+use crate::iterate::{Interval, Iterate, Residual, SegmentIterate};
 use crate::newton::norm;
 use crate::random::Signs;
 
@@ -94,18 +94,21 @@ impl Collocation<'_> {
         for (index, segment) in segments.iter().enumerate() {
             let n = segment.states;
             let mut y = vec![0.0; n];
-            let image = &mut image.equations[index];
+            let SegmentIterate { nodes, stages } = &mut image.equations[index];
+            let images = stages.chunks_exact_mut(t.stages * n);
+            let images = images.zip(nodes[n..].chunks_exact_mut(n));
             let mut slopes = z.segments[index].stages.iter();
             let mut rows = self.stages[index].jacobians().chunks_exact(n + k);
-            for (i, pair) in self.mesh[index].windows(2).enumerate() {
+            let pairs = self.mesh[index].windows(2).enumerate();
+            for ((i, pair), (stages, continuity)) in pairs.zip(images) {
                 let interval = Interval::new(&z.segments[index], n, t, i, pair);
-                for (j, r) in interval.stages_of(image).chunks_exact_mut(n).enumerate() {
+                for (j, r) in stages.chunks_exact_mut(n).enumerate() {
                     interval.stage_state(t, j, &mut y);
                     for ((r, slope), row) in r.iter_mut().zip(&mut slopes).zip(&mut rows) {
                         *r = slope - dot(&row[..n], &y) - dot(&row[n..], &z.p);
                     }
                 }
-                interval.continuity(t, image);
+                interval.continuity(t, continuity);
             }
         }
         let states: usize = segments.iter().map(|segment| segment.states).sum();

@@ -10,10 +10,13 @@ use super::{DRIVEN, DRIVER, DriveProblem, Regime, Scales, Solved};
 use crate::Drive;
 use crate::input::Key;
 use bvp::{Ends, Equations, Problem, Segment};
-use std::cell::RefCell;
+use std::sync::Mutex;
 
 /// Relative step of the differences.
 const DIFFERENCE: f64 = 1e-5;
+
+/// Why the members can be used.
+const UNPOISONED: &str = "no evaluation of a member panics";
 
 /// An entry of a drive file that varies.
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +36,7 @@ pub(super) struct DriveFamily {
     segments: Vec<Segment>,
     /// Number of parameters of a member.
     constants: usize,
-    members: RefCell<Members>,
+    members: Mutex<Members>,
 }
 
 /// The members in use, and buffers.
@@ -60,7 +63,7 @@ impl DriveFamily {
             regimes: [DRIVEN, DRIVER].map(|pulley| problem.regimes(pulley).to_vec()),
             segments: Problem::segments(problem).to_vec(),
             constants: Problem::parameters(problem),
-            members: RefCell::new(Members {
+            members: Mutex::new(Members {
                 values: Vec::new(),
                 here: problem.clone(),
                 beside: None,
@@ -74,7 +77,8 @@ impl DriveFamily {
     /// The same family with another normalisation ε of the slip direction.
     pub(super) fn with_epsilon(mut self, epsilon: f64) -> Self {
         self.epsilon = epsilon;
-        self.members.get_mut().values.clear();
+        let members = self.members.get_mut().expect(UNPOISONED);
+        members.values.clear();
         self
     }
 
@@ -103,7 +107,7 @@ impl DriveFamily {
     /// Works with the members at the values of the entries among the parameters `p`.
     fn with<T>(&self, p: &[f64], beside: bool, work: impl FnOnce(&mut Members, &[f64]) -> T) -> T {
         let (constants, values) = p.split_at(self.constants);
-        let members = &mut *self.members.borrow_mut();
+        let members = &mut *self.members.lock().expect(UNPOISONED);
         if members.values != values {
             members.here = self.member(values);
             members.values = values.to_vec();

@@ -52,9 +52,8 @@ impl Linear {
         let mut matrix =
             AlmostBlockDiagonal::new(self.sizes.iter().copied(), self.k, self.values.len());
         for (segment, links) in self.links.iter().enumerate() {
-            for (i, link) in links.iter().enumerate() {
-                matrix.chain_mut(segment).link_mut(i).copy_from_slice(link);
-            }
+            let all = matrix.chain_mut(segment).links_mut();
+            all.copy_from_slice(&links.concat());
         }
         matrix.factor(&self.conditions)?;
         let segment = |(&(n, _), loads): (&(usize, usize), &Vec<f64>)| SegmentIterate {

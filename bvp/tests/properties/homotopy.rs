@@ -6,6 +6,7 @@ use bvp::{
     Constant, Ends, Equations, Error, FiniteDifferences, Guess, Options, Problem, Real, Segment,
     Solution, solve,
 };
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn unaided(equations: &dyn Equations, guess: &dyn Guess) -> Result<Solution, Error> {
     let options = Options {
@@ -90,7 +91,7 @@ fn a_guess_where_the_right_hand_side_is_not_finite() {
 /// Evaluations counted by the right-hand side itself.
 #[test]
 fn the_cost_of_a_failure_counts_every_evaluation() {
-    let count = std::cell::Cell::new(0usize);
+    let count = AtomicUsize::new(0);
     let bratu = FiniteDifferences {
         segments: vec![Segment::new(2)],
         parameters: 0,
@@ -110,13 +111,13 @@ fn the_cost_of_a_failure_counts_every_evaluation() {
     };
     let error = solve(&counted, &states(&[0.0; 2]), &Options::default()).unwrap_err();
     let stats = error.best().unwrap().stats();
-    assert_eq!(stats.rhs_evaluations, count.get());
+    assert_eq!(stats.rhs_evaluations, count.load(Ordering::Relaxed));
 }
 
 /// Equations that count the evaluations of their right-hand side.
 struct Counted<'a> {
     equations: &'a dyn Equations,
-    count: &'a std::cell::Cell<usize>,
+    count: &'a AtomicUsize,
 }
 
 impl Equations for Counted<'_> {
@@ -133,7 +134,7 @@ impl Equations for Counted<'_> {
     }
 
     fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
-        self.count.set(self.count.get() + 1);
+        self.count.fetch_add(1, Ordering::Relaxed);
         self.equations.rhs(segment, s, y, p, dy);
     }
 
@@ -146,7 +147,7 @@ impl Equations for Counted<'_> {
         dy: &mut [f64],
         jacobian: &mut [f64],
     ) {
-        self.count.set(self.count.get() + 1);
+        self.count.fetch_add(1, Ordering::Relaxed);
         self.equations.rhs_jacobian(segment, s, y, p, dy, jacobian);
     }
 
