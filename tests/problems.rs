@@ -99,7 +99,7 @@ impl Case {
         id: &'static str,
         name: &'static str,
         source: &'static str,
-        equations: impl Equations + Send + Sync + 'static,
+        equations: impl Equations + Send + 'static,
     ) -> Self {
         Self {
             id,

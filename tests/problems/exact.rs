@@ -48,7 +48,7 @@ pub fn exact_problems() -> Vec<ExactProblem> {
 
 fn problem<const K: usize>(
     name: &'static str,
-    equations: impl Equations + Send + Sync + 'static,
+    equations: impl Equations + Send + 'static,
     solution: fn(usize, f64, &mut [f64]),
     parameters: [f64; K],
 ) -> ExactProblem {
