@@ -96,6 +96,9 @@ fn remarks(rows: &[Vec<Attempt>]) -> String {
             attempt.case, attempt.tolerance
         );
     }
+    if text.ends_with("\n\n") {
+        text.push_str("None.\n");
+    }
     text
 }
 
