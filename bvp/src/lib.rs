@@ -121,7 +121,10 @@
 //! length h are equidistributed over as many intervals as the estimated error asks. Where a mesh does
 //! not resolve the solution yet, its largest relative defect |S' − f| / (1 + |f|) above one half, that
 //! takes the place of the error. With [`GlobalError::Skip`] nothing is estimated and the mesh is chosen
-//! for the relative defect.
+//! for the relative defect, with [`GlobalError::BesideDefect`] for both.
+//!
+//! **Chained states.** A state whose derivative is another state, as an equation of second order has, is
+//! eliminated from the stage systems beforehand: such equations cost what they would in their own form.
 //!
 //! # What success means
 //!
@@ -132,7 +135,8 @@
 //!   interval;
 //! * the residual of every condition, relative to the size of its terms where that exceeds one;
 //!
-//! and, where the error is estimated, if rounding does not hide the solution. Everything else is an [`Error`]: mistakes of the
+//! and, where the error is estimated, if rounding does not hide the solution and no layer that the mesh
+//! cannot show may stand at an end of a segment. Everything else is an [`Error`]: mistakes of the
 //! statement are found before any arithmetic, and numerical failures carry their best iterate, which is
 //! a [`Guess`] for another attempt. What it does not mean is said in [`guide::accuracy`].
 //!
