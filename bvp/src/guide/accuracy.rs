@@ -76,9 +76,14 @@
 //!
 //! With [`GlobalError::Skip`] nothing is estimated, the tolerance is one for the defect relative to
 //! 1 + |f|, and the solution is the one on its own mesh: as in `bvp4c`, and meant for solutions on the
-//! way to another one.
+//! way to another one. With [`GlobalError::BesideDefect`] the tolerance is one for both: where slopes
+//! count, or integrals of right-hand sides must balance.
 //!
-//! How true the estimates are on problems with known solutions is tabulated in `tests/RESULTS.md`.
+//! How true the estimates are on problems with known solutions is tabulated in `tests/RESULTS.md`. Over
+//! 12 000 random problems with manufactured solutions the error of some state exceeds ten times its
+//! estimate in 66 cases. Errors are relative to 1 + |y| where the solver looks, at the nodes and at some
+//! points between: where a large state passes through zero elsewhere, the error relative to that zero is not
+//! seen.
 //!
 //! # The order
 //!
