@@ -7,7 +7,7 @@
 //! stages see y⁽ᵈ⁾ through h^(d+1) A^(d+1), the Runge-Kutta-Nyström form of the scheme (Hairer, Nørsett &
 //! Wanner, *Solving Ordinary Differential Equations I*, section II.14).
 
-use crate::scheme::POWERS;
+use crate::tableau::POWERS;
 
 /// What the rows of the Jacobian of a segment have shown so far of one component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

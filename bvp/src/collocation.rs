@@ -21,8 +21,8 @@ use crate::held::Held;
 use crate::iterate::{Iterate, NonFinite, Residual, SegmentIterate};
 use crate::mesh::Mesh;
 use crate::parallel::for_each_run;
-use crate::scheme::Tableau;
 use crate::specialise::specialise;
+use crate::tableau::Tableau;
 use crate::{Ends, Equations, Guess, Segment, Stats};
 use std::sync::Arc;
 

@@ -35,8 +35,8 @@ use crate::free_states::{apply, expand, fill_matrix, gather_free, scatter_free};
 use crate::iterate::SegmentIterate;
 use crate::large::{self, LARGE};
 use crate::parallel::{Buffers, for_each_run};
-use crate::scheme::Tableau;
 use crate::specialise::specialise;
+use crate::tableau::Tableau;
 use std::convert::Infallible;
 
 /// What the work on one interval needs beside what is kept of it.

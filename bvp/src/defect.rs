@@ -4,8 +4,8 @@ use crate::dense::max_or_nan;
 use crate::iterate::{Interval, Iterate, NonFinite};
 use crate::mesh::Mesh;
 use crate::parallel::{Buffers, for_each_run};
-use crate::scheme::Tableau;
 use crate::specialise::specialise;
+use crate::tableau::Tableau;
 use crate::{Equations, Stats};
 use std::ops::Range;
 

@@ -6,7 +6,7 @@ use crate::held::Held;
 use crate::iterate::{Interval, Iterate, NonFinite, SegmentIterate};
 use crate::mesh::Mesh;
 use crate::parallel::Buffers;
-use crate::scheme::Tableau;
+use crate::tableau::Tableau;
 use crate::{Equations, Segment};
 use std::ops::Range;
 

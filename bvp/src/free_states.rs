@@ -5,7 +5,8 @@
 
 use crate::chains::Chains;
 use crate::dense::{add_scaled, dot};
-use crate::scheme::{MAX_STAGES, POWERS, Tableau};
+use crate::scheme::MAX_STAGES;
+use crate::tableau::{POWERS, Tableau};
 
 /// The part of M of the free states.
 #[inline(always)]

@@ -2,7 +2,7 @@
 
 use crate::dense::add_scaled;
 use crate::mesh::Mesh;
-use crate::scheme::Tableau;
+use crate::tableau::Tableau;
 use crate::{Guess, Segment, Solution};
 
 /// The unknowns of the discretised problem, or a correction of them.

@@ -210,6 +210,7 @@ mod statement;
 mod stats;
 mod stepping;
 mod straight;
+mod tableau;
 mod unknown;
 
 pub use check::{Differenced, JacobianCheck, Place, check_jacobians};

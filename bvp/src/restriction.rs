@@ -3,8 +3,8 @@
 use crate::Segment;
 use crate::iterate::{Interval, Iterate, SegmentIterate};
 use crate::mesh::Mesh;
-use crate::scheme::Tableau;
 use crate::specialise::specialise;
+use crate::tableau::Tableau;
 
 /// The polynomials of `x`, given on `mesh`, on the mesh with every interval halved: exactly, but
 /// for rounding.

@@ -6,7 +6,8 @@ use crate::global_error::GlobalErrors;
 use crate::guess::{compare_shape, interval_of};
 use crate::iterate::Iterate;
 use crate::mesh::Mesh;
-use crate::scheme::{MAX_STAGES, Tableau};
+use crate::scheme::MAX_STAGES;
+use crate::tableau::Tableau;
 use crate::{Error, Guess, Scheme, Segment, Stats};
 use std::sync::Arc;
 
