@@ -81,7 +81,7 @@
 //!
 //! How true the estimates are on problems with known solutions is tabulated in `tests/RESULTS.md`. Over
 //! 12 000 random problems with manufactured solutions the error of some state exceeds ten times its
-//! estimate in 66 cases. Errors are relative to 1 + |y| where the solver looks, at the nodes and at some
+//! estimate in 59 cases. Errors are relative to 1 + |y| where the solver looks, at the nodes and at some
 //! points between: where a large state passes through zero elsewhere, the error relative to that zero is not
 //! seen.
 //!
