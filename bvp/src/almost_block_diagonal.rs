@@ -100,6 +100,7 @@ impl Chain {
         specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(k in [0] => self.eliminate_nodes(n, k)))
     }
 
+    /// [`eliminate`](Self::eliminate), with numbers that the compiler may know.
     #[inline(always)]
     fn eliminate_nodes(&mut self, n: usize, k: usize) -> Result<(), usize> {
         let width = 3 * n + k;
@@ -172,6 +173,7 @@ impl Chain {
         specialise!(n in [1, 2, 3, 4, 5, 6] => self.forward_nodes(n, nodes, link));
     }
 
+    /// [`forward`](Self::forward), likewise.
     #[inline(always)]
     fn forward_nodes(&mut self, n: usize, nodes: &mut [f64], link: &mut [f64]) {
         link.copy_from_slice(&nodes[n..2 * n]);
@@ -228,6 +230,7 @@ impl Chain {
         specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(k in [0] => self.backward_nodes(n, k, nodes, p)));
     }
 
+    /// [`backward`](Self::backward), likewise.
     #[inline(always)]
     fn backward_nodes(&self, n: usize, k: usize, nodes: &mut [f64], p: &[f64]) {
         let factors = self

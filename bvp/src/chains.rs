@@ -78,8 +78,10 @@ fn is_unit(row: &[f64], column: usize) -> bool {
 }
 
 /// The free and the chained states of a segment.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Chains {
+    /// The rows that they follow from.
+    rows: Vec<Row>,
     /// The free states.
     pub(crate) free: Vec<usize>,
     /// Each chained state and its source, a source before what is chained to it.
@@ -90,19 +92,16 @@ pub(crate) struct Chains {
 }
 
 impl Chains {
-    /// Brings the chains up to what a watch has seen; returns whether they are others now.
+    /// Brings the chains up to what a watch has seen; returns whether that is anything new.
     pub(crate) fn update(&mut self, watch: &Watch) -> bool {
-        let n = watch.rows.len();
-        let unchanged = self.ends.len() == n
-            && self.free.iter().all(|&c| watch.rows[c] == Row::Other)
-            && self
-                .chained
-                .iter()
-                .all(|&(c, source)| watch.rows[c] == Row::Unit(source));
-        if unchanged {
+        if self.rows == watch.rows {
             return false;
         }
-        let old = std::mem::take(self);
+        let n = watch.rows.len();
+        *self = Self {
+            rows: watch.rows.clone(),
+            ..Self::default()
+        };
         let mut place = vec![None; n];
         for (c, (place, row)) in place.iter_mut().zip(&watch.rows).enumerate() {
             if !matches!(row, Row::Unit(source) if *source != c) {
@@ -129,7 +128,7 @@ impl Chains {
             }
         }
         self.ends = place.into_iter().flatten().collect();
-        *self != old
+        true
     }
 }
 
@@ -143,7 +142,8 @@ mod tests {
         };
         let mut chains = Chains::default();
         assert!(chains.update(&watch));
-        assert!(!chains.update(&watch) || chains.free.len() + chains.chained.len() == rows.len());
+        assert!(!chains.update(&watch));
+        assert_eq!(chains.free.len() + chains.chained.len(), rows.len());
         chains
     }
 

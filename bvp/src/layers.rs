@@ -35,16 +35,14 @@ impl Collocation<'_> {
             let end = nodes.len() - 1;
             let (h0, h1) = (nodes[1] - nodes[0], nodes[end] - nodes[end - 1]);
             // The right end first: it leaves the places of the others.
-            if let Some(rate) = fastest_growth(last, *n, h1) {
+            if let Some(rate) = fastest_growth(last, *n, h1, 1.0) {
                 found = true;
                 let right = nodes[end];
                 let distances = distances(h1, rate);
                 let inserted = distances.into_iter().map(|d| right - d);
                 nodes.splice(end..end, inserted);
             }
-            if let Some(rate) =
-                fastest_growth(&first.iter().map(|x| -x).collect::<Vec<_>>(), *n, h0)
-            {
+            if let Some(rate) = fastest_growth(first, *n, h0, -1.0) {
                 found = true;
                 let left = nodes[0];
                 let distances = distances(h0, rate);
@@ -56,9 +54,9 @@ impl Collocation<'_> {
     }
 }
 
-/// The largest real part among the eigenvalues of a Jacobian, if it makes solutions grow too fast for
-/// an interval of length h.
-fn fastest_growth(jacobian: &[f64], n: usize, h: f64) -> Option<f64> {
+/// The rate at which the fastest solution of a Jacobian grows in a direction, 1 or −1, if that is too
+/// fast for an interval of length h: the largest real part among the eigenvalues, or minus the smallest.
+fn fastest_growth(jacobian: &[f64], n: usize, h: f64, direction: f64) -> Option<f64> {
     let columns = jacobian.len() / n;
     let rows = jacobian.chunks_exact(columns).map(|row| &row[..n]);
     let norm = rows.map(|row| row.iter().map(|x| x.abs()).sum::<f64>());
@@ -68,7 +66,10 @@ fn fastest_growth(jacobian: &[f64], n: usize, h: f64) -> Option<f64> {
     }
     let matrix = MatRef::from_row_major_slice_with_stride(jacobian, n, n, columns);
     let eigenvalues = matrix.to_owned().eigenvalues().ok()?;
-    let rate = eigenvalues.iter().map(|z| z.re).fold(0.0, f64::max);
+    let rate = eigenvalues
+        .iter()
+        .map(|z| direction * z.re)
+        .fold(0.0, f64::max);
     (rate * h > HIDDEN).then_some(rate)
 }
 
@@ -89,11 +90,13 @@ mod tests {
     fn the_rate_is_that_of_the_fastest_growing_solution() {
         // Eigenvalues 100 and −300; a third column is a parameter.
         let jacobian = [0.0, 1.0, 5.0, 30_000.0, -200.0, 5.0];
-        let rate = fastest_growth(&jacobian, 2, 1.0).unwrap();
+        let rate = fastest_growth(&jacobian, 2, 1.0, 1.0).unwrap();
         assert!((rate - 100.0).abs() < 1e-9);
-        assert_eq!(fastest_growth(&jacobian, 2, 0.1), None);
+        let rate = fastest_growth(&jacobian, 2, 1.0, -1.0).unwrap();
+        assert!((rate - 300.0).abs() < 1e-9);
+        assert_eq!(fastest_growth(&jacobian, 2, 0.1, 1.0), None);
         let oscillation = [0.0, 1.0, -1e6, 0.0];
-        assert_eq!(fastest_growth(&oscillation, 2, 1.0), None);
+        assert_eq!(fastest_growth(&oscillation, 2, 1.0, 1.0), None);
     }
 
     #[test]

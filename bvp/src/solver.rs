@@ -82,9 +82,6 @@ enum Next {
     Mesh(Mesh),
 }
 
-/// A solution on a halved mesh, and another mesh if this one may hide a layer.
-type Refined = (Solution, Option<Mesh>);
-
 /// One call of [`solve`].
 struct Run<'a> {
     equations: &'a dyn Equations,
@@ -106,9 +103,10 @@ impl<'a> Run<'a> {
             GlobalError::BesideDefect | GlobalError::Skip => mesh,
         };
         for _ in 0..self.options.retries {
-            let finer = halved(&first);
-            match self.begin(guess, first) {
-                Err(error) if error.is_of_newton() && self.is_allowed(&finer) => first = finer,
+            match self.begin(guess, first.clone()) {
+                Err(error) if error.is_of_newton() && self.may_halve(&first) => {
+                    first = halved(&first);
+                }
                 outcome => return outcome,
             }
         }
@@ -150,10 +148,10 @@ impl<'a> Run<'a> {
                     if solution.stats.meshes >= MAX_MESHES {
                         return Err(unresolved(self.options, &solution));
                     }
-                    let (start, finer) = (Start::Solution(&solution), halved(&mesh));
-                    match self.on(mesh, start) {
-                        Err(error) if error.is_of_newton() && self.is_allowed(&finer) => {
-                            self.on(finer, start)?
+                    let start = Start::Solution(&solution);
+                    match self.on(mesh.clone(), start) {
+                        Err(error) if error.is_of_newton() && self.may_halve(&mesh) => {
+                            self.on(halved(&mesh), start)?
                         }
                         outcome => outcome?,
                     }
@@ -213,13 +211,18 @@ impl<'a> Run<'a> {
         if let Some(next) = next {
             return Ok((coarse, next));
         }
-        check_mesh(&halved(&coarse.mesh), self.options, &coarse)?;
-        let Some((fine, resolving)) = self.refined(&coarse)? else {
-            let next = Next::Mesh(halved(&coarse.mesh));
-            return Ok((coarse, next));
+        let halves = halved(&coarse.mesh);
+        check_mesh(&halves, self.options, &coarse)?;
+        let mut collocation = self.collocation(halves);
+        let Some(fine) = self.refined(&mut collocation, &coarse)? else {
+            return Ok((coarse, Next::Mesh(collocation.mesh)));
         };
         let error = fine.error_estimate().unwrap_or(f64::INFINITY);
         if error <= tolerance {
+            let resolving = match std::mem::replace(&mut self.probed, true) {
+                false => collocation.with_possible_layers(),
+                true => None,
+            };
             let changed = resolving.filter(|mesh| !self.is_kept(&fine, mesh));
             return Ok((fine, changed.map_or(Next::Done, Next::Mesh)));
         }
@@ -237,37 +240,28 @@ impl<'a> Run<'a> {
         Ok((fine, Next::Mesh(next)))
     }
 
-    /// The solution on the halved mesh with its estimated errors, and a mesh to try if that may hide
-    /// a layer; `None` if there is no solution, an error if rounding hides it.
-    fn refined(&mut self, coarse: &Solution) -> Result<Option<Refined>, Box<Error>> {
-        let mut collocation = self.collocation(halved(&coarse.mesh));
-        let t = Arc::clone(&self.tableau);
-        let start = restrict(&t, &coarse.segments, &coarse.mesh, &coarse.x);
+    /// The solution on the halved mesh of `collocation` with its estimated errors; `None` if there is
+    /// none, an error if rounding hides it.
+    fn refined(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        coarse: &Solution,
+    ) -> Result<Option<Solution>, Box<Error>> {
+        let start = restrict(&self.tableau, &coarse.segments, &coarse.mesh, &coarse.x);
         let mut x = start.clone();
-        if self
-            .newton(&mut collocation, &mut x, NEWTON_FRACTION)
-            .is_err()
-        {
+        if self.newton(collocation, &mut x, NEWTON_FRACTION).is_err() {
             return Ok(None);
         }
-        let mut fine = self.assess(&mut collocation, x, NEWTON_FRACTION)?;
+        let mut fine = self.assess(collocation, x, NEWTON_FRACTION)?;
         fine.quality.errors = global_errors(coarse, &start, &fine);
-        let tolerance = self.options.tolerance;
         if collocation.is_suspect() {
-            let rounding = collocation.rounding(&fine.x);
+            let (rounding, tolerance) = (collocation.rounding(&fine.x), self.options.tolerance);
             if hides(rounding, tolerance) {
                 let error = ill_conditioned(rounding, tolerance, self.finish(fine));
                 return Err(Box::new(error));
             }
         }
-        let accepted = fine
-            .error_estimate()
-            .is_some_and(|error| error <= tolerance);
-        let mut resolving = None;
-        if accepted && !std::mem::replace(&mut self.probed, true) {
-            resolving = collocation.with_possible_layers();
-        }
-        Ok(Some((fine, resolving)))
+        Ok(Some(fine))
     }
 
     /// Whether a solution within the tolerance on its own mesh is so on another one, by its correction
@@ -288,9 +282,9 @@ impl<'a> Run<'a> {
         self.options.global_error != GlobalError::Skip
     }
 
-    /// Whether a mesh is within the limit.
-    fn is_allowed(&self, mesh: &Mesh) -> bool {
-        intervals(mesh) <= self.options.max_intervals
+    /// Whether a mesh may be halved within the limit.
+    fn may_halve(&self, mesh: &Mesh) -> bool {
+        2 * intervals(mesh) <= self.options.max_intervals
     }
 
     /// The problem discretised on a mesh.
@@ -364,7 +358,12 @@ impl<'a> Run<'a> {
                 return Err(numerical(Failure::NonFinite(what), best, 0.0).into());
             }
         };
-        let scales = collocation.condition_scales(&x);
+        // What is allowed of every condition that is to hold.
+        let mut allowed = vec![];
+        if fraction < 1.0 {
+            let scales = collocation.condition_scales(&x);
+            allowed.extend(scales.iter().map(|s| self.options.tolerance * s.max(1.0)));
+        }
         let sizes = conditions.iter().map(|r| r.abs());
         let quality = Quality {
             defects,
@@ -372,11 +371,10 @@ impl<'a> Run<'a> {
             errors: None,
         };
         let solution = self.solution(mesh, x, quality);
-        let allowed = scales.iter().map(|&s| self.options.tolerance * s.max(1.0));
         let violated = sizes
             .zip(allowed)
             .enumerate()
-            .find(|(_, (residual, allowed))| fraction < 1.0 && residual > allowed);
+            .find(|(_, (residual, allowed))| residual > allowed);
         match violated {
             None => Ok(solution),
             Some((condition, (residual, tolerance))) => Err(Box::new(Error::ConditionViolated {
