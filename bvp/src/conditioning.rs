@@ -59,7 +59,7 @@ pub struct Conditioning {
     /// The estimated rounding error of the solution relative to 1 + |y|: the error with which a linear
     /// system with the Newton matrix and a known solution of the size of this one is solved in double
     /// precision, with one step of iterative refinement. [`solve`](crate::solve) refuses a solution
-    /// where, on its halved mesh, it exceeds ten tolerances or 0.01.
+    /// where it exceeds ten tolerances or 0.01.
     pub rounding: f64,
 }
 

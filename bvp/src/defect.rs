@@ -16,6 +16,8 @@ pub(crate) struct Defects {
     pub(crate) relative: Vec<Vec<f64>>,
     /// Times the length of the interval and relative to 1 + |y|: what an interval adds to the error.
     pub(crate) local: Vec<Vec<f64>>,
+    /// S' − f at the m + 1 defect points of every interval, n numbers each.
+    pub(crate) samples: Vec<Vec<f64>>,
 }
 
 impl Defects {
@@ -25,6 +27,7 @@ impl Defects {
         let relative: Vec<_> = mesh.iter().map(infinite).collect();
         Self {
             local: relative.clone(),
+            samples: vec![],
             relative,
         }
     }
@@ -64,15 +67,17 @@ pub(crate) fn defects(
             x,
         };
         let [mut relative, mut local] = [(); 2].map(|()| vec![0.0; intervals]);
+        let mut samples = vec![0.0; intervals * (m + 1) * n];
         for_each_run(
             0..intervals,
             (m + 1) * n * (2 * m + n),
-            (&mut relative[..], &mut local[..]),
+            ((&mut relative[..], &mut local[..]), &mut samples[..]),
             &mut [(); 3].map(|()| vec![0.0; n]),
             &|run, written, buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => along.defects(n, run, written, buffers)),
         )?;
         all.relative.push(relative);
         all.local.push(local);
+        all.samples.push(samples);
         stats.rhs_evaluations += intervals * t.defect_rule.points.len();
     }
     Ok(all)
@@ -98,16 +103,19 @@ impl Along<'_> {
         &self,
         n: usize,
         run: Range<usize>,
-        (relative, local): (&mut [f64], &mut [f64]),
+        ((relative, local), samples): ((&mut [f64], &mut [f64]), &mut [f64]),
         [y, f, slope]: &mut [Vec<f64>; 3],
     ) -> Result<(), NonFinite> {
         let (t, x) = (self.tableau, self.x);
         let (y, f, slope) = (&mut y[..n], &mut f[..n], &mut slope[..n]);
-        for (i, (relative, local)) in run.zip(relative.iter_mut().zip(local)) {
+        let samples = samples.chunks_exact_mut((t.stages + 1) * n);
+        let written = relative.iter_mut().zip(local).zip(samples);
+        for (i, ((relative, local), samples)) in run.zip(written) {
             let ends = &self.nodes[i..i + 2];
             let interval = Interval::new(&x.segments[self.index], n, t, i, ends);
             let (mut square, mut local_square) = (0.0, 0.0);
-            for (q, weight) in t.defect_rule.weights.iter().enumerate() {
+            for (q, sample) in samples.chunks_exact_mut(n).enumerate() {
+                let weight = t.defect_rule.weights[q];
                 let s = interval.place(t.defect_rule.points[q]);
                 interval.state(&t.defect_value[q * t.stages..][..t.stages], y);
                 interval.slope(&t.defect_slope[q * t.stages..][..t.stages], slope);
@@ -122,8 +130,9 @@ impl Along<'_> {
                     });
                 }
                 let (mut largest, mut integrated) = (0.0f64, 0.0f64);
-                for ((slope, f), y) in slope.iter().zip(&*f).zip(&*y) {
-                    let defect = (slope - f).abs();
+                for (((slope, f), y), sample) in slope.iter().zip(&*f).zip(&*y).zip(sample) {
+                    *sample = slope - f;
+                    let defect = sample.abs();
                     largest = max_or_nan(largest, defect / (1.0 + f.abs()));
                     integrated = max_or_nan(integrated, defect / (1.0 + y.abs()));
                 }

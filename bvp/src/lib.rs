@@ -113,8 +113,9 @@
 //! is proportional to the number of intervals. Orthogonal elimination is stable for growing and
 //! decaying modes with coupled ends, where row pivoting is not.
 //!
-//! **Error estimate.** The problem is solved on a mesh and on that with every interval halved; how the
-//! two solutions differ tells the error of the second, which is the one returned.
+//! **Error estimate.** The defect S' − f(s, S, p) of the polynomials S of the solution drives the linearised
+//! equation of its error, which is solved on the same mesh with the factors of the last Newton step:
+//! defect correction, see [`guide::accuracy`].
 //!
 //! **Mesh selection.** From one mesh to the next, nodes are added, moved and removed. With S the
 //! polynomials of the solution, the local defects h |S' − f(s, S, p)| / (1 + |y|) of intervals of

@@ -8,6 +8,9 @@ pub(crate) type Mesh = Vec<Vec<f64>>;
 /// An interval must be longer than so many spacings of floating-point numbers.
 const FEWEST_SPACINGS: f64 = 64.0;
 
+/// Intervals that differ by less, relative to their length, are equal.
+const EQUAL: f64 = 1e-9;
+
 /// A mesh with `intervals` equal intervals on every segment.
 pub(crate) fn uniform(segments: &[Segment], intervals: usize) -> Mesh {
     let nodes = |segment: &Segment| -> Vec<f64> {
@@ -27,13 +30,26 @@ pub(crate) fn halved(mesh: &Mesh) -> Mesh {
         .collect()
 }
 
-/// A mesh with so many times fewer intervals, rounded up, and the same distribution of the nodes.
+/// The mesh with so many times fewer intervals, rounded up, on segments with more than three of equal
+/// length.
 pub(crate) fn thinned(mesh: &Mesh, factor: f64) -> Mesh {
     let fewer = |nodes: &Vec<f64>| {
-        let density: Vec<f64> = nodes.windows(2).map(|p| 1.0 / (p[1] - p[0])).collect();
-        equidistribute(nodes, &density, ceil(density.len() as f64 / factor))
+        let (count, ends) = (nodes.len() - 1, [nodes[0], nodes[nodes.len() - 1]]);
+        if count > 3 && is_uniform(nodes) {
+            split(&ends, &[ceil(count as f64 / factor)])
+        } else {
+            nodes.clone()
+        }
     };
     mesh.iter().map(fewer).collect()
+}
+
+/// Whether all intervals of a segment are equal but for rounding.
+fn is_uniform(nodes: &[f64]) -> bool {
+    let count = (nodes.len() - 1) as f64;
+    let length = nodes[nodes.len() - 1] - nodes[0];
+    let equal = |pair: &[f64]| ((pair[1] - pair[0]) * count / length - 1.0).abs() < EQUAL;
+    nodes.windows(2).all(equal)
 }
 
 /// Cuts interval i of a segment into `pieces[i]` equal parts.
@@ -123,19 +139,14 @@ mod tests {
     }
 
     #[test]
-    fn thinning_keeps_the_distribution_and_an_interval() {
-        // Node i of 68 stands at (i/68)²; of 20 at (i/20)², but for the chords in between.
-        let nodes: Vec<f64> = (0..=68).map(|i| (f64::from(i) / 68.0).powi(2)).collect();
-        let few = thinned(&vec![nodes, vec![0.0, 0.1, 1.0]], 3.4);
-        assert_eq!(few[0].len(), 21);
-        for (i, s) in few[0].iter().enumerate() {
-            let exact = (i as f64 / 20.0).powi(2);
-            assert!(
-                (s - exact).abs() <= 0.25 / (68.0 * 68.0) + 1e-15,
-                "{i}: {s}"
-            );
+    fn equal_intervals_are_thinned_and_others_kept() {
+        let segments = [Segment::on(1, -1.0, 1.0)];
+        for (stated, left) in [(1, 1), (3, 3), (4, 2), (10, 3), (68, 20), (69, 21)] {
+            let few = thinned(&uniform(&segments, stated), 3.4);
+            assert_eq!(few, uniform(&segments, left));
         }
-        assert_eq!(few[1], [0.0, 1.0]);
+        let graded = vec![vec![0.0, 0.1, 0.4, 0.7, 1.0]];
+        assert_eq!(thinned(&graded, 3.4), graded);
     }
 
     #[test]

@@ -9,8 +9,10 @@
 
 use crate::almost_block_diagonal::Singular;
 use crate::collocation::{Collocation, LinearisationError};
+use crate::defect::Defects;
 use crate::dense::max_or_nan;
 use crate::dependence::Dependence;
+use crate::global_error::GlobalErrors;
 use crate::iterate::{Iterate, NonFinite, Residual};
 use crate::{Stats, Unknown};
 
@@ -111,9 +113,9 @@ pub(crate) struct Newton {
 }
 
 impl Newton {
-    pub(crate) fn new(collocation: &Collocation<'_>, curvature: f64) -> Self {
+    pub(crate) fn new(collocation: &Collocation<'_>) -> Self {
         Self {
-            curvature,
+            curvature: f64::INFINITY,
             delta: collocation.zeros(),
             simplified: collocation.zeros(),
             trial: collocation.zeros(),
@@ -193,6 +195,17 @@ impl Newton {
             return Ok(());
         }
         Err(self.no_convergence(collocation, x, size))
+    }
+
+    /// The global errors of the solution `x` by the last linearisation; see
+    /// [`Collocation::global_errors`].
+    pub(crate) fn global_errors(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &Iterate,
+        defects: &Defects,
+    ) -> Option<GlobalErrors> {
+        collocation.global_errors(x, defects, &mut self.residual, &mut self.delta)
     }
 
     /// The failure of corrections of this size at `x`.

@@ -17,8 +17,8 @@ pub struct Options {
     /// The collocation scheme; default `None`, [`Scheme::for_tolerance`].
     pub scheme: Option<Scheme>,
     /// Number of equal intervals per segment that the solver may think of as a first mesh, where the
-    /// guess brings none; default 10. As a mesh of a guess it is thinned before it is halved for the
-    /// estimate of the error.
+    /// guess brings none; default 10. Where the error is estimated it begins with a third of more than
+    /// three equal intervals, also with those of a guess: they tell nothing of the solution.
     pub initial_intervals: usize,
     /// Largest number of intervals over all segments; default 10 000.
     pub max_intervals: usize,
@@ -30,19 +30,18 @@ pub struct Options {
     /// states that meet the conditions, by a homotopy. Callers that have a better answer to a failure
     /// set 0, which omits all of it.
     pub retries: usize,
-    /// Whether the global error is estimated, and so what the mesh is chosen for; default on a halved
-    /// mesh.
+    /// Whether the global error is estimated, and so what the mesh is chosen for; default
+    /// [`GlobalError::Estimated`].
     pub global_error: GlobalError,
 }
 
 /// Whether the global error of a solution is estimated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GlobalError {
-    /// From the solutions on a mesh and on that with every interval halved, of which the second is
-    /// returned. The mesh is chosen for the error.
-    HalvedMesh,
-    /// From the same two solutions, but on a mesh on which the defect, too, is at most the tolerance. For
-    /// what depends on slopes or integrates right-hand sides; asks for more intervals.
+    /// It is, by defect correction, and the mesh is chosen for it.
+    Estimated,
+    /// It is, on a mesh on which the defect, too, is at most the tolerance. For what depends on slopes or
+    /// integrates right-hand sides; asks for more intervals.
     BesideDefect,
     /// Not at all: for intermediate solutions on the way to another one. The mesh is chosen for the
     /// defect, which asks for more intervals than the error does.
@@ -58,7 +57,7 @@ impl Default for Options {
             max_intervals: 10_000,
             max_newton_steps: 60,
             retries: 3,
-            global_error: GlobalError::HalvedMesh,
+            global_error: GlobalError::Estimated,
         }
     }
 }

@@ -61,11 +61,6 @@ impl Scheme {
         self.order().min(self.stages() + 1)
     }
 
-    /// The share of an error between the nodes that is left when all intervals are halved.
-    pub(crate) fn share_left(self) -> f64 {
-        (0..self.dense_order()).fold(1.0, |share, _| 0.5 * share)
-    }
-
     /// Whether this number of stages is provided.
     pub(crate) fn is_valid(self) -> bool {
         match self {

@@ -1,16 +1,14 @@
-//! The driver: Newton on a mesh, the solution on its halves, a better mesh, until everything holds.
+//! The driver: Newton on a mesh, the error of the solution, a better mesh, until everything holds.
 
 use crate::collocation::Collocation;
 use crate::defect::defects;
 use crate::error_control::{UNRESOLVED, next_mesh};
 use crate::failure::{check_mesh, ill_conditioned, numerical, unresolved};
-use crate::global_error::global_errors;
 use crate::held::Held;
 use crate::homotopy::rough_solution;
-use crate::iterate::Iterate;
+use crate::iterate::{Iterate, NonFinite};
 use crate::mesh::{Mesh, halved, intervals, thinned};
 use crate::newton::{Failure, Newton, norm};
-use crate::restriction::restrict;
 use crate::rounding::hides;
 use crate::solution::Quality;
 use crate::statement::{check_guess, check_statement, first_mesh};
@@ -19,18 +17,17 @@ use crate::{Equations, Error, GlobalError, Guess, Options, Solution, Stats};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Newton's method stops when its corrections are this fraction of the tolerance, so that what is
-/// left of them is invisible beside the discretisation error.
-const NEWTON_FRACTION: f64 = 0.01;
+/// Newton's method stops when its corrections are this fraction of the tolerance. What is left of them
+/// is in the defect, and so in the estimate of the error.
+const NEWTON_FRACTION: f64 = 0.1;
 /// Where a mesh does not resolve the solution, the next one aims at this fraction of the largest
 /// defect that does: where nothing is resolved a defect is about one however fine the mesh is.
 const RESOLVED: f64 = 0.3;
-/// The first mesh that is to be halved has so many intervals less than the one stated.
+/// A first mesh of equal intervals has so many times fewer than stated: it tells nothing of the solution.
 const THINNED: f64 = 3.4;
-/// A next mesh aims at this fraction of the tolerance.
-const AIM: f64 = 0.5;
-/// From this mesh on, halves are preferred to another distribution of the nodes, which has been tried.
-const MESHES_DISTRIBUTED: usize = 3;
+/// A mesh made for the error aims at this fraction of the tolerance, and after every one that missed it
+/// at this fraction of the aim before.
+const AIM: f64 = 0.3;
 /// A solution whose correction on another mesh is so many tolerances or less is the same there.
 const KEPT: f64 = 3.0;
 /// Meshes tried before the tolerance is declared out of reach.
@@ -53,16 +50,23 @@ pub fn solve(
     options.validate()?;
     check_statement(equations, 0)?;
     let mesh = first_mesh(equations, guess, options)?;
+    let first = match options.global_error {
+        GlobalError::Estimated => thinned(&mesh, THINNED),
+        GlobalError::BesideDefect | GlobalError::Skip => mesh,
+    };
+    let tableau = Tableau::of(options.scheme());
+    let collocation = Collocation::new(Held::none(equations), tableau, first.clone());
     let run = Run {
         equations,
         options,
-        tableau: Tableau::of(options.scheme()),
         start,
         stats: Stats::default(),
-        curvature: f64::INFINITY,
+        newton: Newton::new(&collocation),
+        collocation,
+        missed: 0,
         probed: false,
     };
-    run.solve(guess, mesh)
+    run.solve(guess, first)
 }
 
 /// What Newton's method starts at.
@@ -72,45 +76,40 @@ enum Start<'a> {
     Solution(&'a Solution),
 }
 
-/// How to go on after a solution.
-enum Next {
-    /// The solution is within the tolerance.
-    Done,
-    /// On its mesh with every interval halved.
-    Halved,
-    /// On this mesh.
-    Mesh(Mesh),
+/// A condition whose residual is larger than allowed.
+struct Violation {
+    condition: usize,
+    residual: f64,
+    allowed: f64,
 }
 
 /// One call of [`solve`].
 struct Run<'a> {
     equations: &'a dyn Equations,
     options: &'a Options,
-    tableau: Arc<Tableau>,
     start: Instant,
     stats: Stats,
-    /// What [`Newton::iterate`] has learnt on the last mesh.
-    curvature: f64,
+    /// The problem discretised on the last mesh.
+    collocation: Collocation<'a>,
+    newton: Newton,
+    /// How many solutions were resolved, but not within the tolerance.
+    missed: i32,
     /// Whether layers have been looked for that the mesh might not show.
     probed: bool,
 }
 
-impl<'a> Run<'a> {
+impl Run<'_> {
     /// Solves from the guess on a first mesh, and on finer ones where Newton's method fails.
-    fn solve(mut self, guess: &dyn Guess, mesh: Mesh) -> Result<Solution, Error> {
-        let mut first = match self.options.global_error {
-            GlobalError::HalvedMesh => thinned(&mesh, THINNED),
-            GlobalError::BesideDefect | GlobalError::Skip => mesh,
-        };
+    fn solve(mut self, guess: &dyn Guess, mut first: Mesh) -> Result<Solution, Error> {
         for _ in 0..self.options.retries {
-            match self.begin(guess, first.clone()) {
+            match self.adapt(first.clone(), Start::Guess(guess)) {
                 Err(error) if error.is_of_newton() && self.may_halve(&first) => {
                     first = halved(&first);
                 }
                 outcome => return outcome,
             }
         }
-        match self.begin(guess, first) {
+        match self.adapt(first, Start::Guess(guess)) {
             Err(mut error) if error.is_of_newton() && self.options.retries > 0 => {
                 match rough_solution(self.equations, guess, self.options, &mut self.stats) {
                     None => {
@@ -119,51 +118,38 @@ impl<'a> Run<'a> {
                         }
                         Err(error)
                     }
-                    Some(rough) => {
-                        let coarse = self.on(rough.mesh.clone(), Start::Solution(&rough))?;
-                        self.adapt(coarse)
-                    }
+                    Some(rough) => self.adapt(rough.mesh.clone(), Start::Solution(&rough)),
                 }
             }
             outcome => outcome,
         }
     }
 
-    /// Solves from the guess on a first mesh.
-    fn begin(&mut self, guess: &dyn Guess, first: Mesh) -> Result<Solution, Error> {
-        let coarse = self.on(first, Start::Guess(guess))?;
-        self.adapt(coarse)
-    }
-
     /// Solves on one mesh after the other, each chosen from the solution on the last.
-    fn adapt(&mut self, mut coarse: Solution) -> Result<Solution, Error> {
-        loop {
-            let (solution, next) = self.judge(coarse).map_err(|error| *error)?;
-            let solution = self.finish(solution);
-            coarse = match next {
-                Next::Done => return Ok(solution),
-                Next::Halved => solution,
-                Next::Mesh(mesh) => {
-                    check_mesh(&mesh, self.options, &solution)?;
-                    if solution.stats.meshes >= MAX_MESHES {
-                        return Err(unresolved(self.options, &solution));
-                    }
-                    let start = Start::Solution(&solution);
-                    match self.on(mesh.clone(), start) {
-                        Err(error) if error.is_of_newton() && self.may_halve(&mesh) => {
-                            self.on(halved(&mesh), start)?
-                        }
-                        outcome => outcome?,
-                    }
+    fn adapt(&mut self, first: Mesh, start: Start<'_>) -> Result<Solution, Error> {
+        let mut solution = self.on(first, start)?;
+        while let Some(mesh) = self.judge(&mut solution)? {
+            check_mesh(&mesh, self.options, &solution)?;
+            if solution.stats.meshes >= MAX_MESHES {
+                return Err(unresolved(self.options, &solution));
+            }
+            let start = Start::Solution(&solution);
+            solution = match self.on(mesh.clone(), start) {
+                Err(error) if error.is_of_newton() && self.may_halve(&mesh) => {
+                    self.on(halved(&mesh), start)?
                 }
+                outcome => outcome?,
             };
         }
+        solution.stats = self.cost();
+        Ok(solution)
     }
 
     /// The solution on a mesh.
     fn on(&mut self, mesh: Mesh, start: Start<'_>) -> Result<Solution, Error> {
         self.stats.meshes += 1;
-        let mut collocation = self.collocation(mesh);
+        self.lay(mesh);
+        let Self { collocation, .. } = self;
         let mut x = match start {
             Start::Guess(guess) => {
                 let x = collocation.interpolate(guess);
@@ -171,115 +157,127 @@ impl<'a> Run<'a> {
                 x
             }
             Start::Solution(solution) => {
-                Iterate::transfer(&collocation.mesh, &self.tableau, solution)
+                Iterate::transfer(&collocation.mesh, &collocation.tableau, solution)
             }
         };
-        // A solution that is to be halved need not be more accurate than its mesh.
-        let fraction = if self.refines() { 1.0 } else { NEWTON_FRACTION };
-        let mut outcome = self.newton(&mut collocation, &mut x, fraction);
+        let mut outcome = self.iterate(&mut x);
         if outcome.is_err()
             && self.options.retries > 0
             && let Start::Guess(guess) = start
-            && let Ok(swept) = collocation.swept(guess, &mut self.stats)
+            && let Ok(swept) = self.collocation.swept(guess, &mut self.stats)
         {
             x = swept;
-            outcome = self.newton(&mut collocation, &mut x, fraction);
+            outcome = self.iterate(&mut x);
         }
         match outcome {
-            Ok(()) => self
-                .assess(&mut collocation, x, fraction)
-                .map_err(|error| *error),
-            Err(failure) => Err(self.failed(failure, collocation, x, fraction)),
+            Ok(()) => self.assess(x),
+            Err(failure) => Err(self.failed(failure, x)),
         }
     }
 
-    /// The best solution known after one on a mesh, and how to go on.
-    fn judge(&mut self, coarse: Solution) -> Result<(Solution, Next), Box<Error>> {
-        let (tolerance, m) = (self.options.tolerance, self.tableau.stages);
-        let defect = coarse.defect();
-        let by_defect = |wanted: f64| {
-            let defects = &coarse.quality.defects.relative;
-            Next::Mesh(next_mesh(&coarse.mesh, defects, wanted, m))
-        };
-        let next = match self.options.global_error {
-            GlobalError::HalvedMesh if defect <= UNRESOLVED => None,
-            GlobalError::HalvedMesh => Some(by_defect(RESOLVED * UNRESOLVED)),
-            GlobalError::BesideDefect if defect <= tolerance => None,
-            GlobalError::Skip if defect <= tolerance => Some(Next::Done),
-            GlobalError::BesideDefect | GlobalError::Skip => Some(by_defect(tolerance)),
-        };
-        if let Some(next) = next {
-            return Ok((coarse, next));
-        }
-        let halves = halved(&coarse.mesh);
-        check_mesh(&halves, self.options, &coarse)?;
-        let mut collocation = self.collocation(halves);
-        let Some(fine) = self.refined(&mut collocation, &coarse)? else {
-            return Ok((coarse, Next::Mesh(collocation.mesh)));
-        };
-        let error = fine.error_estimate().unwrap_or(f64::INFINITY);
-        if error <= tolerance {
-            let resolving = match std::mem::replace(&mut self.probed, true) {
-                false => collocation.with_possible_layers(),
-                true => None,
-            };
-            let changed = resolving.filter(|mesh| !self.is_kept(&fine, mesh));
-            return Ok((fine, changed.map_or(Next::Done, Next::Mesh)));
-        }
-        // Before the next mesh is halved its errors may be larger by this factor.
-        let order = self.tableau.scheme.dense_order();
-        let halves_gain = 1.0 / self.tableau.scheme.share_left();
-        let local = &fine.quality.defects.local;
-        let wanted = AIM * halves_gain * tolerance * fine.quality.defects.largest_local() / error;
-        let next = next_mesh(&fine.mesh, local, wanted, order);
-        let few = 2 * intervals(&fine.mesh) < 4 * intervals(&next);
-        let tried = self.stats.meshes >= MESHES_DISTRIBUTED;
-        if error < 0.5 * halves_gain * tolerance && (few || tried) {
-            return Ok((fine, Next::Halved));
-        }
-        Ok((fine, Next::Mesh(next)))
+    /// Discretises the problem on a mesh.
+    fn lay(&mut self, mesh: Mesh) {
+        let tableau = Arc::clone(&self.collocation.tableau);
+        self.collocation = Collocation::new(Held::none(self.equations), tableau, mesh);
+        let curvature = self.newton.curvature;
+        self.newton = Newton::new(&self.collocation);
+        self.newton.curvature = curvature;
     }
 
-    /// The solution on the halved mesh of `collocation` with its estimated errors; `None` if there is
-    /// none, an error if rounding hides it.
-    fn refined(
-        &mut self,
-        collocation: &mut Collocation<'_>,
-        coarse: &Solution,
-    ) -> Result<Option<Solution>, Box<Error>> {
-        let start = restrict(&self.tableau, &coarse.segments, &coarse.mesh, &coarse.x);
-        let mut x = start.clone();
-        if self.newton(collocation, &mut x, NEWTON_FRACTION).is_err() {
+    /// Estimates the error of a solution where that is to be, and makes a better mesh: none if the
+    /// solution is good enough, an error if rounding hides it.
+    fn judge(&mut self, solution: &mut Solution) -> Result<Option<Mesh>, Error> {
+        let tolerance = self.options.tolerance;
+        let (defect, estimating) = (solution.defect(), self.estimates());
+        let (allowed, wanted) = match self.options.global_error {
+            GlobalError::Estimated => (UNRESOLVED, RESOLVED * UNRESOLVED),
+            GlobalError::BesideDefect | GlobalError::Skip => (tolerance, tolerance),
+        };
+        if defect > allowed {
+            if estimating
+                && defect > UNRESOLVED
+                && !self.probed
+                && let Some(mesh) = self.collocation.with_possible_layers()
+            {
+                self.probed = true;
+                return Ok(Some(mesh));
+            }
+            let (defects, m) = (&solution.quality.defects.relative, self.stages());
+            return Ok(Some(next_mesh(&solution.mesh, defects, wanted, m)));
+        }
+        if !estimating {
             return Ok(None);
         }
-        let mut fine = self.assess(collocation, x, NEWTON_FRACTION)?;
-        fine.quality.errors = global_errors(coarse, &start, &fine);
-        if collocation.is_suspect() {
-            let (rounding, tolerance) = (collocation.rounding(&fine.x), self.options.tolerance);
+        let Quality {
+            defects, errors, ..
+        } = &mut solution.quality;
+        *errors = self
+            .newton
+            .global_errors(&mut self.collocation, &solution.x, defects);
+        let error = solution.error_estimate().unwrap_or(f64::INFINITY);
+        self.refuse_rounding(solution)?;
+        if error <= tolerance {
+            if std::mem::replace(&mut self.probed, true) {
+                return Ok(None);
+            }
+            let resolving = self.collocation.with_possible_layers();
+            return Ok(resolving.filter(|mesh| !self.is_kept(solution, mesh)));
+        }
+        if error.is_infinite() {
+            return Ok(Some(halved(&solution.mesh)));
+        }
+        self.missed += 1;
+        let order = self.collocation.tableau.scheme.dense_order();
+        let defects = &solution.quality.defects;
+        let wanted = AIM.powi(self.missed) * tolerance * defects.largest_local() / error;
+        Ok(Some(next_mesh(
+            &solution.mesh,
+            &defects.local,
+            wanted,
+            order,
+        )))
+    }
+
+    /// Refuses a solution that may be nothing but rounding.
+    fn refuse_rounding(&mut self, solution: &Solution) -> Result<(), Error> {
+        if self.collocation.is_suspect() {
+            let (rounding, tolerance) = (
+                self.collocation.rounding(&solution.x),
+                self.options.tolerance,
+            );
             if hides(rounding, tolerance) {
-                let error = ill_conditioned(rounding, tolerance, self.finish(fine));
-                return Err(Box::new(error));
+                let mut best = solution.clone();
+                best.stats = self.cost();
+                return Err(ill_conditioned(rounding, tolerance, best));
             }
         }
-        Ok(Some(fine))
+        Ok(())
     }
 
     /// Whether a solution within the tolerance on its own mesh is so on another one, by its correction
     /// there.
     fn is_kept(&mut self, solution: &Solution, mesh: &Mesh) -> bool {
-        let mut collocation = self.collocation(mesh.clone());
-        let x = Iterate::transfer(mesh, &self.tableau, solution);
-        let (mut residual, mut correction) = (collocation.residual_buffer(), collocation.zeros());
-        let linearised = collocation.linearise(&x, &mut residual, &mut self.stats);
+        self.lay(mesh.clone());
+        let x = Iterate::transfer(mesh, &self.collocation.tableau, solution);
+        let (mut residual, mut correction) =
+            (self.collocation.residual_buffer(), self.collocation.zeros());
+        let linearised = self
+            .collocation
+            .linearise(&x, &mut residual, &mut self.stats);
         linearised.is_ok() && {
-            collocation.node_correction(&residual, &mut correction);
+            self.collocation.node_correction(&residual, &mut correction);
             norm(&x, &[(1.0, &correction)]).largest <= KEPT * self.options.tolerance
         }
     }
 
-    /// Whether the global error is to be known: the solution is then the one on a halved mesh.
-    fn refines(&self) -> bool {
+    /// Whether the global error is to be known.
+    fn estimates(&self) -> bool {
         self.options.global_error != GlobalError::Skip
+    }
+
+    /// Stages m of the scheme.
+    fn stages(&self) -> usize {
+        self.collocation.tableau.stages
     }
 
     /// Whether a mesh may be halved within the limit.
@@ -287,114 +285,101 @@ impl<'a> Run<'a> {
         2 * intervals(mesh) <= self.options.max_intervals
     }
 
-    /// The problem discretised on a mesh.
-    fn collocation(&self, mesh: Mesh) -> Collocation<'a> {
-        let tableau = Arc::clone(&self.tableau);
-        Collocation::new(Held::none(self.equations), tableau, mesh)
+    /// Newton's method.
+    fn iterate(&mut self, x: &mut Iterate) -> Result<(), Failure> {
+        let (wanted, steps) = (self.wanted(), self.options.max_newton_steps);
+        self.newton
+            .iterate(&mut self.collocation, x, wanted, steps, &mut self.stats)
     }
 
-    /// Newton's method until corrections are this fraction of the tolerance.
-    fn newton(
-        &mut self,
-        collocation: &mut Collocation<'_>,
-        x: &mut Iterate,
-        fraction: f64,
-    ) -> Result<(), Failure> {
-        let (wanted, steps) = (self.wanted(fraction), self.options.max_newton_steps);
-        let mut newton = Newton::new(collocation, self.curvature);
-        let outcome = newton.iterate(collocation, x, wanted, steps, &mut self.stats);
-        self.curvature = newton.curvature;
-        outcome
-    }
-
-    /// A fraction of the tolerance, but no less than what rounding permits.
-    fn wanted(&self, fraction: f64) -> f64 {
-        (fraction * self.options.tolerance).max(100.0 * f64::EPSILON)
+    /// How small corrections are to be, no less than what rounding permits.
+    fn wanted(&self) -> f64 {
+        (NEWTON_FRACTION * self.options.tolerance).max(100.0 * f64::EPSILON)
     }
 
     /// The error for a failure of Newton's method.
-    fn failed(
-        &self,
-        failure: Failure,
-        mut collocation: Collocation<'_>,
-        x: Iterate,
-        fraction: f64,
-    ) -> Error {
+    fn failed(&mut self, failure: Failure, x: Iterate) -> Error {
         let rounding = match failure {
             // Corrections no larger than that are rounding.
             Failure::NoConvergence { correction, .. } => {
-                Some(collocation.rounding(&x)).filter(|&rounding| rounding >= correction)
+                Some(self.collocation.rounding(&x)).filter(|&rounding| rounding >= correction)
             }
             _ => None,
         };
-        let quality = Quality::unknown(&collocation.mesh);
-        let best = self.solution(collocation.mesh, x, quality);
+        let best = self.solution(x, Quality::unknown(&self.collocation.mesh));
         match rounding {
             Some(rounding) => ill_conditioned(rounding, self.options.tolerance, best),
-            None => numerical(failure, best, self.wanted(fraction)),
+            None => numerical(failure, best, self.wanted()),
         }
     }
 
-    /// The solution with its defects and conditions, from an iterate converged to this fraction of
-    /// the tolerance; an error where a value is not finite or, where it is less than one, a condition is
-    /// violated.
-    fn assess(
-        &mut self,
-        collocation: &mut Collocation<'_>,
-        x: Iterate,
-        fraction: f64,
-    ) -> Result<Solution, Box<Error>> {
-        let mut conditions = vec![0.0; self.equations.condition_count()];
-        let defects = collocation.conditions(&x, &mut conditions).and_then(|()| {
-            let (equations, mesh) = (self.equations, &collocation.mesh);
-            defects(equations, &self.tableau, mesh, &x, &mut self.stats)
-        });
-        let mesh = collocation.mesh.clone();
-        let defects = match defects {
-            Ok(defects) => defects,
-            Err(what) => {
-                let quality = Quality::unknown(&mesh);
-                let best = self.solution(mesh, x, quality);
-                return Err(numerical(Failure::NonFinite(what), best, 0.0).into());
+    /// The solution with its defects and conditions, from a converged iterate; an error where a value is
+    /// not finite or a condition is violated.
+    fn assess(&mut self, mut x: Iterate) -> Result<Solution, Error> {
+        let mut outcome = self.violated(&x);
+        if let Ok((_, Some(_))) = outcome {
+            // The last step was trusted too far.
+            self.newton.curvature = f64::INFINITY;
+            if let Err(failure) = self.iterate(&mut x) {
+                return Err(self.failed(failure, x));
             }
-        };
-        // What is allowed of every condition that is to hold.
-        let mut allowed = vec![];
-        if fraction < 1.0 {
-            let scales = collocation.condition_scales(&x);
-            allowed.extend(scales.iter().map(|s| self.options.tolerance * s.max(1.0)));
+            outcome = self.violated(&x);
         }
-        let sizes = conditions.iter().map(|r| r.abs());
-        let quality = Quality {
-            defects,
-            conditions: sizes.clone().collect(),
-            errors: None,
-        };
-        let solution = self.solution(mesh, x, quality);
-        let violated = sizes
-            .zip(allowed)
-            .enumerate()
-            .find(|(_, (residual, allowed))| residual > allowed);
-        match violated {
-            None => Ok(solution),
-            Some((condition, (residual, tolerance))) => Err(Box::new(Error::ConditionViolated {
+        let assessed = outcome.and_then(|(conditions, violated)| {
+            let Collocation { tableau, mesh, .. } = &self.collocation;
+            let defects = defects(self.equations, tableau, mesh, &x, &mut self.stats)?;
+            let quality = Quality {
+                defects,
+                conditions,
+                errors: None,
+            };
+            Ok((quality, violated))
+        });
+        match assessed {
+            Ok((quality, None)) => Ok(self.solution(x, quality)),
+            Ok((quality, Some(violation))) => Err(Error::ConditionViolated {
+                condition: violation.condition,
+                residual: violation.residual,
+                tolerance: violation.allowed,
+                best: Box::new(self.solution(x, quality)),
+            }),
+            Err(what) => {
+                let best = self.solution(x, Quality::unknown(&self.collocation.mesh));
+                Err(numerical(Failure::NonFinite(what), best, 0.0))
+            }
+        }
+    }
+
+    /// The sizes of the residuals of all conditions, and the first one that is violated.
+    fn violated(&mut self, x: &Iterate) -> Result<(Vec<f64>, Option<Violation>), NonFinite> {
+        let mut conditions = vec![0.0; self.equations.condition_count()];
+        self.collocation.conditions(x, &mut conditions)?;
+        conditions.iter_mut().for_each(|r| *r = r.abs());
+        let scales = self.collocation.condition_scales(x);
+        let allowed = scales.iter().map(|s| self.options.tolerance * s.max(1.0));
+        let all = conditions.iter().zip(allowed).enumerate();
+        let mut violations = all.filter_map(|(condition, (&residual, allowed))| {
+            (residual > allowed).then_some(Violation {
                 condition,
                 residual,
-                tolerance,
-                best: Box::new(solution),
-            })),
-        }
+                allowed,
+            })
+        });
+        let first = violations.next();
+        Ok((conditions, first))
     }
 
-    fn solution(&self, mesh: Mesh, x: Iterate, quality: Quality) -> Solution {
-        self.finish(Solution {
+    /// An iterate on the present mesh as a solution.
+    fn solution(&self, x: Iterate, quality: Quality) -> Solution {
+        let Collocation { tableau, mesh, .. } = &self.collocation;
+        Solution {
             segments: self.equations.segments().to_vec(),
-            tableau: Arc::clone(&self.tableau),
-            mesh,
+            tableau: Arc::clone(tableau),
+            mesh: mesh.clone(),
             x,
             quality,
-            stats: self.stats,
-        })
+            stats: self.cost(),
+        }
     }
 
     /// The cost so far.
@@ -403,11 +388,5 @@ impl<'a> Run<'a> {
             seconds: self.start.elapsed().as_secs_f64(),
             ..self.stats
         }
-    }
-
-    /// Stamps the cost so far on a solution.
-    fn finish(&self, mut solution: Solution) -> Solution {
-        solution.stats = self.cost();
-        solution
     }
 }

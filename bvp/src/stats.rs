@@ -11,7 +11,7 @@ pub struct Stats {
     pub factorisations: usize,
     /// Newton steps taken, with a new or a kept Jacobian.
     pub newton_steps: usize,
-    /// Meshes on which a solution was sought, not counting those halved for the estimate of the error.
+    /// Meshes on which a solution was sought.
     pub meshes: usize,
     /// Wall-clock time in seconds.
     pub seconds: f64,

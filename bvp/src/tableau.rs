@@ -41,6 +41,11 @@ pub(crate) struct Tableau {
     pub(crate) defect_value: Vec<f64>,
     /// βₗ' at the defect points, (m + 1) × m.
     pub(crate) defect_slope: Vec<f64>,
+    /// Integrals from 0 of a defect, which vanishes at the collocation points, from its values at the
+    /// defect points: to the collocation points, m × (m + 1), and to the defect points,
+    /// (m + 1) × (m + 1).
+    pub(crate) defect_to_stage: Vec<f64>,
+    pub(crate) defect_to_defect: Vec<f64>,
     /// βₗ' at the collocation points of the left and of the right half of an interval, 2m × m.
     pub(crate) half_slopes: Vec<f64>,
     /// βₗ(½).
@@ -103,6 +108,8 @@ impl Tableau {
             weights,
             defect_value: values(&defect_rule.points),
             defect_slope: basis.table(&defect_rule.points, Basis::slopes),
+            defect_to_stage: defect_integrals(&c, &defect_rule, &c),
+            defect_to_defect: defect_integrals(&c, &defect_rule, &defect_rule.points),
             half_slopes: basis.table(&halves, Basis::slopes),
             half_value: values(&[0.5]),
             guess_slope: c
@@ -132,6 +139,26 @@ fn product(a: &[f64], b: &[f64], n: usize) -> Vec<f64> {
     let mut c = vec![0.0; a.len()];
     add_product(&mut c, a, b, n, n);
     c
+}
+
+/// The integrals from 0 to some points of the polynomials of degree 2m that vanish at the m collocation
+/// points c and at all points of a rule but one, where they are one; a row per point.
+fn defect_integrals(c: &[f64], rule: &Quadrature, to: &[f64]) -> Vec<f64> {
+    let basis = Basis::new(rule.points.clone());
+    let vanishing = |x: f64| c.iter().map(|c| x - c).product::<f64>();
+    let mut integrals = vec![0.0; to.len() * rule.points.len()];
+    let rows = integrals.chunks_exact_mut(rule.points.len());
+    let mut at_point = vec![0.0; rule.points.len()];
+    for (row, end) in rows.zip(to) {
+        for (t, weight) in rule.points.iter().zip(&rule.weights) {
+            basis.slopes(t * end, &mut at_point);
+            add_scaled(row, weight * end * vanishing(t * end), &at_point);
+        }
+        for (integral, &x) in row.iter_mut().zip(&rule.points) {
+            *integral /= vanishing(x);
+        }
+    }
+    integrals
 }
 
 /// Lagrange polynomials ℓₗ on the collocation points and their integrals βₗ(θ) = ∫₀^θ ℓₗ.

@@ -26,16 +26,8 @@ impl bvp::Guess for Carried<'_> {
         p[common..].fill(self.0.tight_tension());
     }
 
-    /// The mesh of the solution; that before it was halved, where its error was estimated.
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {
-        let solution = &self.0.solution;
-        let step = match solution.error_estimate() {
-            Some(_) => 2,
-            None => 1,
-        };
-        let segments = 0..solution.segments().len();
-        let nodes = |i| solution.mesh(i).iter().step_by(step).copied().collect();
-        Some(segments.map(nodes).collect())
+        bvp::Guess::mesh(&self.0.solution)
     }
 }
 

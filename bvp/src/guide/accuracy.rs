@@ -24,12 +24,12 @@
 //!
 //! # How the error is estimated
 //!
-//! The problem is solved on a mesh and on that with every interval halved. Where halving leaves a share
-//! r of the error, the two solutions differ by 1 − r of the error of the first one, and the error of
-//! the second one is r/(1 − r) of the difference. With an error of order q between the nodes r is 2^−q,
-//! or larger where the defects show that the mesh does not yet follow that law, but at most one half.
-//! The second solution is the one that is returned, so that the mesh of a [`Solution`] is one whose
-//! intervals come in pairs.
+//! A solution S has a defect d = S′ − f(s, S, p), known wherever f is evaluated. Its error e, with which
+//! S + e would be exact, satisfies e′ = f(s, S + e) − f(s, S) − d with the conditions of the problem, to
+//! first order a linear problem with the matrix of Newton's last step. It is solved by collocation on the
+//! same mesh, which costs one evaluation of f at m + 1 places of every interval and no factorisation.
+//! The error found is reported with a factor of 1.5, the largest of every state over the nodes, the
+//! collocation points and the places where the state passes through zero.
 //!
 //! ```
 //! # use bvp::{Constant, Ends, Problem, Real, Segment};
@@ -75,15 +75,12 @@
 //! ```
 //!
 //! With [`GlobalError::Skip`] nothing is estimated, the tolerance is one for the defect relative to
-//! 1 + |f|, and the solution is the one on its own mesh: as in `bvp4c`, and meant for solutions on the
-//! way to another one. With [`GlobalError::BesideDefect`] the tolerance is one for both: where slopes
+//! 1 + |f|: as in `bvp4c`, and meant for solutions on the way to another one. With [`GlobalError::BesideDefect`] the tolerance is one for both: where slopes
 //! count, or integrals of right-hand sides must balance.
 //!
 //! How true the estimates are on problems with known solutions is tabulated in `tests/RESULTS.md`. Over
 //! 12 000 random problems with manufactured solutions the error of some state exceeds ten times its
-//! estimate in 59 cases. Errors are relative to 1 + |y| where the solver looks, at the nodes and at some
-//! points between: where a large state passes through zero elsewhere, the error relative to that zero is not
-//! seen.
+//! estimate in 12 cases, and no error exceeds ten tolerances.
 //!
 //! # The order
 //!

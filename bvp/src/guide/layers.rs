@@ -61,12 +61,13 @@
 //! The first mesh has equal intervals, few of them. From the solution on one mesh the next is chosen:
 //!
 //! 1. While the largest relative defect |S′ − f|/(1 + |f|) exceeds one half, the mesh does not resolve
-//!    the solution S yet. The next mesh equidistributes the relative defect, which draws nodes into the
-//!    layer wherever it is.
-//! 2. After that the solution on the mesh with every interval halved gives an estimate of the error.
-//!    The next mesh equidistributes the local defects h |S′ − f|/(1 + |y|), what an interval of length
-//!    h adds to the error, with as many intervals as the estimated error asks.
-//! 3. Once the estimate is within the tolerance, the solution on the halved mesh is returned.
+//!    the solution S yet. Where the linearised equations allow a layer at an end of a segment, the next
+//!    mesh is graded towards it; otherwise it equidistributes the relative defect, which draws nodes into
+//!    a layer wherever it is.
+//! 2. After that the error is estimated. The next mesh equidistributes the local defects
+//!    h |S′ − f|/(1 + |y|), what an interval of length h adds to the error, with as many intervals as
+//!    the estimated error asks.
+//! 3. Once the estimate is within the tolerance, the solution is returned.
 //!
 //! Nodes are removed as well as added.
 //!

@@ -70,5 +70,5 @@ fn work_of_a_boundary_layer() {
         let stats = solution.stats();
         [stats.factorisations, stats.meshes, intervals(&solution)]
     });
-    assert_eq!(work, [[9, 7, 14], [10, 7, 24], [11, 8, 42]]);
+    assert_eq!(work, [[5, 5, 12], [4, 4, 16], [5, 5, 27]]);
 }

@@ -117,8 +117,8 @@ fn refinement_by_halves_is_exact() {
     let mut vectors = vec![z.clone(), t];
     let mut fine = family.refined(&mut vectors).unwrap();
     let count = fine.unknowns();
-    // Two segments with six and with twelve intervals of (1 + 7) × 2, one more node each, and λ.
-    assert_eq!((n + 1, count), (197, 389));
+    // Two segments with three and with six intervals of (1 + 7) × 2, one more node each, and λ.
+    assert_eq!((n + 1, count), (101, 197));
     let (coarse_solution, solution) = (family.solution(&z), fine.solution(&vectors[0]));
     for vector in &vectors {
         let mut g = vec![0.0; count - 1];
@@ -138,9 +138,10 @@ fn refinement_by_halves_is_exact() {
         solution.state(1, s, &mut y);
         assert!((y[0] - coarse[0]).abs() + (y[1] - coarse[1]).abs() < 1e-14);
     }
-    // 12, 24 and 48 intervals; 96 are more than four times those allowed.
+    // 6, 12, 24 and 48 intervals; 96 are more than four times those allowed.
     let finer = fine.refined(&mut []).unwrap();
+    let finest = finer.refined(&mut []).unwrap();
     let kept = vectors.clone();
-    assert!(finer.refined(&mut vectors).is_none());
+    assert!(finest.refined(&mut vectors).is_none());
     assert_eq!(vectors, kept);
 }

@@ -43,7 +43,7 @@ fn layer(skip: bool) -> Solution {
         global_error: if skip {
             GlobalError::Skip
         } else {
-            GlobalError::HalvedMesh
+            GlobalError::Estimated
         },
         ..Options::default()
     };

@@ -77,7 +77,7 @@ fn a_junction_at_a_kink_keeps_the_order_and_the_mesh() {
         solve(&*problem.equations, &guess, &Options::to(1e-9)).unwrap()
     };
     let (joined, single) = (solved(pulled(10.0, true)), solved(pulled(10.0, false)));
-    assert_eq!(joined.stats().meshes, 1);
+    assert_eq!(joined.stats().meshes, 2);
     assert!(single.stats().rhs_evaluations > joined.stats().rhs_evaluations);
 }
 
