@@ -1,5 +1,6 @@
 //! Exact Jacobians of a [`Problem`] by dual numbers.
 
+use crate::specialise::specialise;
 use crate::{Dual, Ends, Equations, Problem, Real, Segment};
 
 /// The widest dual number: more directions are carried in several passes.
@@ -107,14 +108,25 @@ fn one_pass<const W: usize>(
     jacobian: &mut [f64],
 ) {
     let columns = z.len() + p.len();
-    let mut arguments = [Dual::<W>::constant(0.0); W];
-    for (i, (argument, &x)) in arguments.iter_mut().zip(z.iter().chain(p)).enumerate() {
-        *argument = Dual::variable(x, i);
+    let mut arguments = Dual::<W>::VARIABLES;
+    for (argument, &x) in arguments.iter_mut().zip(z.iter().chain(p)) {
+        argument.value = x;
     }
     let mut values = [Dual::<W>::constant(f64::NAN); W];
     let (zs, ps) = arguments[..columns].split_at(z.len());
     function.evaluate(zs, ps, &mut values[..value.len()]);
-    let rows = values.iter().zip(value);
+    specialise!(columns in [1, 2, 3, 4, 5, 6] => write(&values, value, jacobian, columns));
+}
+
+/// Writes values, and gradients with so many columns.
+#[inline(always)]
+fn write<const W: usize>(
+    from: &[Dual<W>; W],
+    value: &mut [f64],
+    jacobian: &mut [f64],
+    columns: usize,
+) {
+    let rows = from.iter().zip(value);
     for ((dual, value), row) in rows.zip(jacobian.chunks_exact_mut(columns)) {
         *value = dual.value;
         row.copy_from_slice(&dual.gradient[..columns]);

@@ -8,6 +8,7 @@
 //! Wanner, *Solving Ordinary Differential Equations I*, section II.14).
 
 use crate::tableau::POWERS;
+use std::ops::Range;
 
 /// What the rows of the Jacobian of a segment have shown so far of one component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,21 +51,24 @@ impl Watch {
         }
     }
 
-    /// Looks at the Jacobian of one stage, a row per state; a row may go on with derivatives with
-    /// respect to parameters.
+    /// Looks at the Jacobians of any number of stages, one after the other, a row per state; a row may go
+    /// on with derivatives with respect to parameters.
     #[inline(always)]
-    pub(crate) fn look(&mut self, jacobian: &[f64], n: usize, columns: usize) {
-        let rows = self.rows[..n].iter_mut();
-        for (seen, row) in rows.zip(jacobian.chunks_exact(columns)) {
-            let row = &row[..n];
-            *seen = match *seen {
-                Row::Other => continue,
-                Row::Unit(column) if is_unit(row, column) => continue,
-                Row::Unit(_) => Row::Other,
-                Row::Unseen => match row.iter().position(|&x| x == 1.0) {
-                    Some(column) if is_unit(row, column) => Row::Unit(column),
-                    _ => Row::Other,
-                },
+    pub(crate) fn look(&mut self, jacobians: &[f64], n: usize, columns: usize) {
+        for (state, seen) in self.rows[..n].iter_mut().enumerate() {
+            let mut rows = jacobians[state * columns..]
+                .chunks(n * columns)
+                .map(|rows| &rows[..n]);
+            let column = match *seen {
+                Row::Other => None,
+                Row::Unit(column) => Some(column),
+                Row::Unseen => jacobians[state * columns..][..n]
+                    .iter()
+                    .position(|&x| x == 1.0),
+            };
+            *seen = match column {
+                Some(column) if rows.all(|row| is_unit(row, column)) => Row::Unit(column),
+                _ => Row::Other,
             };
         }
     }
@@ -73,8 +77,9 @@ impl Watch {
 /// Whether a row is the unit vector with the one in this column.
 #[inline(always)]
 fn is_unit(row: &[f64], column: usize) -> bool {
-    let others = row.iter().enumerate().filter(|(j, _)| *j != column);
-    row[column] == 1.0 && others.fold(true, |all, (_, &x)| all & (x == 0.0))
+    let unit = |j: usize| if j == column { 1.0 } else { 0.0 };
+    let entries = row.iter().enumerate();
+    entries.fold(true, |all, (j, &x)| all & (x == unit(j)))
 }
 
 /// The free and the chained states of a segment.
@@ -89,6 +94,9 @@ pub(crate) struct Chains {
     /// For every state the place among the free ones of that which its chain ends at, and how many
     /// links are between.
     pub(crate) ends: Vec<(usize, usize)>,
+    /// For every place the states whose chains end there, with the numbers of links: a part of `members`.
+    pub(crate) groups: Vec<Range<usize>>,
+    pub(crate) members: Vec<(usize, usize)>,
 }
 
 impl Chains {
@@ -128,6 +136,14 @@ impl Chains {
             }
         }
         self.ends = place.into_iter().flatten().collect();
+        for place in 0..self.free.len() {
+            let first = self.members.len();
+            let ends = self.ends.iter().enumerate();
+            let ending = ends.filter(|(_, (end, _))| *end == place);
+            self.members
+                .extend(ending.map(|(c, &(_, links))| (c, links)));
+            self.groups.push(first..self.members.len());
+        }
         true
     }
 }

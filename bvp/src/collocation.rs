@@ -176,6 +176,7 @@ impl<'a> Collocation<'a> {
         residual: &mut Residual,
         stats: &mut Stats,
     ) -> Result<(), LinearisationError> {
+        let k = x.p.len();
         for index in 0..self.mesh.len() {
             let (intervals, m) = (self.mesh[index].len() - 1, self.tableau.stages);
             let n = self.equations.segments()[index].states;
@@ -186,13 +187,13 @@ impl<'a> Collocation<'a> {
             buffers.watch.restart();
             for_each_run(
                 0..intervals,
-                m * n * (m + n * (n + x.p.len())),
+                m * n * (m + n * (n + k)),
                 (
                     (&mut stages[..], &mut nodes[n..]),
                     condensation.jacobians_mut(),
                 ),
                 buffers,
-                &|run, ((stages, nodes), jacobians), buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => segment.jacobians(n, run, stages, nodes, jacobians, buffers)),
+                &|run, ((stages, nodes), jacobians), buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(k in [0] => segment.jacobians(n, k, run, stages, nodes, jacobians, buffers))),
             )?;
             stats.rhs_evaluations += intervals * m;
             stats.jacobian_evaluations += intervals * m;

@@ -28,16 +28,21 @@
 //! ```
 //!
 //! and det M is the determinant of this part.
+//!
+//! Intervals are many and their matrices small: the time is that of the loops around the arithmetic, so
+//! that the compiler knows the numbers of stages, of states and of a single free state of the schemes that
+//! the solver chooses, and of stages alone for the others.
 
 use crate::chains::{Chains, Watch};
-use crate::dense::{self, SingularRow, add_scaled, dot};
-use crate::free_states::{apply, expand, fill_matrix, gather_free, scatter_free};
+use crate::dense::{self, SingularRow, dot};
+use crate::free_states::StageSystem;
 use crate::iterate::SegmentIterate;
 use crate::large::{self, LARGE};
 use crate::parallel::{Buffers, for_each_run};
 use crate::specialise::specialise;
 use crate::tableau::Tableau;
 use std::convert::Infallible;
+use std::ops::Range;
 
 /// What the work on one interval needs beside what is kept of it.
 #[derive(Clone, Debug, Default)]
@@ -127,9 +132,9 @@ impl Condensation {
         mesh: &[f64],
         links: &mut [f64],
     ) -> Result<(), usize> {
-        let (n, m, size, columns) = (self.n, t.stages, self.size, self.n + self.k);
-        let (chains, free_size) = (&self.chains, self.free_size);
-        let all_jacobians = &self.jacobians;
+        let (n, k, m, size, columns) = (self.n, self.k, t.stages, self.size, self.n + self.k);
+        let (chains, f, free_size) = (&self.chains, self.chains.free.len(), self.free_size);
+        let jacobians = &self.jacobians;
         let written = (
             (&mut self.lu[..], &mut self.pivots[..]),
             (&mut self.adjoint[..], links),
@@ -139,47 +144,12 @@ impl Condensation {
             free_size * free_size * (free_size / 3 + n) + n * size * columns,
             written,
             &mut self.buffers,
-            &move |run, ((lu, pivots), (adjoint, links)), buffers| {
-                let IntervalBuffers {
-                    rows, workspace, ..
-                } = buffers;
-                let written = lu
-                    .chunks_exact_mut(free_size * free_size)
-                    .zip(pivots.chunks_exact_mut(free_size))
-                    .zip(adjoint.chunks_exact_mut(n * size))
-                    .zip(links.chunks_exact_mut(n * columns));
-                for (i, (((lu, pivots), adjoint), link)) in run.zip(written) {
-                    let h = mesh[i + 1] - mesh[i];
-                    let jacobians = &all_jacobians[i * size * columns..][..size * columns];
-                    specialise!(m in [4, 5, 6, 7] => fill_matrix(t, chains, [m, n, columns], h, jacobians, lu));
-                    match workspace {
-                        Some(workspace) => large::lu_factor(lu, free_size, pivots, workspace),
-                        None => dense::lu_factor(lu, free_size, pivots),
-                    }
-                    .map_err(|SingularRow(_)| i)?;
-                    rows.fill(0.0);
-                    for (row, &(end, links)) in rows.chunks_exact_mut(free_size).zip(&chains.ends) {
-                        let factor = (0..links).fold(h, |power, _| power * h);
-                        let weights = &t.weights[links * m..][..m];
-                        add_scaled(&mut row[end * m..][..m], factor, weights);
-                    }
-                    if workspace.is_some() {
-                        large::lu_solve_transposed(lu, free_size, pivots, rows);
-                    } else {
-                        dense::lu_solve_transposed(lu, free_size, pivots, rows);
-                    }
-                    specialise!(m in [4, 5, 6, 7] => expand(t, chains, [m, n, columns], h, jacobians, rows, adjoint));
-                    link.fill(0.0);
-                    for row in 0..n {
-                        link[row * columns + row] = 1.0;
-                    }
-                    if workspace.is_some() {
-                        large::add_product(link, adjoint, jacobians, size, columns);
-                    } else {
-                        specialise!(columns in [1, 2, 3, 4, 5, 6] => dense::add_product(link, adjoint, jacobians, size, columns));
-                    }
-                }
-                Ok(())
+            &move |run, written, buffers| {
+                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(f in [1] =>
+                    condense_run(StageSystem::new(t, chains, [m, n, k, f]), run, mesh, jacobians, written, buffers)
+                )), else specialise!(m in [1, 2, 3, 4, 5] =>
+                    condense_run(StageSystem::new(t, chains, [m, n, k, f]), run, mesh, jacobians, written, buffers)
+                ))
             },
         )
     }
@@ -202,23 +172,26 @@ impl Condensation {
 
     /// The right-hand sides −Xᵀ r − c of all links, into the slots of nodes 1 … N of `nodes`.
     pub(crate) fn reduce(&self, residual: &SegmentIterate, nodes: &mut [f64]) {
-        let (n, size) = (self.n, self.size);
+        let (n, m) = (self.n, self.size / self.n);
         let Ok(()) = for_each_run::<_, _, Infallible>(
             0..nodes.len() / n - 1,
-            n * size,
+            m * n * n,
             &mut nodes[n..],
             &mut (),
             &move |run, loads, ()| {
-                let intervals = self.adjoint[run.start * n * size..]
-                    .chunks_exact(n * size)
-                    .zip(residual.stages[run.start * size..].chunks_exact(size))
-                    .zip(residual.nodes[(run.start + 1) * n..].chunks_exact(n))
-                    .zip(loads.chunks_exact_mut(n));
-                for (((adjoint, r), c), g) in intervals {
-                    for ((g, row), c) in g.iter_mut().zip(adjoint.chunks_exact(size)).zip(c) {
-                        *g = -dot(row, r) - c;
+                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => {
+                    let size = m * n;
+                    let intervals = self.adjoint[run.start * n * size..]
+                        .chunks_exact(n * size)
+                        .zip(residual.stages[run.start * size..].chunks_exact(size))
+                        .zip(residual.nodes[(run.start + 1) * n..].chunks_exact(n))
+                        .zip(loads.chunks_exact_mut(n));
+                    for (((adjoint, r), c), g) in intervals {
+                        for ((g, row), c) in g.iter_mut().zip(adjoint.chunks_exact(size)).zip(c) {
+                            *g = -dot(row, r) - c;
+                        }
                     }
-                }
+                }));
                 Ok(())
             },
         );
@@ -234,44 +207,107 @@ impl Condensation {
         correction: &mut SegmentIterate,
         dp: &[f64],
     ) {
-        let (n, m, size, columns) = (self.n, t.stages, self.size, self.n + self.k);
-        let (chains, free_size) = (&self.chains, self.free_size);
-        let (all_jacobians, all_lu, all_pivots) = (&self.jacobians, &self.lu, &self.pivots);
+        let (n, k, m, size, columns) = (self.n, self.k, t.stages, self.size, self.n + self.k);
+        let (chains, f, free_size) = (&self.chains, self.chains.free.len(), self.free_size);
         let SegmentIterate { nodes, stages } = correction;
-        let nodes = &*nodes;
+        let factored = (&self.jacobians[..], &self.lu[..], &self.pivots[..]);
+        let known = (mesh, &nodes[..], dp, &residual.stages[..]);
         let Ok(()) = for_each_run::<_, _, Infallible>(
             0..mesh.len() - 1,
             size * columns + free_size * free_size,
             &mut stages[..],
             &mut self.buffers,
-            &|run,
-              stages,
-              IntervalBuffers {
-                  work, workspace, ..
-              }| {
-                let (free, known) = work.split_at_mut(free_size);
-                let intervals = stages
-                    .chunks_exact_mut(size)
-                    .zip(nodes[run.start * n..].chunks_exact(n))
-                    .zip(residual.stages[run.start * size..].chunks_exact(size))
-                    .zip(all_jacobians[run.start * size * columns..].chunks_exact(size * columns))
-                    .zip(mesh[run.start..].windows(2));
-                for (i, ((((stages, dy), r), jacobians), ends)) in run.zip(intervals) {
-                    specialise!(columns in [1, 2, 3, 4, 5, 6] => apply(jacobians, columns, dy, dp, r, stages));
-                    let h = ends[1] - ends[0];
-                    specialise!(m in [4, 5, 6, 7] => gather_free(t, chains, [m, n, columns], h, jacobians, stages, free, known));
-                    let lu = &all_lu[i * free_size * free_size..][..free_size * free_size];
-                    let pivots = &all_pivots[i * free_size..][..free_size];
-                    if workspace.is_some() {
-                        large::lu_solve(lu, free_size, pivots, free);
-                    } else {
-                        dense::lu_solve(lu, free_size, pivots, free);
-                    }
-                    specialise!(m in [4, 5, 6, 7] => scatter_free(t, chains, [m, n, columns], h, free, stages));
-                }
+            &|run, stages, buffers| {
+                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(f in [1] =>
+                    recover_run(StageSystem::new(t, chains, [m, n, k, f]), run, factored, known, stages, buffers)
+                )), else specialise!(m in [1, 2, 3, 4, 5] =>
+                    recover_run(StageSystem::new(t, chains, [m, n, k, f]), run, factored, known, stages, buffers)
+                ));
                 Ok(())
             },
         );
+    }
+}
+
+/// What a run of intervals leaves: factors of M with pivots, and Xᵀ with the links.
+type Condensed<'a> = (
+    (&'a mut [f64], &'a mut [usize]),
+    (&'a mut [f64], &'a mut [f64]),
+);
+
+/// Eliminates the stages of a run of intervals; fails with the first one whose M is singular.
+#[inline(always)]
+fn condense_run(
+    system: StageSystem<'_>,
+    run: Range<usize>,
+    mesh: &[f64],
+    jacobians: &[f64],
+    ((lu, pivots), (adjoint, links)): Condensed<'_>,
+    buffers: &mut IntervalBuffers,
+) -> Result<(), usize> {
+    let StageSystem { m, n, k, f, .. } = system;
+    let (size, free_size, columns) = (m * n, m * f, n + k);
+    let workspace = &mut buffers.workspace;
+    let rows = &mut buffers.rows[..n * free_size];
+    for (place, i) in run.enumerate() {
+        let h = mesh[i + 1] - mesh[i];
+        let jacobians = &jacobians[i * size * columns..][..size * columns];
+        let lu = &mut lu[place * free_size * free_size..][..free_size * free_size];
+        let pivots = &mut pivots[place * free_size..][..free_size];
+        let adjoint = &mut adjoint[place * n * size..][..n * size];
+        let link = &mut links[place * n * columns..][..n * columns];
+        system.fill_matrix(h, jacobians, lu);
+        system.fill_weights(h, rows);
+        let done = match workspace {
+            Some(workspace) => large::lu_factor(lu, free_size, pivots, workspace)
+                .map(|()| large::lu_solve_transposed(lu, free_size, pivots, rows)),
+            None => dense::lu_factor_and_solve_transposed(lu, free_size, pivots, rows),
+        };
+        done.map_err(|SingularRow(_)| i)?;
+        system.expand(h, jacobians, rows, adjoint);
+        link.fill(0.0);
+        for row in 0..n {
+            link[row * columns + row] = 1.0;
+        }
+        if workspace.is_some() {
+            large::add_product(link, adjoint, jacobians, size, columns);
+        } else {
+            specialise!(k in [0, 1] => dense::add_product(link, adjoint, jacobians, size, n + k));
+        }
+    }
+    Ok(())
+}
+
+/// The corrections of the stages of a run of intervals from all Jacobians, factors and pivots, and from
+/// the mesh, the corrections of the nodes and of the parameters and the residuals of the stages.
+#[inline(always)]
+fn recover_run(
+    system: StageSystem<'_>,
+    run: Range<usize>,
+    (jacobians, lu, pivots): (&[f64], &[f64], &[usize]),
+    (mesh, nodes, dp, residuals): (&[f64], &[f64], &[f64], &[f64]),
+    stages: &mut [f64],
+    buffers: &mut IntervalBuffers,
+) {
+    let StageSystem { m, n, k, f, .. } = system;
+    let (size, free_size, columns) = (m * n, m * f, n + k);
+    let (free, known) = buffers.work.split_at_mut(free_size);
+    let known = &mut known[..size];
+    for (place, i) in run.enumerate() {
+        let h = mesh[i + 1] - mesh[i];
+        let jacobians = &jacobians[i * size * columns..][..size * columns];
+        let lu = &lu[i * free_size * free_size..][..free_size * free_size];
+        let pivots = &pivots[i * free_size..][..free_size];
+        let (dy, r) = (&nodes[i * n..][..n], &residuals[i * size..][..size]);
+        let stages = &mut stages[place * size..][..size];
+        system.apply(jacobians, dy, dp, r, stages);
+        system.gather_free(h, jacobians, stages, free, known);
+        if buffers.workspace.is_some() {
+            large::lu_solve(lu, free_size, pivots, free);
+        } else {
+            dense::lu_solve(lu, free_size, pivots, free);
+        }
+        system.scatter_free(h, free, stages);
     }
 }
 

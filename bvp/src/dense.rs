@@ -13,6 +13,7 @@ const PANEL: usize = 4;
 /// Replaces the n × n matrix `a` by its factors L and U with row pivoting, P A = L U (Golub & Van Loan,
 /// *Matrix Computations*, 4th ed., section 3.4); the diagonal of U by its inverse, which is what solving
 /// needs. `pivots[i]` is the row that was exchanged with row i.
+#[inline]
 pub(crate) fn lu_factor(a: &mut [f64], n: usize, pivots: &mut [usize]) -> Result<(), SingularRow> {
     small::of_size!(n => lu_factor(a, pivots), lu_factor_in_panels(a, n, pivots))
 }
@@ -88,6 +89,7 @@ fn subtract_four(x: &mut [f64], f: &[f64], u: [&[f64]; PANEL]) {
 }
 
 /// Solves A x = b in place with the factors of [`lu_factor`].
+#[inline]
 pub(crate) fn lu_solve(lu: &[f64], n: usize, pivots: &[usize], b: &mut [f64]) {
     small::of_size!(n => lu_solve(lu, pivots, b), lu_solve_in_panels(lu, n, pivots, b));
 }
@@ -128,14 +130,25 @@ fn lu_solve_in_panels(lu: &[f64], n: usize, pivots: &[usize], b: &mut [f64]) {
     }
 }
 
-/// Solves xᵀ A = bᵀ in place with the factors of [`lu_factor`], for each row b of `rows` (n numbers
+/// Factors A as [`lu_factor`] does and solves xᵀ A = bᵀ in place for each row b of `rows` (n numbers
 /// each).
-pub(crate) fn lu_solve_transposed(lu: &[f64], n: usize, pivots: &[usize], rows: &mut [f64]) {
-    small::of_size!(n => lu_solve_transposed(lu, pivots, rows), lu_solve_transposed_in_panels(lu, n, pivots, rows));
+#[inline]
+pub(crate) fn lu_factor_and_solve_transposed(
+    a: &mut [f64],
+    n: usize,
+    pivots: &mut [usize],
+    rows: &mut [f64],
+) -> Result<(), SingularRow> {
+    small::of_size!(n => lu_factor_and_solve_transposed(a, pivots, rows), {
+        lu_factor_in_panels(a, n, pivots)?;
+        lu_solve_transposed(a, n, pivots, rows);
+        Ok(())
+    })
 }
 
-/// [`lu_solve_transposed`] of many equations, [`PANEL`] right-hand sides at a time.
-fn lu_solve_transposed_in_panels(lu: &[f64], n: usize, pivots: &[usize], rows: &mut [f64]) {
+/// Solves xᵀ A = bᵀ in place with the factors of [`lu_factor`] for each row b of `rows`, [`PANEL`] of
+/// them at a time.
+pub(crate) fn lu_solve_transposed(lu: &[f64], n: usize, pivots: &[usize], rows: &mut [f64]) {
     for rows in rows.chunks_mut(PANEL * n) {
         for k in 0..n {
             let u = &lu[k * n..][..n];
@@ -187,13 +200,40 @@ fn subtract_multiples(
     }
 }
 
+/// Columns of a product that are summed together, in registers.
+const LANES: usize = 4;
+
 /// C += A B, where A has `inner` columns and B has `columns`.
+#[inline(always)]
 pub(crate) fn add_product(c: &mut [f64], a: &[f64], b: &[f64], inner: usize, columns: usize) {
     for (a, c) in a.chunks_exact(inner).zip(c.chunks_exact_mut(columns)) {
-        for (factor, b) in a.iter().zip(b.chunks_exact(columns)) {
-            add_scaled(c, *factor, b);
+        let whole = columns - columns % LANES;
+        for first in (0..whole).step_by(LANES) {
+            add_combination(c, a, b, columns, first, LANES);
         }
+        add_combination(c, a, b, columns, whole, columns - whole);
     }
+}
+
+/// Adds to at most [`LANES`] entries of c, from `first` on, those of the sum of the rows of B times the
+/// numbers in a.
+#[inline(always)]
+fn add_combination(
+    c: &mut [f64],
+    a: &[f64],
+    b: &[f64],
+    columns: usize,
+    first: usize,
+    width: usize,
+) {
+    let c = &mut c[first..][..width];
+    let mut sums = [0.0; LANES];
+    let sums = &mut sums[..width];
+    sums.copy_from_slice(c);
+    for (factor, b) in a.iter().zip(b.chunks_exact(columns)) {
+        add_scaled(sums, *factor, &b[first..][..width]);
+    }
+    c.copy_from_slice(sums);
 }
 
 /// The inner product of two vectors of the same length.
@@ -213,6 +253,7 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 /// Whether all numbers are finite: zero times anything else is NaN, and a sum keeps it.
+#[inline(always)]
 pub(crate) fn all_finite(x: &[f64]) -> bool {
     let blocks = x.chunks_exact(4);
     let rest: f64 = blocks.remainder().iter().map(|x| 0.0 * x).sum();
@@ -257,10 +298,7 @@ mod tests {
             let x = &seed[144..144 + n];
             let mut lu = a.clone();
             let mut pivots = vec![0; n];
-            prop_assume!(lu_factor(&mut lu, n, &mut pivots).is_ok());
-            prop_assume!((0..n).all(|i| lu[i * n + i].abs() > 1e-3));
             let mut b: Vec<f64> = (0..n).map(|i| dot(&a[i * n..][..n], x)).collect();
-            lu_solve(&lu, n, &pivots, &mut b);
             // Six rows: a full panel and a rest.
             let mut bt: Vec<f64> = (0..6 * n)
                 .map(|j| {
@@ -268,7 +306,10 @@ mod tests {
                     (0..n).map(|i| factor * x[i] * a[i * n + j % n]).sum()
                 })
                 .collect();
-            lu_solve_transposed(&lu, n, &pivots, &mut bt);
+            let done = lu_factor_and_solve_transposed(&mut lu, n, &mut pivots, &mut bt);
+            prop_assume!(done.is_ok());
+            prop_assume!((0..n).all(|i| lu[i * n + i].abs() < 1e3));
+            lu_solve(&lu, n, &pivots, &mut b);
             for i in 0..n {
                 prop_assert!((b[i] - x[i]).abs() < 1e-9);
                 for (row, solved) in bt.chunks_exact(n).enumerate() {

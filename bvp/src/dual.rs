@@ -18,6 +18,17 @@ pub struct Dual<const W: usize> {
 }
 
 impl<const W: usize> Dual<W> {
+    /// The independent variables of all directions, where they are zero.
+    pub(crate) const VARIABLES: [Self; W] = {
+        let mut variables = [Self::constant(0.0); W];
+        let mut direction = 0;
+        while direction < W {
+            variables[direction].gradient[direction] = 1.0;
+            direction += 1;
+        }
+        variables
+    };
+
     /// A constant: all derivatives zero.
     pub const fn constant(value: f64) -> Self {
         Self {

@@ -13,9 +13,8 @@ use std::ops::Range;
 /// What the evaluation of the stages of a segment needs.
 #[derive(Clone)]
 pub(crate) struct StageBuffers {
-    /// One state and one right-hand side.
+    /// One state.
     y: Vec<f64>,
-    f: Vec<f64>,
     /// What the last Jacobians have shown.
     pub(crate) watch: Watch,
 }
@@ -25,7 +24,6 @@ impl StageBuffers {
         let n = segment.states;
         Self {
             y: vec![0.0; n],
-            f: vec![0.0; n],
             watch: Watch::new(n),
         }
     }
@@ -84,62 +82,65 @@ impl<'a> SegmentAt<'a> {
         continuity: &mut [f64],
         buffers: &mut StageBuffers,
     ) -> Result<(), NonFinite> {
-        let t = self.tableau;
-        let (y, f) = (&mut buffers.y[..n], &mut buffers.f[..n]);
+        let (t, m) = (self.tableau, self.tableau.stages);
+        let y = &mut buffers.y[..n];
         let residuals = stages
-            .chunks_exact_mut(t.stages * n)
+            .chunks_exact_mut(m * n)
             .zip(continuity.chunks_exact_mut(n));
         for (i, (r, c)) in run.zip(residuals) {
             let interval = self.interval(i, n);
-            for (j, r) in r.chunks_exact_mut(n).enumerate() {
+            r.fill(f64::NAN);
+            for (j, f) in r.chunks_exact_mut(n).enumerate() {
                 let s = interval.stage_state(t, j, y);
-                f.fill(f64::NAN);
                 self.equations.rhs(self.index, s, y, self.p, f);
-                interval.stage_residual(j, f, r, self.index, s)?;
+                interval.stage_residual(j, f, self.index, s)?;
             }
             interval.continuity(t, c);
         }
         Ok(())
     }
 
-    /// The [`residuals`](Self::residuals), and the Jacobians at the stages.
+    /// The [`residuals`](Self::residuals), and the Jacobians at the stages, with k parameters.
+    #[expect(clippy::too_many_arguments, reason = "what an interval has, each once")]
     #[inline(always)]
     pub(crate) fn jacobians(
         &self,
         n: usize,
+        k: usize,
         run: Range<usize>,
         stages: &mut [f64],
         continuity: &mut [f64],
         jacobians: &mut [f64],
         buffers: &mut StageBuffers,
     ) -> Result<(), NonFinite> {
-        let (t, columns) = (self.tableau, n + self.p.len());
-        let StageBuffers { y, f, watch } = buffers;
-        let (y, f) = (&mut y[..n], &mut f[..n]);
+        let (t, m, columns) = (self.tableau, self.tableau.stages, n + k);
+        let StageBuffers { y, watch } = buffers;
+        let y = &mut y[..n];
         let residuals = stages
-            .chunks_exact_mut(t.stages * n)
+            .chunks_exact_mut(m * n)
             .zip(continuity.chunks_exact_mut(n))
-            .zip(jacobians.chunks_exact_mut(t.stages * n * columns));
+            .zip(jacobians.chunks_exact_mut(m * n * columns));
         for (i, ((r, c), jacobians)) in run.zip(residuals) {
             let interval = self.interval(i, n);
-            let jacobians = jacobians.chunks_exact_mut(n * columns);
-            for (j, (r, jacobian)) in r.chunks_exact_mut(n).zip(jacobians).enumerate() {
+            r.fill(f64::NAN);
+            jacobians.fill(f64::NAN);
+            let written = r
+                .chunks_exact_mut(n)
+                .zip(jacobians.chunks_exact_mut(n * columns));
+            for (j, (f, jacobian)) in written.enumerate() {
                 let s = interval.stage_state(t, j, y);
-                f.fill(f64::NAN);
-                jacobian.fill(f64::NAN);
                 self.equations
                     .rhs_jacobian(self.index, s, y, self.p, f, jacobian);
-                interval.stage_residual(j, f, r, self.index, s)?;
-                if let Some(component) = non_finite_row(jacobian, columns) {
-                    let segment = self.index;
-                    return Err(NonFinite::Rhs {
-                        segment,
-                        s,
-                        component,
-                    });
-                }
-                watch.look(jacobian, n, columns);
+                interval.stage_residual(j, f, self.index, s)?;
             }
+            if let Some(row) = non_finite_row(jacobians, columns) {
+                return Err(NonFinite::Rhs {
+                    segment: self.index,
+                    s: interval.place(t.c[row / n]),
+                    component: row % n,
+                });
+            }
+            watch.look(jacobians, n, columns);
             interval.continuity(t, c);
         }
         Ok(())

@@ -1,6 +1,6 @@
 //! The unknowns of the discretised problem, seen whole and interval by interval.
 
-use crate::dense::add_scaled;
+use crate::dense::{add_product, add_scaled};
 use crate::mesh::Mesh;
 use crate::tableau::Tableau;
 use crate::{Guess, Segment, Solution};
@@ -187,9 +187,7 @@ impl<'a> Interval<'a> {
     #[inline(always)]
     pub(crate) fn slope(&self, weights: &[f64], slope: &mut [f64]) {
         slope.fill(0.0);
-        for (weight, stage) in weights.iter().zip(self.stages.chunks_exact(self.n)) {
-            add_scaled(slope, *weight, stage);
-        }
+        add_product(slope, weights, self.stages, weights.len(), self.n);
     }
 
     /// The place θ of the interval, never outside by rounding.
@@ -205,26 +203,25 @@ impl<'a> Interval<'a> {
         self.place(t.c[j])
     }
 
-    /// r = Kⱼ − f, refusing an f that is not finite.
+    /// r = Kⱼ − f in the place of f, refusing an f that is not finite.
     #[inline(always)]
     pub(crate) fn stage_residual(
         &self,
         j: usize,
-        f: &[f64],
         r: &mut [f64],
         segment: usize,
         s: f64,
     ) -> Result<(), NonFinite> {
         let slopes = &self.stages[j * self.n..][..self.n];
-        for (component, ((r, slope), f)) in r.iter_mut().zip(slopes).zip(f).enumerate() {
-            if !f.is_finite() {
+        for (component, (r, slope)) in r.iter_mut().zip(slopes).enumerate() {
+            if !r.is_finite() {
                 return Err(NonFinite::Rhs {
                     segment,
                     s,
                     component,
                 });
             }
-            *r = slope - f;
+            *r = slope - *r;
         }
         Ok(())
     }

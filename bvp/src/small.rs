@@ -22,18 +22,44 @@ macro_rules! of_size {
 
 pub(crate) use of_size;
 
-/// [`lu_factor`](crate::dense::lu_factor) of a matrix of few rows, one column after the other.
+/// [`lu_factor`](crate::dense::lu_factor) of a matrix of few rows.
 pub(crate) fn lu_factor<const N: usize>(
     a: &mut [f64],
     pivots: &mut [usize],
 ) -> Result<(), SingularRow> {
-    let (a, _) = a.as_chunks_mut::<N>();
-    let a: &mut [[f64; N]; N] = a.try_into().expect("n rows");
+    lu_factor_and_solve_transposed::<N>(a, pivots, &mut [])
+}
+
+/// [`lu_factor_and_solve_transposed`](crate::dense::lu_factor_and_solve_transposed) of few equations: the
+/// factors are still in registers when they are used.
+pub(crate) fn lu_factor_and_solve_transposed<const N: usize>(
+    a: &mut [f64],
+    pivots: &mut [usize],
+    rows: &mut [f64],
+) -> Result<(), SingularRow> {
+    let a: &mut [[f64; N]; N] = a.as_chunks_mut().0.try_into().expect("n rows");
     let pivots: &mut [usize; N] = pivots.try_into().expect("n pivots");
+    let mut lu = *a;
+    factor(&mut lu, pivots)?;
+    for b in rows.as_chunks_mut().0 {
+        solve_transposed(&lu, pivots, b);
+    }
+    *a = lu;
+    Ok(())
+}
+
+/// One column after the other. Rows are addressed and exchanged by numbers that the compiler knows, so
+/// that the whole matrix can stay in registers.
+#[expect(clippy::needless_range_loop, reason = "entries by their numbers")]
+#[inline(always)]
+fn factor<const N: usize>(
+    a: &mut [[f64; N]; N],
+    pivots: &mut [usize; N],
+) -> Result<(), SingularRow> {
     for column in 0..N {
         let (mut pivot, mut largest) = (column, a[column][column].abs());
-        for (row, entries) in a.iter().enumerate().skip(column + 1) {
-            let candidate = entries[column].abs();
+        for row in column + 1..N {
+            let candidate = a[row][column].abs();
             if candidate > largest {
                 (pivot, largest) = (row, candidate);
             }
@@ -42,16 +68,18 @@ pub(crate) fn lu_factor<const N: usize>(
             return Err(SingularRow(column));
         }
         pivots[column] = pivot;
-        a.swap(column, pivot);
-        let mut pivot_row = a[column];
-        let inverse = 1.0 / pivot_row[column];
-        pivot_row[column] = inverse;
-        a[column] = pivot_row;
-        for row in &mut a[column + 1..] {
-            let factor = row[column] * inverse;
-            row[column] = factor;
+        for row in column + 1..N {
+            if row == pivot {
+                a.swap(column, row);
+            }
+        }
+        let inverse = 1.0 / a[column][column];
+        a[column][column] = inverse;
+        for row in column + 1..N {
+            let factor = a[row][column] * inverse;
+            a[row][column] = factor;
             for j in column + 1..N {
-                row[j] -= factor * pivot_row[j];
+                a[row][j] -= factor * a[column][j];
             }
         }
     }
@@ -60,13 +88,10 @@ pub(crate) fn lu_factor<const N: usize>(
 
 /// [`lu_solve`](crate::dense::lu_solve) of few equations, column by column: no sum waits for another.
 pub(crate) fn lu_solve<const N: usize>(lu: &[f64], pivots: &[usize], b: &mut [f64]) {
-    let (lu, _) = lu.as_chunks::<N>();
-    let lu: &[[f64; N]; N] = lu.try_into().expect("n rows");
+    let lu: &[[f64; N]; N] = lu.as_chunks().0.try_into().expect("n rows");
     let pivots: &[usize; N] = pivots.try_into().expect("n pivots");
     let b: &mut [f64; N] = b.try_into().expect("n numbers");
-    for (i, &pivot) in pivots.iter().enumerate() {
-        b.swap(i, pivot);
-    }
+    exchange(b, pivots, 0..N);
     let mut x = *b;
     for k in 0..N {
         for i in k + 1..N {
@@ -82,26 +107,35 @@ pub(crate) fn lu_solve<const N: usize>(lu: &[f64], pivots: &[usize], b: &mut [f6
     *b = x;
 }
 
-/// [`lu_solve_transposed`](crate::dense::lu_solve_transposed) of few equations.
-pub(crate) fn lu_solve_transposed<const N: usize>(lu: &[f64], pivots: &[usize], rows: &mut [f64]) {
-    let (lu, _) = lu.as_chunks::<N>();
-    let lu: &[[f64; N]; N] = lu.try_into().expect("n rows");
-    let pivots: &[usize; N] = pivots.try_into().expect("n pivots");
-    for b in rows.as_chunks_mut::<N>().0 {
-        let mut x = *b;
-        for k in 0..N {
-            x[k] *= lu[k][k];
-            for j in k + 1..N {
-                x[j] -= lu[k][j] * x[k];
-            }
+/// xᵀ A = bᵀ for one row b, likewise.
+#[inline(always)]
+fn solve_transposed<const N: usize>(lu: &[[f64; N]; N], pivots: &[usize; N], b: &mut [f64; N]) {
+    let mut x = *b;
+    for k in 0..N {
+        x[k] *= lu[k][k];
+        for j in k + 1..N {
+            x[j] -= lu[k][j] * x[k];
         }
-        for k in (1..N).rev() {
-            for j in 0..k {
-                x[j] -= lu[k][j] * x[k];
-            }
+    }
+    for k in (1..N).rev() {
+        for j in 0..k {
+            x[j] -= lu[k][j] * x[k];
         }
-        *b = x;
-        for i in (0..N).rev() {
+    }
+    *b = x;
+    exchange(b, pivots, (0..N).rev());
+}
+
+/// Exchanges entries as rows were, in this order. Mostly none were: to write each back where it is would
+/// keep the next one waiting.
+#[inline(always)]
+fn exchange<const N: usize>(
+    b: &mut [f64; N],
+    pivots: &[usize; N],
+    order: impl Iterator<Item = usize>,
+) {
+    for i in order {
+        if pivots[i] != i {
             b.swap(i, pivots[i]);
         }
     }
