@@ -3,14 +3,18 @@
 //! `cargo test -p reference-problems --test reference -- --nocapture` prints the tables.
 
 use bvp::{Options, Scheme, Solution, solve};
-use reference_problems::{Attempt, Outcome, TOLERANCES, all, max_or_nan, quantile, scaled_error};
+use reference_problems::{
+    Attempt, FALSE_FROM, Outcome, TOLERANCES, all, max_or_nan, quantile, scaled_error,
+};
 
 /// The estimate is at least this share of the true error. Measured: 0.54.
 const LEAST: f64 = 0.5;
-/// In nine of ten cases it is at most so many times that. Measured: 5.0, and 2.3 in the median. Where a mesh
-/// is too coarse to show how fast the error falls the estimate may be a thousand times too large.
-const MOST: f64 = 6.0;
+/// In nine of ten cases it is at most so many times that. Measured: 3.2, and 1.5 in the median.
+const MOST: f64 = 4.0;
 
+/// f has a kink at an unknown place, which may lie between a node and the next place where f is evaluated: no
+/// estimate sees it there.
+const HIDDEN: [&str; 1] = ["E07a"];
 /// Errors below are rounding.
 const ROUNDING: f64 = 1e-13;
 
@@ -102,6 +106,10 @@ fn the_error_estimate_bounds_the_true_error_and_is_mostly_near_it() {
             }
             let share = estimate.unwrap() / error;
             println!("{:6} {share:.2}", case.id);
+            if HIDDEN.contains(&case.id) {
+                assert!(error <= FALSE_FROM * tolerance, "{}: {error:e}", case.id);
+                continue;
+            }
             shares.push(share);
             if share < LEAST {
                 complaints.push(format!(

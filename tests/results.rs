@@ -18,7 +18,7 @@ Every case from its stated guess on its stated mesh with `Options::to(tolerance)
 The true error is max |y − yref| / (1 + |yref|) over the points of the reference table and the
 parameters, the estimate that of the solver; both are divided by the tolerance. \"N\" is the number of
 intervals of the mesh returned, \"steps\" and \"LU\" are the Newton steps and the factorisations of the
-Newton matrix over all meshes, their halves included.
+Newton matrix over all meshes.
 ";
 
 /// All cases at all tolerances, one row per tolerance.

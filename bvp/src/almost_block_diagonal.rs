@@ -72,20 +72,28 @@ pub(crate) struct Chain {
 }
 
 impl Chain {
-    fn new(n: usize, k: usize, intervals: usize) -> Self {
-        let interior = intervals - 1;
+    fn new(n: usize, k: usize) -> Self {
         Self {
             n,
             k,
-            links: vec![0.0; intervals * n * (n + k)],
-            panels: vec![0.0; interior * 2 * n * n],
-            tau: vec![0.0; interior * n],
-            couplings: vec![0.0; interior * n * (2 * n + k)],
+            links: vec![],
+            panels: vec![],
+            tau: vec![],
+            couplings: vec![],
             reduced: vec![0.0; n * (2 * n + k)],
             work: vec![0.0; 2 * n * (3 * n + k)],
             row: vec![0.0; 3 * n + k],
             blocks: (n >= MANY).then(|| Blocks::new(2 * n, 3 * n + k)),
         }
+    }
+
+    /// Room for so many intervals.
+    fn fit(&mut self, intervals: usize) {
+        let (n, k, interior) = (self.n, self.k, intervals - 1);
+        self.links.resize(intervals * n * (n + k), 0.0);
+        self.panels.resize(interior * 2 * n * n, 0.0);
+        self.tau.resize(interior * n, 0.0);
+        self.couplings.resize(interior * n * (2 * n + k), 0.0);
     }
 
     /// The blocks \[Γ P\] of all intervals, to be filled before [`AlmostBlockDiagonal::factor`].
@@ -267,16 +275,10 @@ pub(crate) struct AlmostBlockDiagonal {
 }
 
 impl AlmostBlockDiagonal {
-    /// Buffers for segments with the given (states, intervals), k parameters and so many
-    /// conditions: Σ n + k, or one fewer for a matrix with a null vector.
-    pub(crate) fn new(
-        segments: impl Iterator<Item = (usize, usize)>,
-        k: usize,
-        conditions: usize,
-    ) -> Self {
-        let chains: Vec<_> = segments
-            .map(|(states, intervals)| Chain::new(states, k, intervals))
-            .collect();
+    /// For segments with the given numbers of states, k parameters and so many conditions: Σ n + k, or
+    /// one fewer for a matrix with a null vector; without any intervals.
+    pub(crate) fn new(states: impl Iterator<Item = usize>, k: usize, conditions: usize) -> Self {
+        let chains: Vec<_> = states.map(|n| Chain::new(n, k)).collect();
         let states: usize = chains.iter().map(|chain| chain.n).sum();
         let unknowns = 2 * states + k;
         Self {
@@ -284,6 +286,13 @@ impl AlmostBlockDiagonal {
             k,
             ends: EndSystem::new(states + conditions, unknowns),
             unknowns: vec![0.0; unknowns],
+        }
+    }
+
+    /// Room for so many intervals of every segment.
+    pub(crate) fn fit(&mut self, intervals: impl Iterator<Item = usize>) {
+        for (chain, intervals) in self.chains.iter_mut().zip(intervals) {
+            chain.fit(intervals);
         }
     }
 

@@ -18,7 +18,7 @@ use crate::dense::add_scaled;
 use crate::dependence::Dependence;
 use crate::evaluation::{SegmentAt, StageBuffers, non_finite_row};
 use crate::held::Held;
-use crate::iterate::{Iterate, NonFinite, Residual, SegmentIterate};
+use crate::iterate::{Iterate, NonFinite, Residual, SegmentIterate, fit};
 use crate::mesh::Mesh;
 use crate::parallel::for_each_run;
 use crate::specialise::specialise;
@@ -63,39 +63,61 @@ impl<'a> Collocation<'a> {
     pub(crate) fn new(equations: Held<'a>, tableau: Arc<Tableau>, mesh: Mesh) -> Self {
         let (segments, k) = (equations.segments(), equations.parameters());
         let conditions = equations.condition_count();
-        let sizes = || {
-            let pairs = segments.iter().zip(&mesh);
-            pairs.map(|(segment, nodes)| (segment.states, nodes.len() - 1))
-        };
-        let states: usize = segments.iter().map(|s| s.states).sum();
-        Self {
-            matrix: AlmostBlockDiagonal::new(sizes(), k, conditions),
-            stages: sizes()
-                .map(|(n, intervals)| Condensation::new(n, k, tableau.stages, intervals))
+        let all_states = || segments.iter().map(|segment| segment.states);
+        let states: usize = all_states().sum();
+        let mut new = Self {
+            matrix: AlmostBlockDiagonal::new(all_states(), k, conditions),
+            stages: all_states()
+                .map(|n| Condensation::new(n, k, tableau.stages))
                 .collect(),
             buffers: segments.iter().map(StageBuffers::new).collect(),
-            mesh,
+            mesh: vec![],
             conditions_jacobian: vec![0.0; conditions * (2 * states + k)],
             ends: vec![0.0; 2 * states],
             negative_conditions: vec![0.0; conditions],
             equations,
             tableau,
+        };
+        new.lay(mesh);
+        new
+    }
+
+    /// Goes over to another mesh.
+    pub(crate) fn lay(&mut self, mesh: Mesh) {
+        self.mesh = mesh;
+        let intervals = self.mesh.iter().map(|nodes| nodes.len() - 1);
+        self.matrix.fit(intervals.clone());
+        for (stages, intervals) in self.stages.iter_mut().zip(intervals) {
+            stages.fit(intervals);
         }
+    }
+
+    /// Makes an iterate one of the right size.
+    pub(crate) fn fit(&self, x: &mut Iterate) {
+        let (segments, m) = (self.equations.segments(), self.tableau.stages);
+        x.fit(segments, &self.mesh, m, self.equations.parameters());
+    }
+
+    /// Makes a residual one of the right size.
+    pub(crate) fn fit_residual(&self, residual: &mut Residual) {
+        let (segments, m) = (self.equations.segments(), self.tableau.stages);
+        fit(&mut residual.equations, segments, &self.mesh, m);
+        let conditions = self.negative_conditions.len();
+        residual.conditions.resize(conditions, 0.0);
     }
 
     /// A zero iterate of the right size.
     pub(crate) fn zeros(&self) -> Iterate {
-        let k = self.equations.parameters();
-        let segments = self.equations.segments();
-        Iterate::zeros(segments, &self.mesh, self.tableau.stages, k)
+        let mut x = Iterate::default();
+        self.fit(&mut x);
+        x
     }
 
     /// A residual of the right size.
     pub(crate) fn residual_buffer(&self) -> Residual {
-        Residual {
-            equations: self.zeros().segments,
-            conditions: vec![0.0; self.negative_conditions.len()],
-        }
+        let mut residual = Residual::default();
+        self.fit_residual(&mut residual);
+        residual
     }
 
     /// The iterate whose collocation polynomials interpolate a guess.

@@ -80,21 +80,36 @@ pub(crate) struct Condensation {
 }
 
 impl Condensation {
-    /// Buffers for a segment with n states, k parameters, m stages.
-    pub(crate) fn new(n: usize, k: usize, m: usize, intervals: usize) -> Self {
-        let size = m * n;
+    /// For a segment with n states, k parameters, m stages, without any intervals.
+    pub(crate) fn new(n: usize, k: usize, m: usize) -> Self {
         Self {
             n,
             k,
-            size,
+            size: m * n,
             chains: Chains::default(),
             free_size: 0,
             lu: vec![],
             pivots: vec![],
-            adjoint: vec![0.0; intervals * n * size],
-            jacobians: vec![0.0; intervals * size * (n + k)],
+            adjoint: vec![],
+            jacobians: vec![],
             buffers: IntervalBuffers::default(),
         }
+    }
+
+    /// Room for so many intervals.
+    pub(crate) fn fit(&mut self, intervals: usize) {
+        let Self { n, k, size, .. } = *self;
+        self.adjoint.resize(intervals * n * size, 0.0);
+        self.jacobians.resize(intervals * size * (n + k), 0.0);
+        self.fit_free();
+    }
+
+    /// Room for the systems of the free states.
+    fn fit_free(&mut self) {
+        let intervals = self.adjoint.len() / (self.n * self.size);
+        let free_size = self.free_size;
+        self.lu.resize(intervals * free_size * free_size, 0.0);
+        self.pivots.resize(intervals * free_size, 0);
     }
 
     /// The Jacobians at the stages of all intervals, to be filled before
@@ -111,12 +126,9 @@ impl Condensation {
     /// Chains the states that all Jacobians show to be chained, before [`condense`](Self::condense).
     pub(crate) fn chain(&mut self, watch: &Watch) {
         if self.chains.update(watch) {
-            let m = self.size / self.n;
-            let intervals = self.adjoint.len() / (self.n * self.size);
-            let free_size = self.chains.free.len() * m;
+            let free_size = self.chains.free.len() * self.size / self.n;
             self.free_size = free_size;
-            self.lu.resize(intervals * free_size * free_size, 0.0);
-            self.pivots.resize(intervals * free_size, 0);
+            self.fit_free();
             self.buffers.rows.resize(self.n * free_size, 0.0);
             self.buffers.work.resize(free_size + self.size, 0.0);
             let large = free_size >= LARGE;
@@ -330,7 +342,8 @@ mod tests {
             let t = Tableau::new(Scheme::Gauss { stages: m });
             for trial in 0..20 {
                 let intervals = 3;
-                let mut stages = Condensation::new(n, 0, m, intervals);
+                let mut stages = Condensation::new(n, 0, m);
+                stages.fit(intervals);
                 let mut sign = 1.0;
                 let mut mesh = vec![0.0];
                 let mut watch = Watch::new(n);

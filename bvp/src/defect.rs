@@ -16,8 +16,6 @@ pub(crate) struct Defects {
     pub(crate) relative: Vec<Vec<f64>>,
     /// Times the length of the interval and relative to 1 + |y|: what an interval adds to the error.
     pub(crate) local: Vec<Vec<f64>>,
-    /// S' − f at the m + 1 defect points of every interval, n numbers each.
-    pub(crate) samples: Vec<Vec<f64>>,
 }
 
 impl Defects {
@@ -27,7 +25,6 @@ impl Defects {
         let relative: Vec<_> = mesh.iter().map(infinite).collect();
         Self {
             local: relative.clone(),
-            samples: vec![],
             relative,
         }
     }
@@ -38,6 +35,9 @@ impl Defects {
     }
 }
 
+/// S' − f at the m + 1 defect points of every interval of every segment, n numbers each.
+pub(crate) type Samples = Vec<Vec<f64>>;
+
 /// Relative defect of the continuous solution S, one number per interval and segment:
 ///
 /// ```text
@@ -46,16 +46,19 @@ impl Defects {
 ///
 /// over the interval, by the Gauss rule with m + 1 points. J. Kierzenka & L. F. Shampine, "A BVP
 /// solver based on residual control and the MATLAB PSE", ACM Trans. Math. Softw. 27 (2001)
-/// 299-316.
+/// 299-316. The values behind it are written to `samples`.
 pub(crate) fn defects(
     equations: &dyn Equations,
     t: &Tableau,
     mesh: &Mesh,
     x: &Iterate,
+    samples: &mut Samples,
     stats: &mut Stats,
 ) -> Result<Defects, NonFinite> {
     let mut all = Defects::default();
-    for (index, segment) in equations.segments().iter().enumerate() {
+    samples.resize_with(mesh.len(), Vec::new);
+    let segments = equations.segments().iter().zip(samples).enumerate();
+    for (index, (segment, samples)) in segments {
         let (n, m) = (segment.states, t.stages);
         let nodes = &mesh[index];
         let intervals = nodes.len() - 1;
@@ -67,24 +70,23 @@ pub(crate) fn defects(
             x,
         };
         let [mut relative, mut local] = [(); 2].map(|()| vec![0.0; intervals]);
-        let mut samples = vec![0.0; intervals * (m + 1) * n];
+        samples.resize(intervals * (m + 1) * n, 0.0);
         for_each_run(
             0..intervals,
             (m + 1) * n * (2 * m + n),
             ((&mut relative[..], &mut local[..]), &mut samples[..]),
-            &mut [(); 3].map(|()| vec![0.0; n]),
+            &mut vec![0.0; 3 * n],
             &|run, written, buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => along.defects(n, run, written, buffers)),
         )?;
         all.relative.push(relative);
         all.local.push(local);
-        all.samples.push(samples);
         stats.rhs_evaluations += intervals * t.defect_rule.points.len();
     }
     Ok(all)
 }
 
 /// A state, a right-hand side and a slope.
-impl Buffers for [Vec<f64>; 3] {}
+impl Buffers for Vec<f64> {}
 
 /// A continuous solution on one segment.
 struct Along<'a> {
@@ -104,11 +106,13 @@ impl Along<'_> {
         n: usize,
         run: Range<usize>,
         ((relative, local), samples): ((&mut [f64], &mut [f64]), &mut [f64]),
-        [y, f, slope]: &mut [Vec<f64>; 3],
+        buffers: &mut [f64],
     ) -> Result<(), NonFinite> {
-        let (t, x) = (self.tableau, self.x);
+        let (t, m, x) = (self.tableau, self.tableau.stages, self.x);
+        let (y, buffers) = buffers.split_at_mut(n);
+        let (f, slope) = buffers.split_at_mut(n);
         let (y, f, slope) = (&mut y[..n], &mut f[..n], &mut slope[..n]);
-        let samples = samples.chunks_exact_mut((t.stages + 1) * n);
+        let samples = samples.chunks_exact_mut((m + 1) * n);
         let written = relative.iter_mut().zip(local).zip(samples);
         for (i, ((relative, local), samples)) in run.zip(written) {
             let ends = &self.nodes[i..i + 2];
@@ -117,8 +121,8 @@ impl Along<'_> {
             for (q, sample) in samples.chunks_exact_mut(n).enumerate() {
                 let weight = t.defect_rule.weights[q];
                 let s = interval.place(t.defect_rule.points[q]);
-                interval.state(&t.defect_value[q * t.stages..][..t.stages], y);
-                interval.slope(&t.defect_slope[q * t.stages..][..t.stages], slope);
+                interval.state(&t.defect_value[q * m..][..m], y);
+                interval.slope(&t.defect_slope[q * m..][..m], slope);
                 f.fill(f64::NAN);
                 self.equations.rhs(self.index, s, y, &x.p, f);
                 if let Some(component) = f.iter().position(|f| !f.is_finite()) {

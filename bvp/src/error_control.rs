@@ -13,7 +13,7 @@ const LARGEST_CUT: f64 = 8.0;
 /// Nor to grow more than by the inverse of this.
 const SMALLEST_CUT: f64 = 0.2;
 /// Neighbouring intervals may differ in length by about this factor.
-const GRADING: f64 = 2.5;
+const GRADING: f64 = 5.0;
 /// Where at most this share of the intervals is too long, only they are cut.
 const FEW: f64 = 0.12;
 
@@ -155,6 +155,6 @@ mod tests {
     fn neighbouring_intervals_are_graded() {
         let mut density = [1.0, 1.0, 100.0, 1.0];
         grade(&mut density);
-        assert_eq!(density, [16.0, 40.0, 100.0, 40.0]);
+        assert_eq!(density, [4.0, 20.0, 100.0, 20.0]);
     }
 }

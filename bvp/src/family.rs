@@ -236,8 +236,15 @@ impl<'a> Family<'a> {
         equations.conditions(Ends::new(segments, &ends), &x.p, &mut conditions);
         let unknown = Quality::unknown(mesh);
         let quality = Quality {
-            defects: defects(equations, tableau, mesh, &x, &mut self.stats.clone())
-                .unwrap_or(unknown.defects),
+            defects: defects(
+                equations,
+                tableau,
+                mesh,
+                &x,
+                &mut vec![],
+                &mut self.stats.clone(),
+            )
+            .unwrap_or(unknown.defects),
             conditions: conditions
                 .iter()
                 .map(|r| if r.is_nan() { f64::INFINITY } else { r.abs() })

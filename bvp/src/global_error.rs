@@ -19,7 +19,7 @@
 
 use crate::Equations as _;
 use crate::collocation::Collocation;
-use crate::defect::Defects;
+use crate::defect::Samples;
 use crate::dense::{add_scaled, dot, max_or_nan};
 use crate::iterate::{Interval, Iterate, Residual, SegmentIterate};
 use crate::specialise::specialise;
@@ -46,29 +46,33 @@ impl GlobalErrors {
 const CAUTION: f64 = 1.5;
 
 impl Collocation<'_> {
-    /// The global errors of the solution `x`, which was last linearised nearby, from its defects.
-    /// `None` if one is not finite. Writes `residual` and leaves w in `w`.
+    /// The global errors of the solution `x`, which was last linearised nearby, from its defects and the
+    /// local ones. `None` if one is not finite. Writes `residual` and leaves w in `w`.
     ///
-    /// Errors are looked at at the nodes and at the collocation points, where D has its extrema.
+    /// Errors are looked at at the nodes and at the two collocation points in the middle of every interval:
+    /// D has its extrema at these points, the largest in the middle.
     pub(crate) fn global_errors(
         &mut self,
         x: &Iterate,
-        defects: &Defects,
+        samples: &Samples,
+        local: &[Vec<f64>],
         residual: &mut Residual,
         w: &mut Iterate,
     ) -> Option<GlobalErrors> {
-        let k = x.p.len();
-        for (index, samples) in defects.samples.iter().enumerate() {
+        let (m, k) = (self.tableau.stages, x.p.len());
+        for (index, samples) in samples.iter().enumerate() {
             let n = self.equations.segments()[index].states;
             let to = &mut residual.equations[index];
-            specialise!(n in [1, 2, 3, 4, 5, 6] => self.integrate([n, k], index, samples, to));
+            specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                self.integrate([m, n, k], index, samples, to)));
         }
         self.conditions(x, &mut residual.conditions).ok()?;
         self.correction(residual, w);
-        let states = self.equations.segments().iter().enumerate();
-        let states = states.map(|(index, segment)| {
-            let n = segment.states;
-            specialise!(n in [1, 2, 3, 4, 5, 6] => self.largest_errors(n, index, defects, x, w))
+        let each = samples.iter().zip(local).enumerate();
+        let states = each.map(|(index, defects)| {
+            let n = self.equations.segments()[index].states;
+            specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                self.largest_errors([m, n], index, defects, x, w)))
         });
         let parameters = x.p.iter().zip(&w.p);
         let errors = GlobalErrors {
@@ -82,12 +86,12 @@ impl Collocation<'_> {
     #[inline(always)]
     fn integrate(
         &self,
-        [n, k]: [usize; 2],
+        [m, n, k]: [usize; 3],
         index: usize,
         samples: &[f64],
         to: &mut SegmentIterate,
     ) {
-        let (t, m, columns) = (&*self.tableau, self.tableau.stages, n + k);
+        let (t, columns) = (&*self.tableau, n + k);
         let mut integral = vec![0.0; n];
         let integral = &mut integral[..n];
         let jacobians = self.stages[index].jacobians();
@@ -120,23 +124,27 @@ impl Collocation<'_> {
     ///
     /// A defect like the Legendre polynomial of degree m has an integral about √(2m + 1) times less than
     /// it. Where the local defect is more than 2m times the error at the collocation points, these hide
-    /// the error, as in a stiff interval, where it follows the defect that vanishes there.
+    /// the error, as in a stiff interval, where it follows the defect that vanishes there: then it is looked
+    /// at where the defect is, too.
     #[inline(always)]
     fn largest_errors(
         &self,
-        n: usize,
+        [m, n]: [usize; 2],
         index: usize,
-        defects: &Defects,
+        (samples, local): (&Vec<f64>, &Vec<f64>),
         x: &Iterate,
         w: &Iterate,
     ) -> Vec<f64> {
-        let (t, m) = (&*self.tableau, self.tableau.stages);
+        let t = &*self.tableau;
         let mut largest = Largest::new(n);
-        let [mut y, mut e] = [(); 2].map(|()| vec![0.0; n]);
-        let (y, e) = (&mut y[..n], &mut e[..n]);
-        let intervals = defects.samples[index]
+        let middle = (m / 2).saturating_sub(1)..m / 2 + 1;
+        let values = &t.a[middle.start * m..middle.end * m];
+        let integrals = &t.defect_to_stage[middle.start * (m + 1)..middle.end * (m + 1)];
+        let mut buffers = vec![0.0; 2 * n];
+        let (y, e) = buffers.split_at_mut(n);
+        let intervals = samples
             .chunks_exact((m + 1) * n)
-            .zip(&defects.local[index])
+            .zip(local)
             .zip(self.mesh[index].windows(2));
         for (i, ((samples, local), ends)) in intervals.enumerate() {
             let [x, w] = [x, w].map(|x| Interval::new(&x.segments[index], n, t, i, ends));
@@ -151,7 +159,7 @@ impl Collocation<'_> {
                 }
                 shown
             };
-            let shown = look_at(&t.a, &t.defect_to_stage);
+            let shown = look_at(values, integrals);
             if *local > (2 * m) as f64 * shown {
                 look_at(&t.defect_value, &t.defect_to_defect);
             }

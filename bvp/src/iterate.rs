@@ -3,7 +3,7 @@
 use crate::dense::{add_product, add_scaled};
 use crate::mesh::Mesh;
 use crate::tableau::Tableau;
-use crate::{Guess, Segment, Solution};
+use crate::{Guess, Segment};
 
 /// The unknowns of the discretised problem, or a correction of them.
 #[derive(Clone, Debug, Default)]
@@ -22,21 +22,22 @@ pub(crate) struct SegmentIterate {
     pub(crate) stages: Vec<f64>,
 }
 
+/// Makes room for the given segments, mesh and stages. What is new is zero, what was there before is
+/// left.
+pub(crate) fn fit(all: &mut Vec<SegmentIterate>, segments: &[Segment], mesh: &Mesh, stages: usize) {
+    all.resize_with(segments.len(), Default::default);
+    for ((segment, nodes), x) in segments.iter().zip(mesh).zip(all) {
+        let (n, intervals) = (segment.states, nodes.len() - 1);
+        x.nodes.resize((intervals + 1) * n, 0.0);
+        x.stages.resize(intervals * stages * n, 0.0);
+    }
+}
+
 impl Iterate {
-    /// Zeros, for the given segments, mesh, stages and number of parameters.
-    pub(crate) fn zeros(segments: &[Segment], mesh: &Mesh, stages: usize, k: usize) -> Self {
-        let segments = segments
-            .iter()
-            .zip(mesh)
-            .map(|(segment, nodes)| SegmentIterate {
-                nodes: vec![0.0; nodes.len() * segment.states],
-                stages: vec![0.0; (nodes.len() - 1) * stages * segment.states],
-            })
-            .collect();
-        Self {
-            segments,
-            p: vec![0.0; k],
-        }
+    /// The same, and for so many parameters.
+    pub(crate) fn fit(&mut self, segments: &[Segment], mesh: &Mesh, stages: usize, k: usize) {
+        fit(&mut self.segments, segments, mesh, stages);
+        self.p.resize(k, 0.0);
     }
 
     /// The iterate whose collocation polynomials interpolate a guess.
@@ -48,7 +49,8 @@ impl Iterate {
         guess: &dyn Guess,
     ) -> Self {
         let (m, points) = (t.stages, t.stages + 1);
-        let mut x = Self::zeros(segments, mesh, m, k);
+        let mut x = Self::default();
+        x.fit(segments, mesh, m, k);
         guess.parameters(&mut x.p);
         let each = segments.iter().zip(mesh).zip(&mut x.segments);
         for (index, ((segment, nodes), unknowns)) in each.enumerate() {
@@ -72,26 +74,6 @@ impl Iterate {
             }
             let last = nodes.len() - 1;
             guess.state(index, nodes[last], &mut unknowns.nodes[last * n..]);
-        }
-        x
-    }
-
-    /// The iterate with the nodes and slopes of a solution on another mesh.
-    pub(crate) fn transfer(mesh: &Mesh, t: &Tableau, from: &Solution) -> Self {
-        let mut x = Self::zeros(&from.segments, mesh, t.stages, from.x.p.len());
-        x.p.copy_from_slice(&from.x.p);
-        let each = from.segments.iter().zip(mesh).zip(&mut x.segments);
-        for (index, ((segment, nodes), unknowns)) in each.enumerate() {
-            let states = unknowns.nodes.chunks_exact_mut(segment.states);
-            for (state, &s) in states.zip(nodes) {
-                from.state(index, s, state);
-            }
-            let slopes = unknowns.stages.chunks_exact_mut(t.stages * segment.states);
-            for (slopes, pair) in slopes.zip(nodes.windows(2)) {
-                for (slope, c) in slopes.chunks_exact_mut(segment.states).zip(&t.c) {
-                    from.derivative(index, pair[0] + c * (pair[1] - pair[0]), slope);
-                }
-            }
         }
         x
     }

@@ -21,8 +21,7 @@ impl Collocation<'_> {
     /// The mesh with intervals inserted at all ends where a layer may hide, by the Jacobians of the last
     /// linearisation; `None` where none may.
     pub(crate) fn with_possible_layers(&self) -> Option<Mesh> {
-        let mut mesh = self.mesh.clone();
-        let mut found = false;
+        let mut found = None;
         let k = self.equations.parameters();
         for (index, Segment { states: n, .. }) in self.equations.segments().iter().enumerate() {
             let jacobians = self.stages[index].jacobians();
@@ -31,26 +30,26 @@ impl Collocation<'_> {
             let (size, far) = (n * (n + k), self.tableau.stages - 1);
             let first = &jacobians[far * size..][..size];
             let last = &jacobians[jacobians.len() - (far + 1) * size..][..size];
-            let nodes = &mut mesh[index];
+            let nodes = &self.mesh[index];
             let end = nodes.len() - 1;
             let (h0, h1) = (nodes[1] - nodes[0], nodes[end] - nodes[end - 1]);
+            let mut insert = |at: usize, places: &mut dyn Iterator<Item = f64>| {
+                let mesh = found.get_or_insert_with(|| self.mesh.clone());
+                mesh[index].splice(at..at, places);
+            };
             // The right end first: it leaves the places of the others.
             if let Some(rate) = fastest_growth(last, *n, h1, 1.0) {
-                found = true;
-                let right = nodes[end];
-                let distances = distances(h1, rate);
-                let inserted = distances.into_iter().map(|d| right - d);
-                nodes.splice(end..end, inserted);
+                insert(
+                    end,
+                    &mut distances(h1, rate).into_iter().map(|d| nodes[end] - d),
+                );
             }
             if let Some(rate) = fastest_growth(first, *n, h0, -1.0) {
-                found = true;
-                let left = nodes[0];
-                let distances = distances(h0, rate);
-                let inserted = distances.into_iter().rev().map(|d| left + d);
-                nodes.splice(1..1, inserted);
+                let ascending = distances(h0, rate).into_iter().rev();
+                insert(1, &mut ascending.map(|d| nodes[0] + d));
             }
         }
-        found.then_some(mesh)
+        found
     }
 }
 
@@ -65,11 +64,17 @@ fn fastest_growth(jacobian: &[f64], n: usize, h: f64, direction: f64) -> Option<
         return None;
     }
     let matrix = MatRef::from_row_major_slice_with_stride(jacobian, n, n, columns);
-    let eigenvalues = matrix.to_owned().eigenvalues().ok()?;
-    let rate = eigenvalues
-        .iter()
-        .map(|z| direction * z.re)
-        .fold(0.0, f64::max);
+    let rate = if n == 2 {
+        // They are the mean of the diagonal ± √(…), complex where that is of a negative number.
+        let [mean, distance] =
+            [1.0, -1.0].map(|sign| 0.5 * (matrix[(0, 0)] + sign * matrix[(1, 1)]));
+        let square = distance * distance + matrix[(0, 1)] * matrix[(1, 0)];
+        direction * mean + square.max(0.0).sqrt()
+    } else {
+        let eigenvalues = matrix.to_owned().eigenvalues().ok()?;
+        let rates = eigenvalues.iter().map(|z| direction * z.re);
+        rates.fold(0.0, f64::max)
+    };
     (rate * h > HIDDEN).then_some(rate)
 }
 

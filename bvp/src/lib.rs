@@ -212,6 +212,7 @@ mod stats;
 mod stepping;
 mod straight;
 mod tableau;
+mod transfer;
 mod unknown;
 
 pub use check::{Differenced, JacobianCheck, Place, check_jacobians};

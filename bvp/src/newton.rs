@@ -9,7 +9,7 @@
 
 use crate::almost_block_diagonal::Singular;
 use crate::collocation::{Collocation, LinearisationError};
-use crate::defect::Defects;
+use crate::defect::Samples;
 use crate::dense::max_or_nan;
 use crate::dependence::Dependence;
 use crate::global_error::GlobalErrors;
@@ -33,6 +33,9 @@ const LARGEST_ROUNDING: f64 = 1e-8;
 /// A step whose own correction is expected to be so many times less than is asked for need not be
 /// checked.
 const PREDICTION_SAFETY: f64 = 10.0;
+
+/// A simplified correction so many times less than is asked for is not even taken.
+const NEGLIGIBLE: f64 = 0.1;
 
 /// Why the iteration stopped short.
 #[derive(Clone, Debug, PartialEq)]
@@ -123,6 +126,15 @@ impl Newton {
         }
     }
 
+    /// Follows the collocation to another mesh.
+    pub(crate) fn fit(&mut self, collocation: &Collocation<'_>) {
+        let Self { residual, .. } = self;
+        for x in [&mut self.delta, &mut self.simplified, &mut self.trial] {
+            collocation.fit(x);
+        }
+        collocation.fit_residual(residual);
+    }
+
     /// Improves `x` until a correction is at most `tolerance` relative to 1 + |x|. On failure `x`
     /// is the last accepted iterate.
     pub(crate) fn iterate(
@@ -167,6 +179,9 @@ impl Newton {
             if fresh && damping == 1.0 {
                 self.curvature = 2.0 * shrunk.mean / (size.mean * size.mean);
             }
+            if damping == 1.0 && shrunk.largest <= NEGLIGIBLE * tolerance {
+                return Ok(());
+            }
             if damping == 1.0
                 && (shrunk.largest <= tolerance || shrunk.mean <= KEEP_JACOBIAN_BELOW * size.mean)
             {
@@ -203,9 +218,10 @@ impl Newton {
         &mut self,
         collocation: &mut Collocation<'_>,
         x: &Iterate,
-        defects: &Defects,
+        samples: &Samples,
+        local: &[Vec<f64>],
     ) -> Option<GlobalErrors> {
-        collocation.global_errors(x, defects, &mut self.residual, &mut self.delta)
+        collocation.global_errors(x, samples, local, &mut self.residual, &mut self.delta)
     }
 
     /// The failure of corrections of this size at `x`.

@@ -53,7 +53,8 @@ impl Solution {
     pub fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
         let (i, h, theta) = self.locate(segment, s);
         let mut weights = [0.0; MAX_STAGES];
-        self.tableau.value_weights(theta, &mut weights);
+        self.tableau
+            .value_weights(theta, &mut weights[..self.tableau.stages]);
         y.copy_from_slice(self.node(segment, i));
         self.add_stages(segment, i, &weights, h, y);
     }
@@ -65,7 +66,8 @@ impl Solution {
     pub fn derivative(&self, segment: usize, s: f64, slope: &mut [f64]) {
         let (i, _, theta) = self.locate(segment, s);
         let mut weights = [0.0; MAX_STAGES];
-        self.tableau.slope_weights(theta, &mut weights);
+        self.tableau
+            .slope_weights(theta, &mut weights[..self.tableau.stages]);
         slope.fill(0.0);
         self.add_stages(segment, i, &weights, 1.0, slope);
     }

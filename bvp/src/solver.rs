@@ -1,7 +1,7 @@
 //! The driver: Newton on a mesh, the error of the solution, a better mesh, until everything holds.
 
 use crate::collocation::Collocation;
-use crate::defect::defects;
+use crate::defect::{Samples, defects};
 use crate::error_control::{UNRESOLVED, next_mesh};
 use crate::failure::{check_mesh, ill_conditioned, numerical, unresolved};
 use crate::held::Held;
@@ -13,13 +13,16 @@ use crate::rounding::hides;
 use crate::solution::Quality;
 use crate::statement::{check_guess, check_statement, first_mesh};
 use crate::tableau::Tableau;
+use crate::transfer::transfer;
 use crate::{Equations, Error, GlobalError, Guess, Options, Solution, Stats};
 use std::sync::Arc;
 use std::time::Instant;
 
 /// Newton's method stops when its corrections are this fraction of the tolerance. What is left of them
-/// is in the defect, and so in the estimate of the error.
+/// is in the defect, and so in the estimate of the error, ...
 const NEWTON_FRACTION: f64 = 0.1;
+/// ... but without an estimate it is to be invisible beside the discretisation error.
+const INVISIBLE_FRACTION: f64 = 0.01;
 /// Where a mesh does not resolve the solution, the next one aims at this fraction of the largest
 /// defect that does: where nothing is resolved a defect is about one however fine the mesh is.
 const RESOLVED: f64 = 0.3;
@@ -63,6 +66,7 @@ pub fn solve(
         stats: Stats::default(),
         newton: Newton::new(&collocation),
         collocation,
+        samples: vec![],
         missed: 0,
         probed: false,
     };
@@ -92,6 +96,8 @@ struct Run<'a> {
     /// The problem discretised on the last mesh.
     collocation: Collocation<'a>,
     newton: Newton,
+    /// The defects of the last solution.
+    samples: Samples,
     /// How many solutions were resolved, but not within the tolerance.
     missed: i32,
     /// Whether layers have been looked for that the mesh might not show.
@@ -134,9 +140,9 @@ impl Run<'_> {
                 return Err(unresolved(self.options, &solution));
             }
             let start = Start::Solution(&solution);
-            solution = match self.on(mesh.clone(), start) {
-                Err(error) if error.is_of_newton() && self.may_halve(&mesh) => {
-                    self.on(halved(&mesh), start)?
+            solution = match self.on(mesh, start) {
+                Err(error) if error.is_of_newton() && self.may_halve(&self.collocation.mesh) => {
+                    self.on(halved(&self.collocation.mesh), start)?
                 }
                 outcome => outcome?,
             };
@@ -157,7 +163,7 @@ impl Run<'_> {
                 x
             }
             Start::Solution(solution) => {
-                Iterate::transfer(&collocation.mesh, &collocation.tableau, solution)
+                transfer(&collocation.mesh, &collocation.tableau, solution)
             }
         };
         let mut outcome = self.iterate(&mut x);
@@ -177,11 +183,8 @@ impl Run<'_> {
 
     /// Discretises the problem on a mesh.
     fn lay(&mut self, mesh: Mesh) {
-        let tableau = Arc::clone(&self.collocation.tableau);
-        self.collocation = Collocation::new(Held::none(self.equations), tableau, mesh);
-        let curvature = self.newton.curvature;
-        self.newton = Newton::new(&self.collocation);
-        self.newton.curvature = curvature;
+        self.collocation.lay(mesh);
+        self.newton.fit(&self.collocation);
     }
 
     /// Estimates the error of a solution where that is to be, and makes a better mesh: none if the
@@ -208,12 +211,13 @@ impl Run<'_> {
         if !estimating {
             return Ok(None);
         }
-        let Quality {
-            defects, errors, ..
-        } = &mut solution.quality;
-        *errors = self
-            .newton
-            .global_errors(&mut self.collocation, &solution.x, defects);
+        let (samples, local) = (&self.samples, &solution.quality.defects.local);
+        let Self {
+            newton,
+            collocation,
+            ..
+        } = self;
+        solution.quality.errors = newton.global_errors(collocation, &solution.x, samples, local);
         let error = solution.error_estimate().unwrap_or(f64::INFINITY);
         self.refuse_rounding(solution)?;
         if error <= tolerance {
@@ -258,7 +262,7 @@ impl Run<'_> {
     /// there.
     fn is_kept(&mut self, solution: &Solution, mesh: &Mesh) -> bool {
         self.lay(mesh.clone());
-        let x = Iterate::transfer(mesh, &self.collocation.tableau, solution);
+        let x = transfer(mesh, &self.collocation.tableau, solution);
         let (mut residual, mut correction) =
             (self.collocation.residual_buffer(), self.collocation.zeros());
         let linearised = self
@@ -294,7 +298,11 @@ impl Run<'_> {
 
     /// How small corrections are to be, no less than what rounding permits.
     fn wanted(&self) -> f64 {
-        (NEWTON_FRACTION * self.options.tolerance).max(100.0 * f64::EPSILON)
+        let fraction = match self.estimates() {
+            true => NEWTON_FRACTION,
+            false => INVISIBLE_FRACTION,
+        };
+        (fraction * self.options.tolerance).max(100.0 * f64::EPSILON)
     }
 
     /// The error for a failure of Newton's method.
@@ -327,7 +335,8 @@ impl Run<'_> {
         }
         let assessed = outcome.and_then(|(conditions, violated)| {
             let Collocation { tableau, mesh, .. } = &self.collocation;
-            let defects = defects(self.equations, tableau, mesh, &x, &mut self.stats)?;
+            let (samples, stats) = (&mut self.samples, &mut self.stats);
+            let defects = defects(self.equations, tableau, mesh, &x, samples, stats)?;
             let quality = Quality {
                 defects,
                 conditions,

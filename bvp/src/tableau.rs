@@ -52,6 +52,9 @@ pub(crate) struct Tableau {
     pub(crate) half_value: Vec<f64>,
     /// The polynomials behind the continuous solution.
     basis: Basis,
+    /// The coefficients of uᵏ, u = 2θ − 1, in the Lagrange polynomials on the collocation points, m × m, a row
+    /// per power.
+    pub(crate) powers_of_slope: Vec<f64>,
     /// m + 1 distinct points, the first 0, at which a guess is interpolated.
     pub(crate) guess_points: Vec<f64>,
     /// Slopes at the collocation points of the polynomial through values at the guess points,
@@ -112,6 +115,7 @@ impl Tableau {
             defect_to_defect: defect_integrals(&c, &defect_rule, &defect_rule.points),
             half_slopes: basis.table(&halves, Basis::slopes),
             half_value: values(&[0.5]),
+            powers_of_slope: basis.powers(),
             guess_slope: c
                 .iter()
                 .flat_map(|&x| lagrange_slopes(&guess_points, x))
@@ -123,14 +127,16 @@ impl Tableau {
         }
     }
 
-    /// The weights βₗ(θ) of the continuous solution into `weights`, for 0 ≤ θ ≤ 1.
-    pub(crate) fn value_weights(&self, theta: f64, weights: &mut [f64; MAX_STAGES]) {
-        self.basis.values(theta, &mut weights[..self.stages]);
+    /// The weights βₗ(θ) of the continuous solution into `weights` (m numbers), for 0 ≤ θ ≤ 1.
+    #[inline]
+    pub(crate) fn value_weights(&self, theta: f64, weights: &mut [f64]) {
+        self.basis.values(theta, weights);
     }
 
     /// The weights βₗ'(θ) of its derivative into `weights`.
-    pub(crate) fn slope_weights(&self, theta: f64, weights: &mut [f64; MAX_STAGES]) {
-        self.basis.slopes(theta, &mut weights[..self.stages]);
+    #[inline]
+    pub(crate) fn slope_weights(&self, theta: f64, weights: &mut [f64]) {
+        self.basis.slopes(theta, weights);
     }
 }
 
@@ -188,6 +194,7 @@ impl Basis {
     }
 
     /// ℓₗ(x) for all l.
+    #[inline(always)]
     fn slopes(&self, x: f64, out: &mut [f64]) {
         // Products of the factors to the left of l, then times those to its right.
         let mut product = 1.0;
@@ -203,6 +210,7 @@ impl Basis {
     }
 
     /// ∫₀^x ℓₗ for all l.
+    #[inline(always)]
     fn values(&self, x: f64, out: &mut [f64]) {
         let mut at_point = [0.0; MAX_STAGES];
         let at_point = &mut at_point[..out.len()];
@@ -211,6 +219,27 @@ impl Basis {
             self.slopes(t * x, at_point);
             add_scaled(out, weight * x, at_point);
         }
+    }
+
+    /// The coefficients of uᵏ, u = 2x − 1, in all ℓₗ, a row per power.
+    fn powers(&self) -> Vec<f64> {
+        let m = self.points.len();
+        let mut powers = vec![0.0; m * m];
+        for l in 0..m {
+            // Factors x − cⱼ = u/2 + ½ − cⱼ, one after the other.
+            let mut product = vec![self.scale[l]];
+            for c in (0..m).filter(|&j| j != l).map(|j| self.points[j]) {
+                let shifted = [&[0.0], &product[..]].concat();
+                product.push(0.0);
+                for (coefficient, before) in product.iter_mut().zip(shifted) {
+                    *coefficient = (0.5 - c) * *coefficient + 0.5 * before;
+                }
+            }
+            for (row, coefficient) in powers.chunks_exact_mut(m).zip(product) {
+                row[l] = coefficient;
+            }
+        }
+        powers
     }
 
     /// One row of `function` per point, row-major.

@@ -49,8 +49,9 @@ impl Linear {
 
     /// By the structured elimination: all node states and then the parameters.
     fn structured(&self) -> Result<Vec<f64>, Singular> {
-        let mut matrix =
-            AlmostBlockDiagonal::new(self.sizes.iter().copied(), self.k, self.values.len());
+        let (states, conditions) = (self.sizes.iter().map(|size| size.0), self.values.len());
+        let mut matrix = AlmostBlockDiagonal::new(states, self.k, conditions);
+        matrix.fit(self.sizes.iter().map(|size| size.1));
         for (segment, links) in self.links.iter().enumerate() {
             let all = matrix.chain_mut(segment).links_mut();
             all.copy_from_slice(&links.concat());

@@ -53,7 +53,14 @@ impl Family<'_> {
         } = &self.collocation;
         let (tolerance, m) = (self.options.tolerance, tableau.stages);
         let wanted = MARGIN * tolerance;
-        let defects = match defects(equations, tableau, mesh, &self.x, &mut self.stats) {
+        let defects = match defects(
+            equations,
+            tableau,
+            mesh,
+            &self.x,
+            &mut vec![],
+            &mut self.stats,
+        ) {
             Ok(defects) => defects,
             Err(what) => {
                 let best = self.wrap(self.x.clone(), Quality::unknown(mesh));

@@ -28,9 +28,9 @@ pub(crate) fn true_error(problem: &Exact, solution: &Solution) -> f64 {
     largest
 }
 
-/// What the estimate is of the true error. Measured: 0.65 to 4.63 of it, in the median 2.19; it is meant to
-/// be too large by a factor of two.
-const NEAR: std::ops::Range<f64> = 0.6..5.0;
+/// What the estimate is of the true error. Measured: 0.77 to 5.93 of it, in the median 1.50; it is meant to
+/// be too large by a factor of 1.5.
+const NEAR: std::ops::Range<f64> = 0.7..6.0;
 
 #[test]
 fn the_true_error_is_within_the_tolerance_and_near_the_estimate() {

@@ -33,7 +33,7 @@ fn on_uniform_mesh(
         ..Options::default()
     };
     let mut found = bvp::solve(problem, guess, &options).ok()?;
-    for _ in 0..4 {
+    for _ in 0..2 {
         found = bvp::solve(problem, &found, &options).ok()?;
     }
     (found.stats().meshes == 1).then_some(found)
