@@ -13,7 +13,7 @@ const LARGEST_CUT: f64 = 8.0;
 /// Nor to grow more than by the inverse of this.
 const SMALLEST_CUT: f64 = 0.2;
 /// Neighbouring intervals may differ in length by about this factor.
-const GRADING: f64 = 5.0;
+const GRADING: f64 = 3.0;
 /// Where at most this share of the intervals is too long, only they are cut.
 const FEW: f64 = 0.12;
 
@@ -153,8 +153,8 @@ mod tests {
 
     #[test]
     fn neighbouring_intervals_are_graded() {
-        let mut density = [1.0, 1.0, 100.0, 1.0];
+        let mut density = [1.0, 1.0, 90.0, 1.0];
         grade(&mut density);
-        assert_eq!(density, [4.0, 20.0, 100.0, 20.0]);
+        assert_eq!(density, [10.0, 30.0, 90.0, 30.0]);
     }
 }

@@ -20,7 +20,7 @@ use std::time::Instant;
 
 /// Newton's method stops when its corrections are this fraction of the tolerance. What is left of them
 /// is in the defect, and so in the estimate of the error, ...
-const NEWTON_FRACTION: f64 = 0.1;
+const NEWTON_FRACTION: f64 = 0.03;
 /// ... but without an estimate it is to be invisible beside the discretisation error.
 const INVISIBLE_FRACTION: f64 = 0.01;
 /// Where a mesh does not resolve the solution, the next one aims at this fraction of the largest
@@ -133,15 +133,20 @@ impl Run<'_> {
 
     /// Solves on one mesh after the other, each chosen from the solution on the last.
     fn adapt(&mut self, first: Mesh, start: Start<'_>) -> Result<Solution, Error> {
+        self.missed = 0;
         let mut solution = self.on(first, start)?;
         while let Some(mesh) = self.judge(&mut solution)? {
             check_mesh(&mesh, self.options, &solution)?;
-            if solution.stats.meshes >= MAX_MESHES {
+            if self.stats.meshes >= MAX_MESHES {
                 return Err(unresolved(self.options, &solution));
             }
             let start = Start::Solution(&solution);
             solution = match self.on(mesh, start) {
-                Err(error) if error.is_of_newton() && self.may_halve(&self.collocation.mesh) => {
+                // Where an iterate is far off, its rounding means little.
+                Err(error)
+                    if (error.is_of_newton() || matches!(error, Error::IllConditioned { .. }))
+                        && self.may_halve(&self.collocation.mesh) =>
+                {
                     self.on(halved(&self.collocation.mesh), start)?
                 }
                 outcome => outcome?,
@@ -234,21 +239,15 @@ impl Run<'_> {
         let order = self.collocation.tableau.scheme.dense_order();
         let defects = &solution.quality.defects;
         let wanted = AIM.powi(self.missed) * tolerance * defects.largest_local() / error;
-        Ok(Some(next_mesh(
-            &solution.mesh,
-            &defects.local,
-            wanted,
-            order,
-        )))
+        let local = &defects.local;
+        Ok(Some(next_mesh(&solution.mesh, local, wanted, order)))
     }
 
     /// Refuses a solution that may be nothing but rounding.
     fn refuse_rounding(&mut self, solution: &Solution) -> Result<(), Error> {
         if self.collocation.is_suspect() {
-            let (rounding, tolerance) = (
-                self.collocation.rounding(&solution.x),
-                self.options.tolerance,
-            );
+            let rounding = self.collocation.rounding(&solution.x);
+            let tolerance = self.options.tolerance;
             if hides(rounding, tolerance) {
                 let mut best = solution.clone();
                 best.stats = self.cost();

@@ -41,9 +41,8 @@ pub(crate) struct Tableau {
     pub(crate) defect_value: Vec<f64>,
     /// βₗ' at the defect points, (m + 1) × m.
     pub(crate) defect_slope: Vec<f64>,
-    /// Integrals from 0 of a defect, which vanishes at the collocation points, from its values at the
-    /// defect points: to the collocation points, m × (m + 1), and to the defect points,
-    /// (m + 1) × (m + 1).
+    /// Integrals from 0 of the polynomial through values at the defect points: to the collocation points,
+    /// m × (m + 1), and to the defect points, (m + 1) × (m + 1).
     pub(crate) defect_to_stage: Vec<f64>,
     pub(crate) defect_to_defect: Vec<f64>,
     /// βₗ' at the collocation points of the left and of the right half of an interval, 2m × m.
@@ -84,6 +83,7 @@ impl Tableau {
         };
         let basis = Basis::new(c.clone());
         let defect_rule = gauss(stages + 1);
+        let of_defect = Basis::new(defect_rule.points.clone());
         let values = |points: &[f64]| basis.table(points, Basis::values);
         let halves = [0.0, 0.5].map(|left| c.iter().map(move |c| left + 0.5 * c));
         let halves: Vec<f64> = halves.into_iter().flatten().collect();
@@ -111,8 +111,8 @@ impl Tableau {
             weights,
             defect_value: values(&defect_rule.points),
             defect_slope: basis.table(&defect_rule.points, Basis::slopes),
-            defect_to_stage: defect_integrals(&c, &defect_rule, &c),
-            defect_to_defect: defect_integrals(&c, &defect_rule, &defect_rule.points),
+            defect_to_stage: of_defect.table(&c, Basis::values),
+            defect_to_defect: of_defect.table(&defect_rule.points, Basis::values),
             half_slopes: basis.table(&halves, Basis::slopes),
             half_value: values(&[0.5]),
             powers_of_slope: basis.powers(),
@@ -145,26 +145,6 @@ fn product(a: &[f64], b: &[f64], n: usize) -> Vec<f64> {
     let mut c = vec![0.0; a.len()];
     add_product(&mut c, a, b, n, n);
     c
-}
-
-/// The integrals from 0 to some points of the polynomials of degree 2m that vanish at the m collocation
-/// points c and at all points of a rule but one, where they are one; a row per point.
-fn defect_integrals(c: &[f64], rule: &Quadrature, to: &[f64]) -> Vec<f64> {
-    let basis = Basis::new(rule.points.clone());
-    let vanishing = |x: f64| c.iter().map(|c| x - c).product::<f64>();
-    let mut integrals = vec![0.0; to.len() * rule.points.len()];
-    let rows = integrals.chunks_exact_mut(rule.points.len());
-    let mut at_point = vec![0.0; rule.points.len()];
-    for (row, end) in rows.zip(to) {
-        for (t, weight) in rule.points.iter().zip(&rule.weights) {
-            basis.slopes(t * end, &mut at_point);
-            add_scaled(row, weight * end * vanishing(t * end), &at_point);
-        }
-        for (integral, &x) in row.iter_mut().zip(&rule.points) {
-            *integral /= vanishing(x);
-        }
-    }
-    integrals
 }
 
 /// Lagrange polynomials ℓₗ on the collocation points and their integrals βₗ(θ) = ∫₀^θ ℓₗ.
@@ -212,7 +192,7 @@ impl Basis {
     /// ∫₀^x ℓₗ for all l.
     #[inline(always)]
     fn values(&self, x: f64, out: &mut [f64]) {
-        let mut at_point = [0.0; MAX_STAGES];
+        let mut at_point = [0.0; MAX_STAGES + 1];
         let at_point = &mut at_point[..out.len()];
         out.fill(0.0);
         for (t, weight) in self.rule.points.iter().zip(&self.rule.weights) {

@@ -166,7 +166,14 @@ impl Path<'_> {
                 return self.arrive(next, target);
             }
             if next.tight_tension() < here.tight_tension() {
-                let first = before.unwrap_or_else(|| here.clone());
+                let shorter = here.driver_length() * (-step).exp();
+                let first = match before {
+                    Some(before) => before,
+                    // The very first step has passed the maximum.
+                    None => self
+                        .at_length(&here, shorter, Effort::Careful)
+                        .map_err(|cause| Stuck::after(here.clone(), cause))?,
+                };
                 return self.maximum([first, here, next]);
             }
             step *= 1.3;

@@ -50,7 +50,7 @@
 //! # let problem = Layer;
 //! # let guess = Constant { states: vec![vec![0.0; 2]], parameters: vec![] };
 //! // ε y″ + s y′ = 0 on −1 ≤ s ≤ 1 with a layer at s = 0, ε = 1e-4
-//! let few = Options { max_intervals: 20, ..Options::default() };
+//! let few = Options { max_intervals: 50, ..Options::to(1e-11) };
 //! let error = solve(&problem, &guess, &few).unwrap_err();
 //! println!("{error}");
 //! assert!(matches!(error, Error::MeshLimit { .. }));

@@ -52,8 +52,9 @@ fn a_mesh_far_too_fine_is_coarsened_with_all_vectors_and_once() {
         nodes: vec![nodes],
         parameters: vec![1.0],
     };
-    let (mut family, z) = Family::new(&bratu, 0, &[], &guess, &Options::default()).unwrap();
+    let (mut family, mut z) = Family::new(&bratu, 0, &[], &guess, &Options::default()).unwrap();
     let fine = family.unknowns();
+    correct(&mut family, &mut z, fine - 1);
     let mut t = vec![0.0; fine];
     family.linearise(&z).unwrap();
     family.null_vector(&mut t);
