@@ -13,14 +13,22 @@ const LARGEST_CUT: f64 = 8.0;
 /// Nor to grow more than by the inverse of this.
 const SMALLEST_CUT: f64 = 0.2;
 /// Neighbouring intervals may differ in length by about this factor.
-const GRADING: f64 = 3.0;
+pub(crate) const GRADING: f64 = 2.5;
+/// The same where the mesh is made for the error.
+pub(crate) const GRADING_BY_ERROR: f64 = 3.0;
 /// Where at most this share of the intervals is too long, only they are cut.
 const FEW: f64 = 0.12;
 
 /// The next mesh, from the relative defects r on this one and the tolerance they must meet, given
-/// that r ∝ hᵐ. Each interval wants to be cut into ν = (r / aim)^(1/m) parts; the new nodes
+/// that r ∝ hᵐ, and how much neighbours may differ. Each interval wants to be cut into ν = (r / aim)^(1/m) parts; the new nodes
 /// equidistribute the density ν/h, per segment.
-pub(crate) fn next_mesh(mesh: &Mesh, defects: &[Vec<f64>], tolerance: f64, m: usize) -> Mesh {
+pub(crate) fn next_mesh(
+    mesh: &Mesh,
+    defects: &[Vec<f64>],
+    tolerance: f64,
+    m: usize,
+    grading: f64,
+) -> Mesh {
     let next = |(nodes, defects): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
         let cuts: Vec<f64> = defects.iter().map(|&r| wanted(r, tolerance, m)).collect();
         let too_long = defects.iter().filter(|&&r| r > tolerance).count();
@@ -39,7 +47,7 @@ pub(crate) fn next_mesh(mesh: &Mesh, defects: &[Vec<f64>], tolerance: f64, m: us
             .zip(nodes.windows(2))
             .map(|(cut, pair)| cut / (pair[1] - pair[0]))
             .collect();
-        grade(&mut density);
+        grade(&mut density, grading);
         let total: f64 = density
             .iter()
             .zip(nodes.windows(2))
@@ -67,13 +75,13 @@ fn wanted(r: f64, tolerance: f64, m: usize) -> f64 {
     cut.clamp(least, LARGEST_CUT)
 }
 
-/// Raises densities until neighbours differ by at most [`GRADING`].
-fn grade(density: &mut [f64]) {
+/// Raises densities until neighbours differ by at most a factor.
+fn grade(density: &mut [f64], grading: f64) {
     for i in 1..density.len() {
-        density[i] = density[i].max(density[i - 1] / GRADING);
+        density[i] = density[i].max(density[i - 1] / grading);
     }
     for i in (1..density.len()).rev() {
-        density[i - 1] = density[i - 1].max(density[i] / GRADING);
+        density[i - 1] = density[i - 1].max(density[i] / grading);
     }
 }
 
@@ -105,7 +113,13 @@ mod tests {
             let mut meshes = 1;
             while model(&mesh[0], m).iter().any(|&r| r > tolerance) {
                 let defects = vec![model(&mesh[0], m)];
-                mesh = next_mesh(&mesh, &defects, tolerance, usize::try_from(m).unwrap());
+                mesh = next_mesh(
+                    &mesh,
+                    &defects,
+                    tolerance,
+                    usize::try_from(m).unwrap(),
+                    GRADING,
+                );
                 meshes += 1;
                 assert!(meshes < 12, "m = {m}");
                 assert!(mesh[0].windows(2).all(|pair| pair[0] < pair[1]));
@@ -125,7 +139,7 @@ mod tests {
         let nodes = uniform(20);
         let mut defects = vec![0.5e-6; 20];
         defects[7] = 1e-5;
-        let finer = next_mesh(&vec![nodes.clone()], &[defects], 1e-6, 4);
+        let finer = next_mesh(&vec![nodes.clone()], &[defects], 1e-6, 4, GRADING);
         assert!(nodes.iter().all(|s| finer[0].contains(s)));
         assert!(finer[0].len() > nodes.len());
         assert!(
@@ -139,7 +153,7 @@ mod tests {
     fn a_segment_far_too_fine_is_coarsened_while_another_is_refined() {
         let mesh = vec![uniform(40), uniform(10)];
         let defects = vec![vec![1e-14; 40], vec![1e-3; 10]];
-        let next = next_mesh(&mesh, &defects, 1e-6, 4);
+        let next = next_mesh(&mesh, &defects, 1e-6, 4, GRADING);
         assert!(next[0].len() < 20 && next[1].len() > 20);
     }
 
@@ -153,8 +167,8 @@ mod tests {
 
     #[test]
     fn neighbouring_intervals_are_graded() {
-        let mut density = [1.0, 1.0, 90.0, 1.0];
-        grade(&mut density);
-        assert_eq!(density, [10.0, 30.0, 90.0, 30.0]);
+        let mut density = [1.0, 1.0, 100.0, 1.0];
+        grade(&mut density, 2.5);
+        assert_eq!(density, [16.0, 40.0, 100.0, 40.0]);
     }
 }

@@ -34,8 +34,8 @@ const LARGEST_ROUNDING: f64 = 1e-8;
 /// checked.
 const PREDICTION_SAFETY: f64 = 10.0;
 
-/// A simplified correction so many times less than is asked for is not even taken.
-const NEGLIGIBLE: f64 = 0.1;
+/// A simplified correction that is this fraction of what is asked for is not even taken.
+const NEGLIGIBLE: f64 = 1e-3;
 
 /// Why the iteration stopped short.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,7 +2,7 @@
 
 use crate::collocation::Collocation;
 use crate::defect::{Samples, defects};
-use crate::error_control::{UNRESOLVED, next_mesh};
+use crate::error_control::{GRADING, GRADING_BY_ERROR, UNRESOLVED, next_mesh};
 use crate::failure::{check_mesh, ill_conditioned, numerical, unresolved};
 use crate::held::Held;
 use crate::homotopy::rough_solution;
@@ -197,9 +197,9 @@ impl Run<'_> {
     fn judge(&mut self, solution: &mut Solution) -> Result<Option<Mesh>, Error> {
         let tolerance = self.options.tolerance;
         let (defect, estimating) = (solution.defect(), self.estimates());
-        let (allowed, wanted) = match self.options.global_error {
-            GlobalError::Estimated => (UNRESOLVED, RESOLVED * UNRESOLVED),
-            GlobalError::BesideDefect | GlobalError::Skip => (tolerance, tolerance),
+        let (allowed, wanted, grading) = match self.options.global_error {
+            GlobalError::Estimated => (UNRESOLVED, RESOLVED * UNRESOLVED, GRADING_BY_ERROR),
+            GlobalError::BesideDefect | GlobalError::Skip => (tolerance, tolerance, GRADING),
         };
         if defect > allowed {
             if estimating
@@ -211,7 +211,7 @@ impl Run<'_> {
                 return Ok(Some(mesh));
             }
             let (defects, m) = (&solution.quality.defects.relative, self.stages());
-            return Ok(Some(next_mesh(&solution.mesh, defects, wanted, m)));
+            return Ok(Some(next_mesh(&solution.mesh, defects, wanted, m, grading)));
         }
         if !estimating {
             return Ok(None);
@@ -240,7 +240,9 @@ impl Run<'_> {
         let defects = &solution.quality.defects;
         let wanted = AIM.powi(self.missed) * tolerance * defects.largest_local() / error;
         let local = &defects.local;
-        Ok(Some(next_mesh(&solution.mesh, local, wanted, order)))
+        let local = &defects.local;
+        let next = next_mesh(&solution.mesh, local, wanted, order, grading);
+        Ok(Some(next))
     }
 
     /// Refuses a solution that may be nothing but rounding.

@@ -4,7 +4,7 @@ use super::Family;
 use crate::collocation::Collocation;
 use crate::defect::defects;
 use crate::dense::max_or_nan;
-use crate::error_control::{is_wasteful, next_mesh};
+use crate::error_control::{GRADING, is_wasteful, next_mesh};
 use crate::failure::{check_mesh, numerical};
 use crate::mesh::{Mesh, halved, intervals, is_representable};
 use crate::newton::Failure;
@@ -77,7 +77,7 @@ impl Family<'_> {
         if resolved && (self.settled < SETTLED || !is_wasteful(&defects.relative, wanted, m)) {
             return Ok(false);
         }
-        let next = next_mesh(mesh, &defects.relative, wanted, m);
+        let next = next_mesh(mesh, &defects.relative, wanted, m, GRADING);
         if resolved {
             // Gradation may have eaten what is to be gained; and the first mesh was fine enough for
             // its author.
