@@ -240,7 +240,6 @@ impl Run<'_> {
         let defects = &solution.quality.defects;
         let wanted = AIM.powi(self.missed) * tolerance * defects.largest_local() / error;
         let local = &defects.local;
-        let local = &defects.local;
         let next = next_mesh(&solution.mesh, local, wanted, order, grading);
         Ok(Some(next))
     }
