@@ -80,7 +80,7 @@
 //!
 //! How true the estimates are on problems with known solutions is tabulated in `tests/RESULTS.md`. Over
 //! 12 000 random problems with manufactured solutions the error of some state exceeds ten times its
-//! estimate in 16 cases, and no error exceeds ten tolerances.
+//! estimate in 18 cases, and no error exceeds ten tolerances.
 //!
 //! # The order
 //!
