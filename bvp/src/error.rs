@@ -346,6 +346,25 @@ fn undetermined(conditions: &[usize], free: Option<&Unknown>) -> String {
     }
 }
 
+/// The best iterate of the failures that have one, borrowed as the error is.
+macro_rules! best_of {
+    ($error:expr) => {
+        match $error {
+            Error::NonFiniteRhs { best, .. }
+            | Error::NonFiniteCondition { best, .. }
+            | Error::SingularNode { best, .. }
+            | Error::SingularConditions { best, .. }
+            | Error::NoConvergence { best, .. }
+            | Error::MeshLimit { best, .. }
+            | Error::Unresolved { best, .. }
+            | Error::ConditionViolated { best, .. }
+            | Error::IllConditioned { best, .. }
+            | Error::Unreached { best, .. } => Some(best),
+            _ => None,
+        }
+    };
+}
+
 impl Error {
     /// Whether it is a failure of Newton's method.
     pub(crate) fn is_of_newton(&self) -> bool {
@@ -361,35 +380,11 @@ impl Error {
 
     /// The best iterate of a numerical failure; `None` for a statement error.
     pub fn best(&self) -> Option<&Solution> {
-        match self {
-            Self::NonFiniteRhs { best, .. }
-            | Self::NonFiniteCondition { best, .. }
-            | Self::SingularNode { best, .. }
-            | Self::SingularConditions { best, .. }
-            | Self::NoConvergence { best, .. }
-            | Self::MeshLimit { best, .. }
-            | Self::Unresolved { best, .. }
-            | Self::ConditionViolated { best, .. }
-            | Self::IllConditioned { best, .. }
-            | Self::Unreached { best, .. } => Some(best),
-            _ => None,
-        }
+        best_of!(self)
     }
 
     /// The same, to be changed.
     pub(crate) fn best_mut(&mut self) -> Option<&mut Solution> {
-        match self {
-            Self::NonFiniteRhs { best, .. }
-            | Self::NonFiniteCondition { best, .. }
-            | Self::SingularNode { best, .. }
-            | Self::SingularConditions { best, .. }
-            | Self::NoConvergence { best, .. }
-            | Self::MeshLimit { best, .. }
-            | Self::Unresolved { best, .. }
-            | Self::ConditionViolated { best, .. }
-            | Self::IllConditioned { best, .. }
-            | Self::Unreached { best, .. } => Some(best),
-            _ => None,
-        }
+        best_of!(self)
     }
 }

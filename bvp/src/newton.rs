@@ -212,6 +212,17 @@ impl Newton {
         Err(self.no_convergence(collocation, x, size))
     }
 
+    /// The largest entry of Newton's correction at `x` relative to 1 + |x|.
+    pub(crate) fn correction(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &Iterate,
+        stats: &mut Stats,
+    ) -> Result<f64, Failure> {
+        self.linearise(collocation, x, stats)?;
+        Ok(norm(x, &[(1.0, &self.delta)]).largest)
+    }
+
     /// The global errors of the solution `x` by the last linearisation; see
     /// [`Collocation::global_errors`].
     pub(crate) fn global_errors(

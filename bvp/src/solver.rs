@@ -8,7 +8,7 @@ use crate::held::Held;
 use crate::homotopy::rough_solution;
 use crate::iterate::{Iterate, NonFinite};
 use crate::mesh::{Mesh, halved, intervals, thinned};
-use crate::newton::{Failure, Newton, norm};
+use crate::newton::{Failure, Newton};
 use crate::rounding::hides;
 use crate::solution::Quality;
 use crate::statement::{check_guess, check_statement, first_mesh};
@@ -262,16 +262,14 @@ impl Run<'_> {
     /// there.
     fn is_kept(&mut self, solution: &Solution, mesh: &Mesh) -> bool {
         self.lay(mesh.clone());
-        let x = transfer(mesh, &self.collocation.tableau, solution);
-        let (mut residual, mut correction) =
-            (self.collocation.residual_buffer(), self.collocation.zeros());
-        let linearised = self
-            .collocation
-            .linearise(&x, &mut residual, &mut self.stats);
-        linearised.is_ok() && {
-            self.collocation.node_correction(&residual, &mut correction);
-            norm(&x, &[(1.0, &correction)]).largest <= KEPT * self.options.tolerance
-        }
+        let Self {
+            newton,
+            collocation,
+            ..
+        } = self;
+        let x = transfer(mesh, &collocation.tableau, solution);
+        let correction = newton.correction(collocation, &x, &mut self.stats);
+        correction.is_ok_and(|size| size <= KEPT * self.options.tolerance)
     }
 
     /// Whether the global error is to be known.
