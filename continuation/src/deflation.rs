@@ -11,11 +11,13 @@
 //! distinct solutions of nonlinear partial differential equations", SIAM J. Sci. Comput. 37 (2015)
 //! A2026-A2045.
 
-use crate::branch::check_length;
-use crate::branch_point::irregular;
-use crate::corrector::{Accuracy, Condition, Corrector};
-use crate::metric::Metric;
-use crate::{Difficulty, Error, Options, System};
+use crate::branch::branch::check_length;
+use crate::curve::corrector::{Accuracy, Condition, Corrector};
+use crate::curve::metric::Metric;
+use crate::error::{Difficulty, Error};
+use crate::options::Options;
+use crate::special_points::branch_point::irregular;
+use crate::system::system::System;
 
 /// The most deflated Newton steps from one place.
 const STEPS: usize = 60;

@@ -1,6 +1,7 @@
 //! What can be wrong, and why a step failed.
 
-use crate::{Cause, Stop};
+use crate::stop::Stop;
+use crate::system::system::Cause;
 
 /// Why there is no branch.
 #[derive(Debug, thiserror::Error)]

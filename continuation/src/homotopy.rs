@@ -1,6 +1,11 @@
 //! A solution at a wanted parameter.
 
-use crate::{Branch, Direction, Error, Kind, Options, Point, Stop, System};
+use crate::branch::branch::{Branch, Direction};
+use crate::error::Error;
+use crate::options::Options;
+use crate::point::{Kind, Point};
+use crate::stop::Stop;
+use crate::system::system::System;
 
 /// Solves G(x, λ) = 0 at λ = `goal` by following the branch from `start` at another λ: a homotopy.
 ///

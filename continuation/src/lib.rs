@@ -197,42 +197,28 @@
 //! * P. E. Farrell, Á. Birkisson & S. W. Funke, "Deflation techniques for finding distinct solutions of
 //!   nonlinear partial differential equations", SIAM J. Sci. Comput. 37 (2015) A2026-A2045.
 
-mod assess;
-mod bending;
 mod branch;
-mod branch_point;
-mod branch_point_curve;
-mod corrector;
+mod curve;
 mod deflation;
-mod dense;
 mod error;
 mod homotopy;
-mod labels;
-mod limit_point;
-mod limit_point_curve;
-mod metric;
-mod null_space;
 mod options;
 mod point;
-mod predictor;
-mod root;
-mod span;
-mod step;
+mod special_points;
 mod stop;
-mod surface;
-mod switching;
 mod system;
+mod two_parameters;
 
-pub use branch::{Branch, Direction};
-pub use branch_point_curve::BranchPointCurve;
+pub use branch::branch::{Branch, Direction};
+pub use branch::switching::Leg;
+pub use curve::root::root;
 pub use deflation::deflate;
-pub use dense::DenseSystem;
 pub use error::{Difficulty, Error};
 pub use homotopy::homotopy;
-pub use limit_point_curve::LimitPointCurve;
 pub use options::{Options, Parameterisation, Predictor};
 pub use point::{DiscretisationError, Kind, Point};
-pub use root::root;
 pub use stop::Stop;
-pub use switching::Leg;
-pub use system::{Cause, System, TwoParameter};
+pub use system::dense::DenseSystem;
+pub use system::system::{Cause, System, TwoParameter};
+pub use two_parameters::branch_point_curve::BranchPointCurve;
+pub use two_parameters::limit_point_curve::LimitPointCurve;

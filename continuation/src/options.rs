@@ -1,6 +1,6 @@
 //! How a branch is traced.
 
-use crate::Error;
+use crate::error::Error;
 
 /// The settings of a trace. State the range of λ and update the defaults with struct syntax:
 ///

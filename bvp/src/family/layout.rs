@@ -1,8 +1,8 @@
 //! The flat vectors of a family.
 
-use crate::Segment;
-use crate::iterate::{Iterate, Residual};
-use crate::mesh::Mesh;
+use crate::discretisation::iterate::{Iterate, Residual};
+use crate::discretisation::mesh::Mesh;
+use crate::problem::problem::Segment;
 
 /// Where the unknowns stand in a flat vector: for every segment the states at its nodes and its
 /// stage slopes, then the free parameters, that of the family last. Residuals follow them: for every

@@ -1,16 +1,17 @@
 //! The mesh of a family: fitted to a solution, or halved.
 
-use super::Family;
-use crate::collocation::Collocation;
-use crate::defect::defects;
-use crate::dense::max_or_nan;
-use crate::error_control::{GRADING, is_wasteful, next_mesh};
-use crate::failure::{check_mesh, numerical};
-use crate::mesh::{Mesh, halved, intervals, is_representable};
-use crate::newton::Failure;
-use crate::restriction::restrict;
-use crate::solution::Quality;
-use crate::{Equations, Error};
+use super::family::Family;
+use crate::accuracy::defect::defects;
+use crate::accuracy::mesh_selection::{GRADING, is_wasteful, next_mesh};
+use crate::discretisation::mesh::{Mesh, halved, intervals, is_representable};
+use crate::discretisation::restriction::restrict;
+use crate::kernels::dense::max_or_nan;
+use crate::newton::collocation::Collocation;
+use crate::newton::newton::Failure;
+use crate::problem::equations::Equations;
+use crate::result::error::Error;
+use crate::result::solution::Quality;
+use crate::solver::failure::{check_mesh, numerical};
 use std::sync::Arc;
 
 /// A mesh is not coarsened before it has served for so many calls of [`Family::adapt`].

@@ -117,7 +117,7 @@
 //! length, locates folds and crossings of curves, switches to the other curve, and finds solutions on
 //! curves that are connected to no known one. Its trait `System` has the methods of
 //! [`Family`](crate::Family) under the same names, so that joining the two takes no more than the type
-//! `Curve` in `tests/curve.rs`; `tests/branches` follows Bratu's curve to far beyond the fold.
+//! `Curve` in `tests/src/curve.rs`; `tests/tests/branches` follows Bratu's curve to far beyond the fold.
 //!
 //! # The fold itself
 //!

@@ -1,0 +1,152 @@
+//! How well a continuous solution satisfies the differential equations.
+
+use crate::discretisation::iterate::{Interval, Iterate, NonFinite};
+use crate::discretisation::mesh::Mesh;
+use crate::discretisation::tableau::Tableau;
+use crate::kernels::dense::max_or_nan;
+use crate::kernels::parallel::{Buffers, for_each_run};
+use crate::kernels::specialise::specialise;
+use crate::problem::equations::Equations;
+use crate::result::stats::Stats;
+use std::ops::Range;
+
+/// The defects of a solution, one number per interval and segment.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Defects {
+    /// Relative to 1 + |f|.
+    pub(crate) relative: Vec<Vec<f64>>,
+    /// Times the length of the interval and relative to 1 + |y|: what an interval adds to the error.
+    pub(crate) local: Vec<Vec<f64>>,
+}
+
+impl Defects {
+    /// Infinite ones, where they are not known.
+    pub(crate) fn unknown(mesh: &Mesh) -> Self {
+        let infinite = |nodes: &Vec<f64>| vec![f64::INFINITY; nodes.len() - 1];
+        let relative: Vec<_> = mesh.iter().map(infinite).collect();
+        Self {
+            local: relative.clone(),
+            relative,
+        }
+    }
+
+    /// The largest that an interval adds to the error.
+    pub(crate) fn largest_local(&self) -> f64 {
+        self.local.iter().flatten().copied().fold(0.0, max_or_nan)
+    }
+}
+
+/// S' − f at the m + 1 defect points of every interval of every segment, n numbers each.
+pub(crate) type Samples = Vec<Vec<f64>>;
+
+/// Relative defect of the continuous solution S, one number per interval and segment:
+///
+/// ```text
+/// rᵢ² = ∫₀¹ maxᶜ [ (S' − f(s, S, p)) / (1 + |f|) ]² dθ
+/// ```
+///
+/// over the interval, by the Gauss rule with m + 1 points. J. Kierzenka & L. F. Shampine, "A BVP
+/// solver based on residual control and the MATLAB PSE", ACM Trans. Math. Softw. 27 (2001)
+/// 299-316. The values behind it are written to `samples`.
+pub(crate) fn defects(
+    equations: &dyn Equations,
+    t: &Tableau,
+    mesh: &Mesh,
+    x: &Iterate,
+    samples: &mut Samples,
+    stats: &mut Stats,
+) -> Result<Defects, NonFinite> {
+    let mut all = Defects::default();
+    samples.resize_with(mesh.len(), Vec::new);
+    let segments = equations.segments().iter().zip(samples).enumerate();
+    for (index, (segment, samples)) in segments {
+        let (n, m) = (segment.states, t.stages);
+        let nodes = &mesh[index];
+        let intervals = nodes.len() - 1;
+        let along = Along {
+            equations,
+            tableau: t,
+            index,
+            nodes,
+            x,
+        };
+        let [mut relative, mut local] = [(); 2].map(|()| vec![0.0; intervals]);
+        samples.resize(intervals * (m + 1) * n, 0.0);
+        for_each_run(
+            0..intervals,
+            (m + 1) * n * (2 * m + n),
+            ((&mut relative[..], &mut local[..]), &mut samples[..]),
+            &mut vec![0.0; 3 * n],
+            &|run, written, buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => along.defects(n, run, written, buffers)),
+        )?;
+        all.relative.push(relative);
+        all.local.push(local);
+        stats.rhs_evaluations += intervals * t.defect_rule.points.len();
+    }
+    Ok(all)
+}
+
+/// A state, a right-hand side and a slope.
+impl Buffers for Vec<f64> {}
+
+/// A continuous solution on one segment.
+struct Along<'a> {
+    equations: &'a dyn Equations,
+    tableau: &'a Tableau,
+    /// Which segment it is.
+    index: usize,
+    nodes: &'a [f64],
+    x: &'a Iterate,
+}
+
+impl Along<'_> {
+    /// The defects of a run of intervals with n states, relative and local.
+    #[inline(always)]
+    fn defects(
+        &self,
+        n: usize,
+        run: Range<usize>,
+        ((relative, local), samples): ((&mut [f64], &mut [f64]), &mut [f64]),
+        buffers: &mut [f64],
+    ) -> Result<(), NonFinite> {
+        let (t, m, x) = (self.tableau, self.tableau.stages, self.x);
+        let (y, buffers) = buffers.split_at_mut(n);
+        let (f, slope) = buffers.split_at_mut(n);
+        let (y, f, slope) = (&mut y[..n], &mut f[..n], &mut slope[..n]);
+        let samples = samples.chunks_exact_mut((m + 1) * n);
+        let written = relative.iter_mut().zip(local).zip(samples);
+        for (i, ((relative, local), samples)) in run.zip(written) {
+            let ends = &self.nodes[i..i + 2];
+            let interval = Interval::new(&x.segments[self.index], n, t, i, ends);
+            let (mut square, mut local_square) = (0.0, 0.0);
+            for (q, sample) in samples.chunks_exact_mut(n).enumerate() {
+                let weight = t.defect_rule.weights[q];
+                let s = interval.place(t.defect_rule.points[q]);
+                interval.state(&t.defect_value[q * m..][..m], y);
+                interval.slope(&t.defect_slope[q * m..][..m], slope);
+                f.fill(f64::NAN);
+                self.equations.rhs(self.index, s, y, &x.p, f);
+                if let Some(component) = f.iter().position(|f| !f.is_finite()) {
+                    let segment = self.index;
+                    return Err(NonFinite::Rhs {
+                        segment,
+                        s,
+                        component,
+                    });
+                }
+                let (mut largest, mut integrated) = (0.0f64, 0.0f64);
+                for (((slope, f), y), sample) in slope.iter().zip(&*f).zip(&*y).zip(sample) {
+                    *sample = slope - f;
+                    let defect = sample.abs();
+                    largest = max_or_nan(largest, defect / (1.0 + f.abs()));
+                    integrated = max_or_nan(integrated, defect / (1.0 + y.abs()));
+                }
+                square += weight * largest * largest;
+                local_square += weight * integrated * integrated;
+            }
+            *relative = square.sqrt();
+            *local = interval.h * local_square.sqrt();
+        }
+        Ok(())
+    }
+}

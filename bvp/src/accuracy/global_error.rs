@@ -1,0 +1,221 @@
+//! The estimate of the global error, by defect correction.
+//!
+//! A solution S with the defect d = S' − f(S) is the exact one of a problem with this d added to its
+//! right-hand side. Its error e, with which S + e is the solution of the one stated, satisfies
+//!
+//! ```text
+//! e' = f(S + e) − f(S) − d,      e = w − D,      D = ∫ d from the left end of every interval
+//! w' = J (w − D) + F_p δp,       g(S) + g' · e = 0
+//! ```
+//!
+//! to first order. The equation of w is collocated on the same mesh with the same scheme, so that the
+//! factors of the last Newton step solve it: residuals of the stages are J D, those of the continuity
+//! D at the right ends. d is sampled at the m + 1 Gauss points of the defect, whose rule integrates
+//! over an interval even what makes the nodes superconvergent, of degree 2m. What is left of Newton's
+//! corrections is in d, too. H. J. Stetter, "The defect correction principle and discretization
+//! methods", Numer. Math. 29 (1978) 425-443; with integrals of the defect, A. Dutt, L. Greengard & V.
+//! Rokhlin, "Spectral deferred correction methods for ordinary differential equations", BIT 40 (2000)
+//! 241-266.
+
+use crate::accuracy::defect::Samples;
+use crate::discretisation::iterate::{Interval, Iterate, Residual, SegmentIterate};
+use crate::kernels::dense::{add_scaled, dot, max_or_nan};
+use crate::kernels::specialise::specialise;
+use crate::newton::collocation::Collocation;
+use crate::problem::equations::Equations as _;
+
+/// Estimated global errors, relative to 1 + |value|.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct GlobalErrors {
+    /// For every segment one number per state, the largest over the segment.
+    pub(crate) states: Vec<Vec<f64>>,
+    /// One number per parameter.
+    pub(crate) parameters: Vec<f64>,
+}
+
+impl GlobalErrors {
+    pub(crate) fn largest(&self) -> f64 {
+        let all = self.states.iter().flatten().chain(&self.parameters);
+        all.copied().fold(0.0, max_or_nan)
+    }
+}
+
+/// So many times the error found is reported. Where a mesh is too coarse for what is left out, of higher
+/// order, the error found is too small: over 12 000 random problems the error of some state exceeds ten
+/// times its estimate in 18 cases.
+const CAUTION: f64 = 1.5;
+
+impl Collocation<'_> {
+    /// The global errors of the solution `x`, which was last linearised nearby, from its defects and the
+    /// local ones. `None` if one is not finite. Writes `residual` and leaves w in `w`.
+    ///
+    /// Errors are looked at at the nodes and at the two collocation points in the middle of every interval:
+    /// D has its extrema at these points, the largest in the middle.
+    pub(crate) fn global_errors(
+        &mut self,
+        x: &Iterate,
+        samples: &Samples,
+        local: &[Vec<f64>],
+        residual: &mut Residual,
+        w: &mut Iterate,
+    ) -> Option<GlobalErrors> {
+        let (m, k) = (self.tableau.stages, x.p.len());
+        for (index, samples) in samples.iter().enumerate() {
+            let n = self.equations.segments()[index].states;
+            let to = &mut residual.equations[index];
+            specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                self.integrate([m, n, k], index, samples, to)));
+        }
+        self.conditions(x, &mut residual.conditions).ok()?;
+        self.correction(residual, w);
+        let each = samples.iter().zip(local).enumerate();
+        let states = each.map(|(index, defects)| {
+            let n = self.equations.segments()[index].states;
+            specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                self.largest_errors([m, n], index, defects, x, w)))
+        });
+        let parameters = x.p.iter().zip(&w.p);
+        let errors = GlobalErrors {
+            states: states.collect(),
+            parameters: parameters.map(|(&p, &e)| relative(p, e)).collect(),
+        };
+        errors.largest().is_finite().then_some(errors)
+    }
+
+    /// Residuals from the defects of a segment with n states and k parameters.
+    #[inline(always)]
+    fn integrate(
+        &self,
+        [m, n, k]: [usize; 3],
+        index: usize,
+        samples: &[f64],
+        to: &mut SegmentIterate,
+    ) {
+        let (t, columns) = (&*self.tableau, n + k);
+        let mut integral = vec![0.0; n];
+        let integral = &mut integral[..n];
+        let jacobians = self.stages[index].jacobians();
+        let intervals = to
+            .stages
+            .chunks_exact_mut(m * n)
+            .zip(to.nodes[n..].chunks_exact_mut(n))
+            .zip(jacobians.chunks_exact(m * n * columns))
+            .zip(samples.chunks_exact((m + 1) * n))
+            .zip(self.mesh[index].windows(2));
+        for ((((r, c), jacobians), samples), ends) in intervals {
+            let h = ends[1] - ends[0];
+            let stages = r
+                .chunks_exact_mut(n)
+                .zip(jacobians.chunks_exact(n * columns))
+                .zip(t.defect_to_stage.chunks_exact(m + 1));
+            for ((r, jacobian), weights) in stages {
+                integral.fill(0.0);
+                subtract_sum(integral, -h, weights, samples);
+                for (r, row) in r.iter_mut().zip(jacobian.chunks_exact(columns)) {
+                    *r = dot(&row[..n], integral);
+                }
+            }
+            c.fill(0.0);
+            subtract_sum(c, -h, &t.defect_rule.weights, samples);
+        }
+    }
+
+    /// The largest error of every one of the n states of a segment.
+    ///
+    /// A defect like the Legendre polynomial of degree m has an integral about √(2m + 1) times less than
+    /// it. Where the local defect is more than 2m times the error at the collocation points, these hide
+    /// the error, as in a stiff interval, where it follows the defect that vanishes there: then it is looked
+    /// at where the defect is, too.
+    #[inline(always)]
+    fn largest_errors(
+        &self,
+        [m, n]: [usize; 2],
+        index: usize,
+        (samples, local): (&Vec<f64>, &Vec<f64>),
+        x: &Iterate,
+        w: &Iterate,
+    ) -> Vec<f64> {
+        let t = &*self.tableau;
+        let mut largest = Largest::new(n);
+        let middle = (m / 2).saturating_sub(1)..m / 2 + 1;
+        let values = &t.a[middle.start * m..middle.end * m];
+        let integrals = &t.defect_to_stage[middle.start * (m + 1)..middle.end * (m + 1)];
+        let mut buffers = vec![0.0; 2 * n];
+        let (y, e) = buffers.split_at_mut(n);
+        let intervals = samples
+            .chunks_exact((m + 1) * n)
+            .zip(local)
+            .zip(self.mesh[index].windows(2));
+        for (i, ((samples, local), ends)) in intervals.enumerate() {
+            let [x, w] = [x, w].map(|x| Interval::new(&x.segments[index], n, t, i, ends));
+            let mut look_at = |values: &[f64], integrals: &[f64]| {
+                let mut shown = largest.see(x.y, w.y);
+                let points = values.chunks_exact(m).zip(integrals.chunks_exact(m + 1));
+                for (weights, integral) in points {
+                    x.state(weights, y);
+                    w.state(weights, e);
+                    subtract_sum(e, x.h, integral, samples);
+                    shown = max_or_nan(shown, largest.see(y, e));
+                }
+                shown
+            };
+            let shown = look_at(values, integrals);
+            if *local > (2 * m) as f64 * shown {
+                look_at(&t.defect_value, &t.defect_to_defect);
+            }
+            largest.see(x.next, w.next);
+        }
+        largest.errors
+    }
+}
+
+/// The largest errors of some states seen so far, at one place after the other.
+struct Largest {
+    /// Relative to 1 + |y|, one a state.
+    errors: Vec<f64>,
+    /// Value and error of every state at the last place.
+    last: Vec<[f64; 2]>,
+}
+
+impl Largest {
+    fn new(n: usize) -> Self {
+        Self {
+            errors: vec![0.0; n],
+            last: vec![[0.0; 2]; n],
+        }
+    }
+
+    /// Looks at the errors `e` of states `y`; returns the largest of them. Where a state has changed its
+    /// sign since the last place, its error counts as it is in between where the state vanishes.
+    #[inline(always)]
+    fn see(&mut self, y: &[f64], e: &[f64]) -> f64 {
+        let mut largest = 0.0;
+        let states = self.errors.iter_mut().zip(&mut self.last);
+        for ((all, last), (&y, &e)) in states.zip(y.iter().zip(e)) {
+            let mut error = relative(y, e);
+            let [before, error_before] = std::mem::replace(last, [y, e]);
+            if before * y < 0.0 {
+                let share = before / (before - y);
+                let between = error_before + share * (e - error_before);
+                error = max_or_nan(error, relative(0.0, between));
+            }
+            *all = max_or_nan(*all, error);
+            largest = max_or_nan(largest, error);
+        }
+        largest
+    }
+}
+
+/// x −= factor Σ weights · samples.
+#[inline(always)]
+fn subtract_sum(x: &mut [f64], factor: f64, weights: &[f64], samples: &[f64]) {
+    for (weight, sample) in weights.iter().zip(samples.chunks_exact(x.len())) {
+        add_scaled(x, -factor * weight, sample);
+    }
+}
+
+/// What is reported of an error, relative to 1 + |x|.
+#[inline(always)]
+fn relative(x: f64, error: f64) -> f64 {
+    (CAUTION * error / (1.0 + x.abs())).abs()
+}

@@ -1,0 +1,174 @@
+//! Mesh selection: refine, coarsen and redistribute from the defects.
+
+use crate::discretisation::mesh::{Mesh, ceil, equidistribute, split};
+
+/// New meshes aim at this fraction of the tolerance, so that one step usually suffices.
+const AIM: f64 = 0.3;
+/// With a larger relative defect than this an interval does not resolve the solution: no power law holds
+/// yet, and it is halved at least.
+pub(crate) const UNRESOLVED: f64 = 0.5;
+/// An interval is not asked to be cut into more than this many at once: defects on intervals that
+/// coarse do not yet follow their power law.
+const LARGEST_CUT: f64 = 8.0;
+/// Nor to grow more than by the inverse of this.
+const SMALLEST_CUT: f64 = 0.2;
+/// Neighbouring intervals may differ in length by about this factor.
+pub(crate) const GRADING: f64 = 2.5;
+/// The same where the mesh is made for the error.
+pub(crate) const GRADING_BY_ERROR: f64 = 3.0;
+/// Where at most this share of the intervals is too long, only they are cut.
+const FEW: f64 = 0.12;
+
+/// The next mesh, from the relative defects r on this one and the tolerance they must meet, given
+/// that r ∝ hᵐ, and how much neighbours may differ. Each interval wants to be cut into ν = (r / aim)^(1/m) parts; the new nodes
+/// equidistribute the density ν/h, per segment.
+pub(crate) fn next_mesh(
+    mesh: &Mesh,
+    defects: &[Vec<f64>],
+    tolerance: f64,
+    m: usize,
+    grading: f64,
+) -> Mesh {
+    let next = |(nodes, defects): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
+        let cuts: Vec<f64> = defects.iter().map(|&r| wanted(r, tolerance, m)).collect();
+        let too_long = defects.iter().filter(|&&r| r > tolerance).count();
+        let total: f64 = cuts.iter().sum();
+        let count = cuts.len() as f64;
+        if (too_long as f64) <= FEW * count && total > 0.5 * count {
+            let pieces: Vec<usize> = defects
+                .iter()
+                .zip(&cuts)
+                .map(|(&r, &cut)| if r > tolerance { ceil(cut).max(2) } else { 1 })
+                .collect();
+            return split(nodes, &pieces);
+        }
+        let mut density: Vec<f64> = cuts
+            .iter()
+            .zip(nodes.windows(2))
+            .map(|(cut, pair)| cut / (pair[1] - pair[0]))
+            .collect();
+        grade(&mut density, grading);
+        let total: f64 = density
+            .iter()
+            .zip(nodes.windows(2))
+            .map(|(density, pair)| density * (pair[1] - pair[0]))
+            .sum();
+        equidistribute(nodes, &density, ceil(total).max(2))
+    };
+    mesh.iter().zip(defects).map(next).collect()
+}
+
+/// Whether these defects, all within the tolerance, want fewer than half of the intervals.
+pub(crate) fn is_wasteful(defects: &[Vec<f64>], tolerance: f64, m: usize) -> bool {
+    let (mut total, mut count) = (0.0, 0.0);
+    for &r in defects.iter().flatten() {
+        total += wanted(r, tolerance, m);
+        count += 1.0;
+    }
+    total < 0.5 * count
+}
+
+/// How many parts an interval with the relative defect r wants to be cut into.
+fn wanted(r: f64, tolerance: f64, m: usize) -> f64 {
+    let cut = (r / (AIM * tolerance)).powf(1.0 / m as f64);
+    let least = if r > UNRESOLVED { 2.0 } else { SMALLEST_CUT };
+    cut.clamp(least, LARGEST_CUT)
+}
+
+/// Raises densities until neighbours differ by at most a factor.
+fn grade(density: &mut [f64], grading: f64) {
+    for i in 1..density.len() {
+        density[i] = density[i].max(density[i - 1] / grading);
+    }
+    for i in (1..density.len()).rev() {
+        density[i - 1] = density[i - 1].max(density[i] / grading);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discretisation::mesh::intervals;
+
+    fn uniform(count: u32) -> Vec<f64> {
+        (0..=count)
+            .map(|i| f64::from(i) / f64::from(count))
+            .collect()
+    }
+
+    /// Defects C(s) hᵐ of a problem with a layer at the left end.
+    fn model(nodes: &[f64], m: i32) -> Vec<f64> {
+        let defect = |pair: &[f64]| {
+            let (s, h) = (0.5 * (pair[0] + pair[1]), pair[1] - pair[0]);
+            ((1.0 + 1e3 * (-s / 0.02).exp()) * h).powi(m)
+        };
+        nodes.windows(2).map(defect).collect()
+    }
+
+    #[test]
+    fn a_power_law_is_met_in_a_few_meshes_of_sensible_size() {
+        for m in 1..=7 {
+            let tolerance = 1e-4;
+            let mut mesh = vec![uniform(10)];
+            let mut meshes = 1;
+            while model(&mesh[0], m).iter().any(|&r| r > tolerance) {
+                let defects = vec![model(&mesh[0], m)];
+                mesh = next_mesh(
+                    &mesh,
+                    &defects,
+                    tolerance,
+                    usize::try_from(m).unwrap(),
+                    GRADING,
+                );
+                meshes += 1;
+                assert!(meshes < 12, "m = {m}");
+                assert!(mesh[0].windows(2).all(|pair| pair[0] < pair[1]));
+                assert_eq!((mesh[0].first(), mesh[0].last()), (Some(&0.0), Some(&1.0)));
+            }
+            // An interval is as long as it may be where h C^(1/m) = tolerance^(1/m).
+            let best = (1.0 + 1e3 * 0.02) / tolerance.powf(1.0 / f64::from(m));
+            assert!(
+                (intervals(&mesh) as f64) < 5.0 * best + 10.0,
+                "m = {m}: {mesh:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn one_long_interval_is_cut_and_the_others_stay() {
+        let nodes = uniform(20);
+        let mut defects = vec![0.5e-6; 20];
+        defects[7] = 1e-5;
+        let finer = next_mesh(&vec![nodes.clone()], &[defects], 1e-6, 4, GRADING);
+        assert!(nodes.iter().all(|s| finer[0].contains(s)));
+        assert!(finer[0].len() > nodes.len());
+        assert!(
+            finer[0]
+                .iter()
+                .all(|s| nodes.contains(s) || (0.35..0.4).contains(s))
+        );
+    }
+
+    #[test]
+    fn a_segment_far_too_fine_is_coarsened_while_another_is_refined() {
+        let mesh = vec![uniform(40), uniform(10)];
+        let defects = vec![vec![1e-14; 40], vec![1e-3; 10]];
+        let next = next_mesh(&mesh, &defects, 1e-6, 4, GRADING);
+        assert!(next[0].len() < 20 && next[1].len() > 20);
+    }
+
+    #[test]
+    fn a_mesh_twice_too_fine_is_wasteful() {
+        let tolerance = 1e-6;
+        let defects = |parts: f64| vec![vec![AIM * tolerance * parts.powi(4); 10]; 2];
+        assert!(is_wasteful(&defects(0.49), tolerance, 4));
+        assert!(!is_wasteful(&defects(0.51), tolerance, 4));
+    }
+
+    #[test]
+    fn neighbouring_intervals_are_graded() {
+        let mut density = [1.0, 1.0, 100.0, 1.0];
+        grade(&mut density, 2.5);
+        assert_eq!(density, [16.0, 40.0, 100.0, 40.0]);
+    }
+}

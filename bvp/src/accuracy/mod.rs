@@ -1,0 +1,8 @@
+//! Everything that decides whether a solution is good enough, and which mesh is better.
+
+pub(crate) mod conditioning;
+pub(crate) mod defect;
+pub(crate) mod global_error;
+pub(crate) mod layers;
+pub(crate) mod mesh_selection;
+pub(crate) mod rounding;

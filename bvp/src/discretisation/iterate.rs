@@ -1,0 +1,220 @@
+//! The unknowns of the discretised problem, seen whole and interval by interval.
+
+use crate::discretisation::mesh::Mesh;
+use crate::discretisation::tableau::Tableau;
+use crate::kernels::dense::{add_product, add_scaled};
+use crate::problem::guess::Guess;
+use crate::problem::problem::Segment;
+
+/// The unknowns of the discretised problem, or a correction of them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Iterate {
+    pub(crate) segments: Vec<SegmentIterate>,
+    /// Parameters p.
+    pub(crate) p: Vec<f64>,
+}
+
+/// The unknowns of one segment with N intervals.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SegmentIterate {
+    /// States at the nodes, (N + 1) × n.
+    pub(crate) nodes: Vec<f64>,
+    /// Stage slopes dy/ds, N × m × n.
+    pub(crate) stages: Vec<f64>,
+}
+
+/// Makes room for the given segments, mesh and stages. What is new is zero, what was there before is
+/// left.
+pub(crate) fn fit(all: &mut Vec<SegmentIterate>, segments: &[Segment], mesh: &Mesh, stages: usize) {
+    all.resize_with(segments.len(), Default::default);
+    for ((segment, nodes), x) in segments.iter().zip(mesh).zip(all) {
+        let (n, intervals) = (segment.states, nodes.len() - 1);
+        x.nodes.resize((intervals + 1) * n, 0.0);
+        x.stages.resize(intervals * stages * n, 0.0);
+    }
+}
+
+impl Iterate {
+    /// The same, and for so many parameters.
+    pub(crate) fn fit(&mut self, segments: &[Segment], mesh: &Mesh, stages: usize, k: usize) {
+        fit(&mut self.segments, segments, mesh, stages);
+        self.p.resize(k, 0.0);
+    }
+
+    /// The iterate whose collocation polynomials interpolate a guess.
+    pub(crate) fn interpolate(
+        segments: &[Segment],
+        mesh: &Mesh,
+        t: &Tableau,
+        k: usize,
+        guess: &dyn Guess,
+    ) -> Self {
+        let (m, points) = (t.stages, t.stages + 1);
+        let mut x = Self::default();
+        x.fit(segments, mesh, m, k);
+        guess.parameters(&mut x.p);
+        let each = segments.iter().zip(mesh).zip(&mut x.segments);
+        for (index, ((segment, nodes), unknowns)) in each.enumerate() {
+            let n = segment.states;
+            let mut values = vec![0.0; points * n];
+            for (i, pair) in nodes.windows(2).enumerate() {
+                let h = pair[1] - pair[0];
+                for (value, theta) in values.chunks_exact_mut(n).zip(&t.guess_points) {
+                    guess.state(index, pair[0] + theta * h, value);
+                }
+                unknowns.nodes[i * n..][..n].copy_from_slice(&values[..n]);
+                let stages = &mut unknowns.stages[i * m * n..][..m * n];
+                for (stage, slopes) in stages
+                    .chunks_exact_mut(n)
+                    .zip(t.guess_slope.chunks_exact(points))
+                {
+                    for (value, slope) in values.chunks_exact(n).zip(slopes) {
+                        add_scaled(stage, slope / h, value);
+                    }
+                }
+            }
+            let last = nodes.len() - 1;
+            guess.state(index, nodes[last], &mut unknowns.nodes[last * n..]);
+        }
+        x
+    }
+
+    /// self ← x + factor · correction.
+    pub(crate) fn set_sum(&mut self, x: &Self, factor: f64, correction: &Self) {
+        let set = |target: &mut [f64], x: &[f64], d: &[f64]| {
+            for ((target, x), d) in target.iter_mut().zip(x).zip(d) {
+                *target = x + factor * d;
+            }
+        };
+        for ((target, x), d) in self
+            .segments
+            .iter_mut()
+            .zip(&x.segments)
+            .zip(&correction.segments)
+        {
+            set(&mut target.nodes, &x.nodes, &d.nodes);
+            set(&mut target.stages, &x.stages, &d.stages);
+        }
+        set(&mut self.p, &x.p, &correction.p);
+    }
+}
+
+/// The residual of the discretised problem.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Residual {
+    /// Continuity residuals in the slots of nodes 1 … N, stage residuals in those of the stages.
+    pub(crate) equations: Vec<SegmentIterate>,
+    /// Residuals of the conditions.
+    pub(crate) conditions: Vec<f64>,
+}
+
+/// A value of the right-hand side or of a condition that is not finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum NonFinite {
+    Rhs {
+        segment: usize,
+        s: f64,
+        component: usize,
+    },
+    Condition {
+        index: usize,
+    },
+}
+
+/// The unknowns on one interval.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Interval<'a> {
+    n: usize,
+    /// Left end.
+    s: f64,
+    /// Right end.
+    end: f64,
+    /// Length.
+    pub(crate) h: f64,
+    /// States at both nodes.
+    pub(crate) y: &'a [f64],
+    pub(crate) next: &'a [f64],
+    stages: &'a [f64],
+}
+
+impl<'a> Interval<'a> {
+    #[inline(always)]
+    pub(crate) fn new(
+        x: &'a SegmentIterate,
+        n: usize,
+        t: &Tableau,
+        index: usize,
+        ends: &[f64],
+    ) -> Self {
+        Self {
+            n,
+            s: ends[0],
+            end: ends[1],
+            h: ends[1] - ends[0],
+            y: &x.nodes[index * n..][..n],
+            next: &x.nodes[(index + 1) * n..][..n],
+            stages: &x.stages[index * t.stages * n..][..t.stages * n],
+        }
+    }
+
+    /// y = yᵢ + h Σ weightsₗ Kₗ.
+    #[inline(always)]
+    pub(crate) fn state(&self, weights: &[f64], y: &mut [f64]) {
+        y.copy_from_slice(self.y);
+        for (weight, slope) in weights.iter().zip(self.stages.chunks_exact(self.n)) {
+            add_scaled(y, self.h * weight, slope);
+        }
+    }
+
+    /// slope = Σ weightsₗ Kₗ.
+    #[inline(always)]
+    pub(crate) fn slope(&self, weights: &[f64], slope: &mut [f64]) {
+        slope.fill(0.0);
+        add_product(slope, weights, self.stages, weights.len(), self.n);
+    }
+
+    /// The place θ of the interval, never outside by rounding.
+    #[inline(always)]
+    pub(crate) fn place(&self, theta: f64) -> f64 {
+        (self.s + theta * self.h).min(self.end)
+    }
+
+    /// The state at stage j; returns its s.
+    #[inline(always)]
+    pub(crate) fn stage_state(&self, t: &Tableau, j: usize, y: &mut [f64]) -> f64 {
+        self.state(&t.a[j * t.stages..][..t.stages], y);
+        self.place(t.c[j])
+    }
+
+    /// r = Kⱼ − f in the place of f, refusing an f that is not finite.
+    #[inline(always)]
+    pub(crate) fn stage_residual(
+        &self,
+        j: usize,
+        r: &mut [f64],
+        segment: usize,
+        s: f64,
+    ) -> Result<(), NonFinite> {
+        let slopes = &self.stages[j * self.n..][..self.n];
+        for (component, (r, slope)) in r.iter_mut().zip(slopes).enumerate() {
+            if !r.is_finite() {
+                return Err(NonFinite::Rhs {
+                    segment,
+                    s,
+                    component,
+                });
+            }
+            *r = slope - *r;
+        }
+        Ok(())
+    }
+
+    /// Writes the continuity residual c = yᵢ₊₁ − yᵢ − h Σ bⱼ Kⱼ.
+    #[inline(always)]
+    pub(crate) fn continuity(&self, t: &Tableau, c: &mut [f64]) {
+        self.state(&t.b, c);
+        for (c, next) in c.iter_mut().zip(self.next) {
+            *c = next - *c;
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! Schemes, meshes and the unknowns of a discretised problem.
+
+pub(crate) mod iterate;
+pub(crate) mod mesh;
+pub(crate) mod restriction;
+pub(crate) mod scheme;
+pub(crate) mod tableau;
+pub(crate) mod transfer;

@@ -1,0 +1,364 @@
+//! A boundary value problem with too few conditions, as a nonlinear system for a curve.
+
+use super::layout::Layout;
+use crate::accuracy::defect::defects;
+use crate::discretisation::iterate::{Iterate, Residual};
+use crate::newton::collocation::{Collocation, gather_ends};
+use crate::newton::newton::Failure;
+use crate::problem::equations::Equations;
+use crate::problem::guess::Guess;
+use crate::problem::held::Held;
+use crate::problem::problem::Ends;
+use crate::result::error::Error;
+use crate::result::solution::Quality;
+use crate::result::solution::Solution;
+use crate::result::stats::Stats;
+use crate::solver::failure::numerical;
+use crate::solver::options::Options;
+use crate::solver::solver::solve;
+use crate::solver::statement::check_statement;
+use std::sync::Arc;
+
+/// The solutions of a boundary value problem with one condition fewer than unknown constants: a
+/// curve, discretised.
+///
+/// ```text
+/// dy/ds = f(s, y, p)        on each segment, nᵢ states
+/// g(all ends, p) = 0        Σ nᵢ + k − f conditions, k parameters, f ≥ 1 of them free
+/// ```
+///
+/// A problem states its own number of conditions
+/// ([`Problem::condition_count`](crate::Problem::condition_count)). One of the parameters is that of
+/// the family, λ; f − 1 others are held at fixed values, and any may be exchanged for another in a
+/// new family. On a mesh this is a system G(z) = 0 of n equations for n + 1 unknowns,
+///
+/// ```text
+/// z = ( node states and stage slopes of every segment, parameters neither held nor λ, λ )
+/// ```
+///
+/// whose solutions form a curve, to be followed by any method of continuation with
+/// [`residual`](Self::residual), [`linearise`](Self::linearise), [`particular`](Self::particular)
+/// and [`null_vector`](Self::null_vector); nothing of it fails or loses accuracy where λ turns back.
+/// The mesh follows the solution by [`adapt`](Self::adapt). Between linearisations nothing is
+/// allocated, but for a change of the mesh and a [`Solution`].
+///
+/// E. J. Doedel, H. B. Keller & J. P. Kernévez, "Numerical analysis and control of bifurcation
+/// problems (II)", Int. J. Bifurcation Chaos 1 (1991) 745-772: the discretised system and its mesh.
+#[derive(Clone)]
+pub struct Family<'a> {
+    pub(super) collocation: Collocation<'a>,
+    pub(super) layout: Layout,
+    pub(super) options: Options,
+    pub(super) stats: Stats,
+    /// Calls of [`adapt`](Self::adapt) since the mesh has changed.
+    pub(super) settled: usize,
+    /// A point or a vector, in work.
+    pub(super) x: Iterate,
+    pub(super) residual: Residual,
+    pub(super) zeros: Residual,
+}
+
+impl<'a> Family<'a> {
+    /// The family through a first solution, and that solution as a point z.
+    ///
+    /// `parameter` is the index in p of the parameter λ of the family, `held` are the indices of the
+    /// f − 1 parameters that are held. With all of these at the values of the guess the problem is
+    /// solved by [`solve`]; the family starts on the mesh of that solution.
+    ///
+    /// # Errors
+    /// [`Error::FamilyParameter`] if an index is out of range or named twice,
+    /// [`Error::ConditionCount`] if the number of conditions is not Σ nᵢ + k − f, and those of
+    /// [`solve`].
+    pub fn new(
+        equations: &'a dyn Equations,
+        parameter: usize,
+        held: &[usize],
+        guess: &dyn Guess,
+        options: &Options,
+    ) -> Result<(Self, Vec<f64>), Error> {
+        let k = equations.parameters();
+        let fixed = [&[parameter], held].concat();
+        for (i, &parameter) in fixed.iter().enumerate() {
+            if parameter >= k || fixed[..i].contains(&parameter) {
+                return Err(Error::FamilyParameter {
+                    parameter,
+                    parameters: k,
+                });
+            }
+        }
+        check_statement(equations, fixed.len())?;
+        guess.check_shape(equations.segments(), k)?;
+        let mut p = vec![0.0; k];
+        guess.parameters(&mut p);
+        let first = solve(&Held::new(equations, &fixed, &p), guess, options)?;
+        let collocation = Collocation::new(
+            Held::new(equations, held, &p),
+            Arc::clone(&first.tableau),
+            first.mesh.clone(),
+        );
+        let layout = Layout::new(k, parameter, held);
+        let family = Self::on(collocation, layout, options.clone(), first.stats);
+        let z = family.flat(&first.x);
+        Ok((family, z))
+    }
+
+    /// The family of a discretisation.
+    pub(super) fn on(
+        collocation: Collocation<'a>,
+        layout: Layout,
+        options: Options,
+        stats: Stats,
+    ) -> Self {
+        let (x, residual) = (collocation.zeros(), collocation.residual_buffer());
+        Self {
+            collocation,
+            layout,
+            options,
+            stats,
+            settled: 0,
+            x,
+            zeros: residual.clone(),
+            residual,
+        }
+    }
+
+    /// The number of unknowns n + 1, λ the last.
+    pub fn unknowns(&self) -> usize {
+        let segments = self.x.segments.iter();
+        let values = segments.map(|segment| segment.nodes.len() + segment.stages.len());
+        values.sum::<usize>() + self.layout.free.len()
+    }
+
+    /// Evaluates G at `z` (n + 1 numbers) into `g` (n numbers: for every segment yᵢ₊₁ − yᵢ − h Σ bⱼKⱼ
+    /// of all intervals, then Kⱼ − f of all stages; then the conditions). All of `g` is NaN where a
+    /// right-hand side or a condition is not finite.
+    ///
+    /// # Panics
+    /// If `z` or `g` is too short.
+    pub fn residual(&mut self, z: &[f64], g: &mut [f64]) {
+        self.read_point(z);
+        let Self {
+            collocation,
+            residual,
+            stats,
+            ..
+        } = self;
+        let Ok(()) = collocation.residual(&self.x, residual, stats) else {
+            g.fill(f64::NAN);
+            return;
+        };
+        let segments = collocation.equations.segments();
+        self.layout.write_residual(residual, segments, g);
+    }
+
+    /// Factors the Jacobian J of G at `z`, n × (n + 1). It may have any rank; where it is less than
+    /// n the factors are those of a matrix within rounding of it.
+    ///
+    /// # Errors
+    /// [`Error::NonFiniteRhs`] or [`Error::NonFiniteCondition`] where a value or a derivative is not
+    /// finite; [`Error::SingularNode`] or [`Error::SingularConditions`] where the elimination
+    /// overflows or an interval is so long that its stages are not determined.
+    ///
+    /// # Panics
+    /// If `z` is too short.
+    pub fn linearise(&mut self, z: &[f64]) -> Result<(), Error> {
+        self.read_point(z);
+        let Self {
+            collocation,
+            residual,
+            stats,
+            ..
+        } = self;
+        collocation
+            .linearise(&self.x, residual, stats)
+            .map_err(|failure| {
+                let unknown = Quality::unknown(&self.collocation.mesh);
+                let best = self.wrap(self.x.clone(), unknown);
+                numerical(Failure::from(failure), best, 0.0)
+            })
+    }
+
+    /// A vector `v` (n + 1 numbers) with J v = `r` (n numbers) for the last linearisation: of all
+    /// of them one that is short at the ends of the segments.
+    ///
+    /// # Panics
+    /// If `r` or `v` is too short.
+    pub fn particular(&mut self, r: &[f64], v: &mut [f64]) {
+        let segments = self.collocation.equations.segments();
+        self.layout.read_negative(r, segments, &mut self.residual);
+        self.collocation.correction(&self.residual, &mut self.x);
+        self.layout.write(&self.x, v);
+    }
+
+    /// The vector `t` (n + 1 numbers, of any length) with J t = 0 for the last linearisation.
+    ///
+    /// Its direction is such that det \[J; tᵀ\] has the same sign for all linearisations on one mesh:
+    /// along a curve t keeps its direction, but for a jump to its opposite at a point where two
+    /// curves of solutions cross.
+    ///
+    /// # Panics
+    /// If `t` is too short.
+    pub fn null_vector(&mut self, t: &mut [f64]) {
+        self.collocation.null_vector(&self.zeros, &mut self.x);
+        self.layout.write(&self.x, t);
+    }
+
+    /// Which unknowns but λ (n numbers each) sample one function: `group` is its number from zero,
+    /// `share` the part of it that the unknown stands for. A state of a segment is a group, its nodes
+    /// have the shares of the trapezoidal rule and its stage slopes none; each free parameter is a
+    /// group with share one. The shares of every group sum to one.
+    ///
+    /// # Panics
+    /// If `group` or `share` is too short.
+    pub fn groups(&self, group: &mut [usize], share: &mut [f64]) {
+        let Collocation {
+            equations,
+            mesh,
+            tableau,
+            ..
+        } = &self.collocation;
+        let count = self.unknowns() - 1;
+        let (group, share) = (&mut group[..count], &mut share[..count]);
+        self.layout
+            .groups(equations.segments(), mesh, tableau.stages, group, share);
+    }
+
+    /// The point `z` as a solution, with its defects and the residuals of its conditions (infinite
+    /// where they are not finite) and without an estimate of its global error. Its [`Stats`] are those
+    /// of the family so far, the time that of its first point.
+    ///
+    /// # Panics
+    /// If `z` is too short.
+    pub fn solution(&self, z: &[f64]) -> Solution {
+        let Collocation {
+            equations,
+            tableau,
+            mesh,
+            ..
+        } = &self.collocation;
+        let x = self.iterate(z);
+        let segments = equations.segments();
+        let mut ends = vec![0.0; segments.iter().map(|segment| 2 * segment.states).sum()];
+        gather_ends(segments, &x, &mut ends);
+        let mut conditions = vec![f64::NAN; equations.condition_count()];
+        equations.conditions(Ends::new(segments, &ends), &x.p, &mut conditions);
+        let unknown = Quality::unknown(mesh);
+        let quality = Quality {
+            defects: defects(
+                equations,
+                tableau,
+                mesh,
+                &x,
+                &mut vec![],
+                &mut self.stats.clone(),
+            )
+            .unwrap_or(unknown.defects),
+            conditions: conditions
+                .iter()
+                .map(|r| if r.is_nan() { f64::INFINITY } else { r.abs() })
+                .collect(),
+            errors: None,
+        };
+        self.wrap(x, quality)
+    }
+
+    /// The states at the left end of a segment of the point `z`, which is cheaper than a
+    /// [`solution`](Self::solution).
+    ///
+    /// # Panics
+    /// If there is no such segment or `z` is too short.
+    pub fn start<'z>(&self, z: &'z [f64], segment: usize) -> &'z [f64] {
+        let states = self.collocation.equations.segments()[segment].states;
+        &z[self.nodes_before(segment)..][..states]
+    }
+
+    /// The states at the right end of a segment of the point `z`.
+    ///
+    /// # Panics
+    /// If there is no such segment or `z` is too short.
+    pub fn end<'z>(&self, z: &'z [f64], segment: usize) -> &'z [f64] {
+        let states = self.collocation.equations.segments()[segment].states;
+        let nodes = self.x.segments[segment].nodes.len();
+        &z[self.nodes_before(segment) + nodes - states..][..states]
+    }
+
+    /// Where the nodes of a segment begin in a point.
+    pub(super) fn nodes_before(&self, segment: usize) -> usize {
+        let before = self.x.segments[..segment].iter();
+        before.map(|s| s.nodes.len() + s.stages.len()).sum()
+    }
+
+    /// The tolerance that [`adapt`](Self::adapt) keeps, [`Options::tolerance`].
+    pub fn tolerance(&self) -> f64 {
+        self.options.tolerance
+    }
+
+    /// The value of the held parameter with this index in p.
+    ///
+    /// # Panics
+    /// If it is not held.
+    pub fn held(&self, index: usize) -> f64 {
+        let value = self.collocation.equations.value(index);
+        value.expect("a parameter that is held")
+    }
+
+    /// Holds the parameter with this index in p, held before, at another value from now on.
+    ///
+    /// # Panics
+    /// If it was not held.
+    pub fn hold(&mut self, index: usize, value: f64) {
+        let held = self.collocation.equations.hold(index, value);
+        assert!(held, "a parameter that is held");
+    }
+
+    /// The same discretisation of other equations with the same segments, numbers of parameters and
+    /// of conditions, for instance of those with a smaller regularisation.
+    ///
+    /// # Errors
+    /// [`Error::ConditionCount`] if the number of conditions differs.
+    ///
+    /// # Panics
+    /// If the segments differ.
+    pub fn exchanged(&self, equations: &'a dyn Equations) -> Result<Self, Error> {
+        let own = &self.collocation.equations;
+        assert_eq!(own.segments(), equations.segments(), "the same segments");
+        check_statement(equations, own.held_count() + 1)?;
+        let mut family = self.clone();
+        family.collocation.equations = own.exchanged(equations);
+        Ok(family)
+    }
+
+    /// Reads a point into the iterate in work.
+    pub(super) fn read_point(&mut self, z: &[f64]) {
+        self.layout.read(z, &mut self.x);
+        self.collocation.equations.fill(&mut self.x.p);
+    }
+
+    /// A vector as an iterate, with the values of the held parameters: those of a tangent mean
+    /// nothing.
+    pub(super) fn iterate(&self, vector: &[f64]) -> Iterate {
+        let mut x = self.collocation.zeros();
+        self.layout.read(vector, &mut x);
+        self.collocation.equations.fill(&mut x.p);
+        x
+    }
+
+    /// An iterate as a vector.
+    pub(super) fn flat(&self, x: &Iterate) -> Vec<f64> {
+        let mut z = vec![0.0; self.unknowns()];
+        self.layout.write(x, &mut z);
+        z
+    }
+
+    /// An iterate as a solution.
+    pub(super) fn wrap(&self, x: Iterate, quality: Quality) -> Solution {
+        Solution {
+            segments: self.collocation.equations.segments().to_vec(),
+            tableau: Arc::clone(&self.collocation.tableau),
+            mesh: self.collocation.mesh.clone(),
+            x,
+            quality,
+            stats: self.stats,
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! LU factors of matrices of a few rows, whose number the compiler knows: three to five times faster than
+//! loops of unknown length.
+
+use crate::kernels::dense::SingularRow;
+
+/// Calls a function of this module where it is provided for n rows, or evaluates something else.
+macro_rules! of_size {
+    ($n:ident => $function:ident $arguments:tt, $else:expr) => {
+        match $n {
+            1 => crate::kernels::small::$function::<1> $arguments,
+            2 => crate::kernels::small::$function::<2> $arguments,
+            3 => crate::kernels::small::$function::<3> $arguments,
+            4 => crate::kernels::small::$function::<4> $arguments,
+            5 => crate::kernels::small::$function::<5> $arguments,
+            6 => crate::kernels::small::$function::<6> $arguments,
+            7 => crate::kernels::small::$function::<7> $arguments,
+            8 => crate::kernels::small::$function::<8> $arguments,
+            _ => $else,
+        }
+    };
+}
+
+pub(crate) use of_size;
+
+/// [`lu_factor`](crate::kernels::dense::lu_factor) of a matrix of few rows.
+pub(crate) fn lu_factor<const N: usize>(
+    a: &mut [f64],
+    pivots: &mut [usize],
+) -> Result<(), SingularRow> {
+    lu_factor_and_solve_transposed::<N>(a, pivots, &mut [])
+}
+
+/// [`lu_factor_and_solve_transposed`](crate::kernels::dense::lu_factor_and_solve_transposed) of few equations: the
+/// factors are still in registers when they are used.
+pub(crate) fn lu_factor_and_solve_transposed<const N: usize>(
+    a: &mut [f64],
+    pivots: &mut [usize],
+    rows: &mut [f64],
+) -> Result<(), SingularRow> {
+    let a: &mut [[f64; N]; N] = a.as_chunks_mut().0.try_into().expect("n rows");
+    let pivots: &mut [usize; N] = pivots.try_into().expect("n pivots");
+    let mut lu = *a;
+    factor(&mut lu, pivots)?;
+    for b in rows.as_chunks_mut().0 {
+        solve_transposed(&lu, pivots, b);
+    }
+    *a = lu;
+    Ok(())
+}
+
+/// One column after the other. Rows are addressed and exchanged by numbers that the compiler knows, so
+/// that the whole matrix can stay in registers.
+#[expect(clippy::needless_range_loop, reason = "entries by their numbers")]
+#[inline(always)]
+fn factor<const N: usize>(
+    a: &mut [[f64; N]; N],
+    pivots: &mut [usize; N],
+) -> Result<(), SingularRow> {
+    for column in 0..N {
+        let (mut pivot, mut largest) = (column, a[column][column].abs());
+        for row in column + 1..N {
+            let candidate = a[row][column].abs();
+            if candidate > largest {
+                (pivot, largest) = (row, candidate);
+            }
+        }
+        if !(largest > 0.0 && largest.is_finite()) {
+            return Err(SingularRow(column));
+        }
+        pivots[column] = pivot;
+        for row in column + 1..N {
+            if row == pivot {
+                a.swap(column, row);
+            }
+        }
+        let inverse = 1.0 / a[column][column];
+        a[column][column] = inverse;
+        for row in column + 1..N {
+            let factor = a[row][column] * inverse;
+            a[row][column] = factor;
+            for j in column + 1..N {
+                a[row][j] -= factor * a[column][j];
+            }
+        }
+    }
+    Ok(())
+}
+
+/// [`lu_solve`](crate::kernels::dense::lu_solve) of few equations, column by column: no sum waits for another.
+pub(crate) fn lu_solve<const N: usize>(lu: &[f64], pivots: &[usize], b: &mut [f64]) {
+    let lu: &[[f64; N]; N] = lu.as_chunks().0.try_into().expect("n rows");
+    let pivots: &[usize; N] = pivots.try_into().expect("n pivots");
+    let b: &mut [f64; N] = b.try_into().expect("n numbers");
+    exchange(b, pivots, 0..N);
+    let mut x = *b;
+    for k in 0..N {
+        for i in k + 1..N {
+            x[i] -= lu[i][k] * x[k];
+        }
+    }
+    for k in (0..N).rev() {
+        x[k] *= lu[k][k];
+        for i in 0..k {
+            x[i] -= lu[i][k] * x[k];
+        }
+    }
+    *b = x;
+}
+
+/// xᵀ A = bᵀ for one row b, likewise.
+#[inline(always)]
+fn solve_transposed<const N: usize>(lu: &[[f64; N]; N], pivots: &[usize; N], b: &mut [f64; N]) {
+    let mut x = *b;
+    for k in 0..N {
+        x[k] *= lu[k][k];
+        for j in k + 1..N {
+            x[j] -= lu[k][j] * x[k];
+        }
+    }
+    for k in (1..N).rev() {
+        for j in 0..k {
+            x[j] -= lu[k][j] * x[k];
+        }
+    }
+    *b = x;
+    exchange(b, pivots, (0..N).rev());
+}
+
+/// Exchanges entries as rows were, in this order. Mostly none were: to write each back where it is would
+/// keep the next one waiting.
+#[inline(always)]
+fn exchange<const N: usize>(
+    b: &mut [f64; N],
+    pivots: &[usize; N],
+    order: impl Iterator<Item = usize>,
+) {
+    for i in order {
+        if pivots[i] != i {
+            b.swap(i, pivots[i]);
+        }
+    }
+}

@@ -1,0 +1,160 @@
+//! Right-hand sides and Jacobians at the stages of a segment.
+
+use crate::discretisation::iterate::{Interval, Iterate, NonFinite, SegmentIterate};
+use crate::discretisation::mesh::Mesh;
+use crate::discretisation::tableau::Tableau;
+use crate::kernels::dense::all_finite;
+use crate::kernels::parallel::Buffers;
+use crate::newton_matrix::derivative_states::Watch;
+use crate::problem::equations::Equations;
+use crate::problem::held::Held;
+use crate::problem::problem::Segment;
+use std::ops::Range;
+
+/// What the evaluation of the stages of a segment needs.
+#[derive(Clone)]
+pub(crate) struct StageBuffers {
+    /// One state.
+    y: Vec<f64>,
+    /// What the last Jacobians have shown.
+    pub(crate) watch: Watch,
+}
+
+impl StageBuffers {
+    pub(crate) fn new(segment: &Segment) -> Self {
+        let n = segment.states;
+        Self {
+            y: vec![0.0; n],
+            watch: Watch::new(n),
+        }
+    }
+}
+
+impl Buffers for StageBuffers {
+    fn learn(&mut self, copy: Self) {
+        self.watch.learn(&copy.watch);
+    }
+}
+
+/// One segment of a problem at an iterate.
+pub(crate) struct SegmentAt<'a> {
+    equations: &'a Held<'a>,
+    tableau: &'a Tableau,
+    /// Which segment it is.
+    index: usize,
+    /// Its nodes and unknowns.
+    mesh: &'a [f64],
+    x: &'a SegmentIterate,
+    /// Parameters p.
+    p: &'a [f64],
+}
+
+impl<'a> SegmentAt<'a> {
+    pub(crate) fn new(
+        equations: &'a Held<'a>,
+        tableau: &'a Tableau,
+        mesh: &'a Mesh,
+        index: usize,
+        x: &'a Iterate,
+    ) -> Self {
+        Self {
+            equations,
+            tableau,
+            index,
+            mesh: &mesh[index],
+            x: &x.segments[index],
+            p: &x.p,
+        }
+    }
+
+    /// Interval i, where there are n states.
+    #[inline(always)]
+    fn interval(&self, i: usize, n: usize) -> Interval<'a> {
+        Interval::new(self.x, n, self.tableau, i, &self.mesh[i..i + 2])
+    }
+
+    /// The residuals of the stages and of the continuity of a run of intervals with n states.
+    #[inline(always)]
+    pub(crate) fn residuals(
+        &self,
+        n: usize,
+        run: Range<usize>,
+        stages: &mut [f64],
+        continuity: &mut [f64],
+        buffers: &mut StageBuffers,
+    ) -> Result<(), NonFinite> {
+        let (t, m) = (self.tableau, self.tableau.stages);
+        let y = &mut buffers.y[..n];
+        let residuals = stages
+            .chunks_exact_mut(m * n)
+            .zip(continuity.chunks_exact_mut(n));
+        for (i, (r, c)) in run.zip(residuals) {
+            let interval = self.interval(i, n);
+            r.fill(f64::NAN);
+            for (j, f) in r.chunks_exact_mut(n).enumerate() {
+                let s = interval.stage_state(t, j, y);
+                self.equations.rhs(self.index, s, y, self.p, f);
+                interval.stage_residual(j, f, self.index, s)?;
+            }
+            interval.continuity(t, c);
+        }
+        Ok(())
+    }
+
+    /// The [`residuals`](Self::residuals), and the Jacobians at the stages, with k parameters.
+    #[expect(clippy::too_many_arguments, reason = "what an interval has, each once")]
+    #[inline(always)]
+    pub(crate) fn jacobians(
+        &self,
+        n: usize,
+        k: usize,
+        run: Range<usize>,
+        stages: &mut [f64],
+        continuity: &mut [f64],
+        jacobians: &mut [f64],
+        buffers: &mut StageBuffers,
+    ) -> Result<(), NonFinite> {
+        let (t, m, columns) = (self.tableau, self.tableau.stages, n + k);
+        let StageBuffers { y, watch } = buffers;
+        let y = &mut y[..n];
+        let residuals = stages
+            .chunks_exact_mut(m * n)
+            .zip(continuity.chunks_exact_mut(n))
+            .zip(jacobians.chunks_exact_mut(m * n * columns));
+        for (i, ((r, c), jacobians)) in run.zip(residuals) {
+            let interval = self.interval(i, n);
+            r.fill(f64::NAN);
+            jacobians.fill(f64::NAN);
+            let written = r
+                .chunks_exact_mut(n)
+                .zip(jacobians.chunks_exact_mut(n * columns));
+            for (j, (f, jacobian)) in written.enumerate() {
+                let s = interval.stage_state(t, j, y);
+                self.equations
+                    .rhs_jacobian(self.index, s, y, self.p, f, jacobian);
+                interval.stage_residual(j, f, self.index, s)?;
+            }
+            if let Some(row) = non_finite_row(jacobians, columns) {
+                return Err(NonFinite::Rhs {
+                    segment: self.index,
+                    s: interval.place(t.c[row / n]),
+                    component: row % n,
+                });
+            }
+            watch.look(jacobians, n, columns);
+            interval.continuity(t, c);
+        }
+        Ok(())
+    }
+}
+
+/// The first row of a row-major matrix with an entry that is not finite.
+pub(crate) fn non_finite_row(matrix: &[f64], columns: usize) -> Option<usize> {
+    if all_finite(matrix) {
+        return None;
+    }
+    matrix
+        .iter()
+        .position(|x| !x.is_finite())
+        .map(|i| i / columns)
+}

@@ -1,0 +1,5 @@
+//! The discretised problem as a nonlinear system, and Newton's method.
+
+pub(crate) mod collocation;
+pub(crate) mod evaluation;
+pub(crate) mod newton;

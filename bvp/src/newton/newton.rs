@@ -1,0 +1,344 @@
+//! Damped Newton iteration with the natural monotonicity test.
+//!
+//! A step x + λ Δx is accepted when the simplified correction at the new point, taken with the old
+//! Jacobian, is smaller: ‖Δx̄‖ ≤ (1 − λ/4) ‖Δx‖. The test does not change when the equations are
+//! multiplied by any matrix, so it needs no scaling of residuals. Where the simplified corrections
+//! contract fast, the Jacobian is kept and they are the next steps. P. Deuflhard, *Newton Methods
+//! for Nonlinear Problems* (Springer 2004), algorithms NLEQ-ERR (section 3.3.3) and QNERR; a damped
+//! step that could have been longer is not repeated.
+
+use crate::accuracy::defect::Samples;
+use crate::accuracy::global_error::GlobalErrors;
+use crate::discretisation::iterate::{Iterate, NonFinite, Residual};
+use crate::kernels::dense::max_or_nan;
+use crate::newton::collocation::{Collocation, LinearisationError};
+use crate::newton_matrix::almost_block_diagonal::Singular;
+use crate::newton_matrix::dependence::Dependence;
+use crate::problem::unknown::Unknown;
+use crate::result::stats::Stats;
+
+/// Simplified corrections that shrink at least this much per step keep the Jacobian: three such
+/// steps gain more than one new linearisation and cost less.
+const KEEP_JACOBIAN_BELOW: f64 = 0.25;
+
+/// The shortest damped step: below it the path of the iteration has ended at a singular Jacobian.
+const SMALLEST_DAMPING: f64 = 1e-5;
+
+/// Corrections this many times the stopping tolerance that no longer shrink, or not as fast as those
+/// of Newton's method do so near a solution, are rounding, ...
+const ROUNDING_FACTOR: f64 = 100.0;
+/// ... unless they are larger than this: rounding amplified by more than 1e8 is not told from a
+/// failure to converge.
+const LARGEST_ROUNDING: f64 = 1e-8;
+
+/// A step whose own correction is expected to be so many times less than is asked for need not be
+/// checked.
+const PREDICTION_SAFETY: f64 = 10.0;
+
+/// A simplified correction that is this fraction of what is asked for is not even taken.
+const NEGLIGIBLE: f64 = 1e-3;
+
+/// Why the iteration stopped short.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Failure {
+    NonFinite(NonFinite),
+    /// The states of this node are not determined by their neighbours.
+    Node {
+        segment: usize,
+        node: usize,
+    },
+    /// The conditions do not determine the ends and the parameters.
+    Ends(Dependence),
+    /// Steps or damping exhausted; the size of the last correction and where it is largest.
+    NoConvergence {
+        correction: f64,
+        largest: Option<Unknown>,
+    },
+}
+
+impl From<LinearisationError> for Failure {
+    fn from(error: LinearisationError) -> Self {
+        match error {
+            LinearisationError::NonFinite(what) => Self::NonFinite(what),
+            LinearisationError::Singular(Singular::Node { segment, node }) => {
+                Self::Node { segment, node }
+            }
+            LinearisationError::Singular(Singular::Ends) => Self::Ends(Dependence::default()),
+        }
+    }
+}
+
+/// Size of a correction relative to 1 + |x|.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Norm {
+    /// Root mean square over nodes, states and parameters: what the damping compares.
+    mean: f64,
+    /// Largest entry: what the stopping test looks at.
+    pub(crate) largest: f64,
+}
+
+/// Measures Σ factors · corrections relative to 1 + |x|.
+pub(crate) fn norm(x: &Iterate, corrections: &[(f64, &Iterate)]) -> Norm {
+    let (mut square, mut largest, mut count) = (0.0, 0.0f64, 0usize);
+    let mut add = |x: f64, delta: f64| {
+        let relative = delta / (1.0 + x.abs());
+        square += relative * relative;
+        largest = max_or_nan(largest, relative.abs());
+        count += 1;
+    };
+    for (index, segment) in x.segments.iter().enumerate() {
+        for (i, &value) in segment.nodes.iter().enumerate() {
+            let terms = corrections.iter();
+            add(
+                value,
+                terms.map(|(f, c)| f * c.segments[index].nodes[i]).sum(),
+            );
+        }
+    }
+    for (i, &value) in x.p.iter().enumerate() {
+        add(value, corrections.iter().map(|(f, c)| f * c.p[i]).sum());
+    }
+    Norm {
+        mean: (square / count as f64).sqrt(),
+        largest,
+    }
+}
+
+/// The buffers of the iteration, and what it learns.
+pub(crate) struct Newton {
+    /// The affine-invariant curvature 2 ‖Δx̄‖ / ‖Δx‖² of the last full step with a new Jacobian. It
+    /// hardly depends on the mesh (Deuflhard 2004, section 8.1), and so may come from another one;
+    /// infinite where nothing is known.
+    pub(crate) curvature: f64,
+    delta: Iterate,
+    simplified: Iterate,
+    trial: Iterate,
+    residual: Residual,
+}
+
+impl Newton {
+    pub(crate) fn new(collocation: &Collocation<'_>) -> Self {
+        Self {
+            curvature: f64::INFINITY,
+            delta: collocation.zeros(),
+            simplified: collocation.zeros(),
+            trial: collocation.zeros(),
+            residual: collocation.residual_buffer(),
+        }
+    }
+
+    /// Follows the collocation to another mesh.
+    pub(crate) fn fit(&mut self, collocation: &Collocation<'_>) {
+        let Self { residual, .. } = self;
+        for x in [&mut self.delta, &mut self.simplified, &mut self.trial] {
+            collocation.fit(x);
+        }
+        collocation.fit_residual(residual);
+    }
+
+    /// Improves `x` until a correction is at most `tolerance` relative to 1 + |x|. On failure `x`
+    /// is the last accepted iterate.
+    pub(crate) fn iterate(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &mut Iterate,
+        tolerance: f64,
+        max_steps: usize,
+        stats: &mut Stats,
+    ) -> Result<(), Failure> {
+        self.linearise(collocation, x, stats)?;
+        let mut fresh = true;
+        let mut size = norm(x, &[(1.0, &self.delta)]);
+        let mut damping = 1.0;
+        let rounding = (ROUNDING_FACTOR * tolerance).min(LARGEST_ROUNDING);
+        for _ in 0..max_steps {
+            if !size.largest.is_finite() {
+                return Err(Failure::Ends(collocation.dependence()));
+            }
+            // The mean would hide an entry that is far larger than the others.
+            let predicted = 0.5 * self.curvature * size.largest * size.largest;
+            if size.largest <= tolerance || fresh && PREDICTION_SAFETY * predicted <= tolerance {
+                self.trial.set_sum(x, 1.0, &self.delta);
+                std::mem::swap(x, &mut self.trial);
+                stats.newton_steps += 1;
+                return Ok(());
+            }
+            let shrunk = match self.step(collocation, x, size, &mut damping, fresh, stats) {
+                Ok(shrunk) => shrunk,
+                Err(_) if size.largest <= rounding => return Ok(()),
+                Err(_) if !fresh => {
+                    // The kept Jacobian is too old: take a new one at the same point.
+                    self.linearise(collocation, x, stats)?;
+                    size = norm(x, &[(1.0, &self.delta)]);
+                    fresh = true;
+                    continue;
+                }
+                Err(failure) => return Err(failure),
+            };
+            std::mem::swap(x, &mut self.trial);
+            stats.newton_steps += 1;
+            if fresh && damping == 1.0 {
+                self.curvature = 2.0 * shrunk.mean / (size.mean * size.mean);
+            }
+            if damping == 1.0 && shrunk.largest <= NEGLIGIBLE * tolerance {
+                return Ok(());
+            }
+            if damping == 1.0
+                && (shrunk.largest <= tolerance || shrunk.mean <= KEEP_JACOBIAN_BELOW * size.mean)
+            {
+                std::mem::swap(&mut self.delta, &mut self.simplified);
+                collocation.stage_correction(&self.residual, &mut self.delta);
+                (size, fresh) = (shrunk, false);
+                continue;
+            }
+            self.linearise(collocation, x, stats)?;
+            let next = norm(x, &[(1.0, &self.delta)]);
+            let negligible = next.largest <= rounding;
+            if negligible && next.mean > KEEP_JACOBIAN_BELOW * size.mean {
+                return Ok(());
+            }
+            // Prediction of the damping from the curvature seen over the last step.
+            let bent = norm(x, &[(1.0, &self.simplified), (-1.0, &self.delta)]);
+            let curvature = bent.mean * next.mean;
+            damping = if curvature > 0.0 {
+                (damping * size.mean * shrunk.mean / curvature).clamp(SMALLEST_DAMPING, 1.0)
+            } else {
+                1.0
+            };
+            (size, fresh) = (next, true);
+        }
+        if size.largest <= tolerance {
+            return Ok(());
+        }
+        Err(self.no_convergence(collocation, x, size))
+    }
+
+    /// The largest entry of Newton's correction at `x` relative to 1 + |x|.
+    pub(crate) fn correction(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &Iterate,
+        stats: &mut Stats,
+    ) -> Result<f64, Failure> {
+        self.linearise(collocation, x, stats)?;
+        Ok(norm(x, &[(1.0, &self.delta)]).largest)
+    }
+
+    /// The global errors of the solution `x` by the last linearisation; see
+    /// [`Collocation::global_errors`].
+    pub(crate) fn global_errors(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &Iterate,
+        samples: &Samples,
+        local: &[Vec<f64>],
+    ) -> Option<GlobalErrors> {
+        collocation.global_errors(x, samples, local, &mut self.residual, &mut self.delta)
+    }
+
+    /// The failure of corrections of this size at `x`.
+    fn no_convergence(&self, collocation: &Collocation<'_>, x: &Iterate, size: Norm) -> Failure {
+        Failure::NoConvergence {
+            correction: size.largest,
+            largest: Unknown::most_corrected(&collocation.mesh, x, &self.delta),
+        }
+    }
+
+    /// Linearises at `x` and leaves the Newton correction in `delta`.
+    fn linearise(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &Iterate,
+        stats: &mut Stats,
+    ) -> Result<(), Failure> {
+        let linearised = collocation.linearise(x, &mut self.residual, stats);
+        linearised.map_err(|error| match error.into() {
+            Failure::Ends(_) => Failure::Ends(collocation.dependence()),
+            other => other,
+        })?;
+        collocation.correction(&self.residual, &mut self.delta);
+        Ok(())
+    }
+
+    /// Finds an acceptable damped step: leaves x + λ Δx in `trial`, its simplified correction (its
+    /// nodes) in `simplified`, λ in `damping`, and returns the size of that correction. With a Jacobian that
+    /// is not `fresh` only the full step is tried.
+    fn step(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &Iterate,
+        size: Norm,
+        damping: &mut f64,
+        fresh: bool,
+        stats: &mut Stats,
+    ) -> Result<Norm, Failure> {
+        loop {
+            self.trial.set_sum(x, *damping, &self.delta);
+            let shorter = match collocation.residual(&self.trial, &mut self.residual, stats) {
+                Err(what) if 0.25 * *damping < SMALLEST_DAMPING || !fresh => {
+                    return Err(Failure::NonFinite(what));
+                }
+                Err(_) => 0.25 * *damping,
+                Ok(()) => {
+                    collocation.node_correction(&self.residual, &mut self.simplified);
+                    let shrunk = norm(x, &[(1.0, &self.simplified)]);
+                    if shrunk.mean <= (1.0 - 0.25 * *damping) * size.mean {
+                        return Ok(shrunk);
+                    }
+                    let linear = -(1.0 - *damping);
+                    let bent = norm(x, &[(1.0, &self.simplified), (linear, &self.delta)]);
+                    let curvature = 0.5 * size.mean * *damping * *damping / bent.mean;
+                    // NaN, where the correction overflowed, takes the fixed reduction.
+                    if curvature < 0.5 * *damping {
+                        curvature.max(0.1 * *damping)
+                    } else {
+                        0.5 * *damping
+                    }
+                }
+            };
+            if shorter < SMALLEST_DAMPING || !fresh {
+                return Err(self.no_convergence(collocation, x, size));
+            }
+            *damping = shorter;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::discretisation::iterate::SegmentIterate;
+
+    fn iterate(nodes: &[f64], p: &[f64]) -> Iterate {
+        Iterate {
+            segments: vec![SegmentIterate {
+                nodes: nodes.to_vec(),
+                stages: vec![],
+            }],
+            p: p.to_vec(),
+        }
+    }
+
+    #[test]
+    fn a_norm_is_relative_and_counts_parameters() {
+        let x = iterate(&[0.0, 3.0], &[-1.0]);
+        let size = norm(&x, &[(1.0, &iterate(&[1.0, 4.0], &[6.0]))]);
+        assert_eq!(size.largest, 3.0);
+        assert_eq!(size.mean, (11.0f64 / 3.0).sqrt());
+        let minus = iterate(&[0.5, 2.0], &[3.0]);
+        let none = norm(&x, &[(1.0, &iterate(&[1.0, 4.0], &[6.0])), (-2.0, &minus)]);
+        assert_eq!((none.mean, none.largest), (0.0, 0.0));
+    }
+
+    #[test]
+    fn a_norm_keeps_nan_wherever_it_stands() {
+        let x = iterate(&[0.0, 0.0], &[0.0]);
+        for place in 0..3 {
+            let mut values = [1.0; 3];
+            values[place] = f64::NAN;
+            let correction = iterate(&values[..2], &values[2..]);
+            let size = norm(&x, &[(1.0, &correction)]);
+            assert!(size.mean.is_nan() && size.largest.is_nan());
+        }
+    }
+}

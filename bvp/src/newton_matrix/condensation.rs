@@ -1,0 +1,377 @@
+//! Elimination of the stages of every interval.
+//!
+//! With the Jacobians J of the right-hand side at the stages, its derivatives `F_p` with respect to
+//! the parameters, stage residuals r and continuity residual c, the linearised equations of an
+//! interval are
+//!
+//! ```text
+//! ┌                    ┐ ┌ δK    ┐   ┌ J δyᵢ + F_p δp − r ┐
+//! │  M               0 │ │       │ = │                    │      M = I − h (a ∘ J)
+//! │ −h (bᵀ ⊗ I)      I │ └ δyᵢ₊₁ ┘   └ δyᵢ − c            ┘
+//! └                    ┘
+//! ```
+//!
+//! With Xᵀ = h (bᵀ ⊗ I) M⁻¹ a link between the two nodes is left,
+//!
+//! ```text
+//! δyᵢ₊₁ = (I + Xᵀ J) δyᵢ + (Xᵀ F_p) δp − Xᵀ r − c
+//! ```
+//!
+//! so only n systems with Mᵀ are solved per interval, whatever the number of parameters. Ascher,
+//! Mattheij & Russell (1995), section 5.6.
+//!
+//! Of M only the part of the free states ([`Chains`]) is factored. With d links from state c to the
+//! free state u its blocks are
+//!
+//! ```text
+//! M_vu = δ_vu I − Σ_c diag(J_vc) h^(d+1) A^(d+1)      over all c whose chain ends at u
+//! ```
+//!
+//! and det M is the determinant of this part.
+//!
+//! Intervals are many and their matrices small: the time is that of the loops around the arithmetic, so
+//! that the compiler knows the numbers of stages, of states and of a single free state of the schemes that
+//! the solver chooses, and of stages alone for the others.
+
+use crate::discretisation::iterate::SegmentIterate;
+use crate::discretisation::tableau::Tableau;
+use crate::kernels::dense::{self, SingularRow, dot};
+use crate::kernels::large::{self, LARGE};
+use crate::kernels::parallel::{Buffers, for_each_run};
+use crate::kernels::specialise::specialise;
+use crate::newton_matrix::derivative_states::{Chains, Watch};
+use crate::newton_matrix::stage_system::StageSystem;
+use std::convert::Infallible;
+use std::ops::Range;
+
+/// What the work on one interval needs beside what is kept of it.
+#[derive(Clone, Debug, Default)]
+struct IntervalBuffers {
+    /// The columns of Xᵀ of the free states, n × mf.
+    rows: Vec<f64>,
+    /// Right-hand sides of the free states, mf, and what is known of all, mn.
+    work: Vec<f64>,
+    /// For the factorisation of M where it is large.
+    workspace: Option<large::Workspace>,
+}
+
+impl Buffers for IntervalBuffers {}
+
+/// What is kept of the stages of one segment to condense residuals and to recover corrections.
+#[derive(Clone, Debug)]
+pub(crate) struct Condensation {
+    /// States n, parameters k and unknowns of all stages of an interval, mn.
+    n: usize,
+    k: usize,
+    size: usize,
+    /// The free states, f of them, and those chained to them.
+    chains: Chains,
+    /// Unknowns of the stages of the free states, mf.
+    free_size: usize,
+    /// LU factors of M, (mf)² per interval, and their pivots, mf per interval; free states one after
+    /// the other, each with all its stages.
+    lu: Vec<f64>,
+    pivots: Vec<usize>,
+    /// Xᵀ, n × mn per interval.
+    adjoint: Vec<f64>,
+    /// J and `F_p` side by side at the stages, m × n × (n + k) per interval.
+    jacobians: Vec<f64>,
+    buffers: IntervalBuffers,
+}
+
+impl Condensation {
+    /// For a segment with n states, k parameters, m stages, without any intervals.
+    pub(crate) fn new(n: usize, k: usize, m: usize) -> Self {
+        Self {
+            n,
+            k,
+            size: m * n,
+            chains: Chains::default(),
+            free_size: 0,
+            lu: vec![],
+            pivots: vec![],
+            adjoint: vec![],
+            jacobians: vec![],
+            buffers: IntervalBuffers::default(),
+        }
+    }
+
+    /// Room for so many intervals.
+    pub(crate) fn fit(&mut self, intervals: usize) {
+        let Self { n, k, size, .. } = *self;
+        self.adjoint.resize(intervals * n * size, 0.0);
+        self.jacobians.resize(intervals * size * (n + k), 0.0);
+        self.fit_free();
+    }
+
+    /// Room for the systems of the free states.
+    fn fit_free(&mut self) {
+        let intervals = self.adjoint.len() / (self.n * self.size);
+        let free_size = self.free_size;
+        self.lu.resize(intervals * free_size * free_size, 0.0);
+        self.pivots.resize(intervals * free_size, 0);
+    }
+
+    /// The Jacobians at the stages of all intervals, to be filled before
+    /// [`condense`](Self::condense).
+    pub(crate) fn jacobians_mut(&mut self) -> &mut [f64] {
+        &mut self.jacobians
+    }
+
+    /// The Jacobians at the stages of all intervals, as last filled.
+    pub(crate) fn jacobians(&self) -> &[f64] {
+        &self.jacobians
+    }
+
+    /// Chains the states that all Jacobians show to be chained, before [`condense`](Self::condense).
+    pub(crate) fn chain(&mut self, watch: &Watch) {
+        if self.chains.update(watch) {
+            let free_size = self.chains.free.len() * self.size / self.n;
+            self.free_size = free_size;
+            self.fit_free();
+            self.buffers.rows.resize(self.n * free_size, 0.0);
+            self.buffers.work.resize(free_size + self.size, 0.0);
+            let large = free_size >= LARGE;
+            self.buffers.workspace = large.then(|| large::Workspace::new(free_size));
+        }
+    }
+
+    /// Eliminates the stages of all intervals of a mesh: factors every M, finds Xᵀ and the link
+    /// \[I + Xᵀ J, Xᵀ F\]; fails with the first interval whose M is singular.
+    pub(crate) fn condense(
+        &mut self,
+        t: &Tableau,
+        mesh: &[f64],
+        links: &mut [f64],
+    ) -> Result<(), usize> {
+        let (n, k, m, size, columns) = (self.n, self.k, t.stages, self.size, self.n + self.k);
+        let (chains, f, free_size) = (&self.chains, self.chains.free.len(), self.free_size);
+        let jacobians = &self.jacobians;
+        let written = (
+            (&mut self.lu[..], &mut self.pivots[..]),
+            (&mut self.adjoint[..], links),
+        );
+        for_each_run(
+            0..mesh.len() - 1,
+            free_size * free_size * (free_size / 3 + n) + n * size * columns,
+            written,
+            &mut self.buffers,
+            &move |run, written, buffers| {
+                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(f in [1] =>
+                    condense_run(StageSystem::new(t, chains, [m, n, k, f]), run, mesh, jacobians, written, buffers)
+                )), else specialise!(m in [1, 2, 3, 4, 5] =>
+                    condense_run(StageSystem::new(t, chains, [m, n, k, f]), run, mesh, jacobians, written, buffers)
+                ))
+            },
+        )
+    }
+
+    /// The number of exchanges and of negative pivots of all M: odd if the product of their
+    /// determinants is negative.
+    pub(crate) fn negative(&self) -> usize {
+        let size = self.free_size;
+        let intervals = self
+            .lu
+            .chunks_exact(size * size)
+            .zip(self.pivots.chunks_exact(size));
+        let count = |(lu, pivots): (&[f64], &[usize])| {
+            let exchanges = pivots.iter().enumerate().filter(|(i, pivot)| i != *pivot);
+            let diagonal = lu.iter().step_by(size + 1);
+            exchanges.count() + diagonal.filter(|pivot| **pivot < 0.0).count()
+        };
+        intervals.map(count).sum()
+    }
+
+    /// The right-hand sides −Xᵀ r − c of all links, into the slots of nodes 1 … N of `nodes`.
+    pub(crate) fn reduce(&self, residual: &SegmentIterate, nodes: &mut [f64]) {
+        let (n, m) = (self.n, self.size / self.n);
+        let Ok(()) = for_each_run::<_, _, Infallible>(
+            0..nodes.len() / n - 1,
+            m * n * n,
+            &mut nodes[n..],
+            &mut (),
+            &move |run, loads, ()| {
+                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => {
+                    let size = m * n;
+                    let intervals = self.adjoint[run.start * n * size..]
+                        .chunks_exact(n * size)
+                        .zip(residual.stages[run.start * size..].chunks_exact(size))
+                        .zip(residual.nodes[(run.start + 1) * n..].chunks_exact(n))
+                        .zip(loads.chunks_exact_mut(n));
+                    for (((adjoint, r), c), g) in intervals {
+                        for ((g, row), c) in g.iter_mut().zip(adjoint.chunks_exact(size)).zip(c) {
+                            *g = -dot(row, r) - c;
+                        }
+                    }
+                }));
+                Ok(())
+            },
+        );
+    }
+
+    /// The corrections of the stages, δK = M⁻¹ (J δy + F δp − r), once those of the nodes and of
+    /// the parameters are known.
+    pub(crate) fn recover(
+        &mut self,
+        t: &Tableau,
+        mesh: &[f64],
+        residual: &SegmentIterate,
+        correction: &mut SegmentIterate,
+        dp: &[f64],
+    ) {
+        let (n, k, m, size, columns) = (self.n, self.k, t.stages, self.size, self.n + self.k);
+        let (chains, f, free_size) = (&self.chains, self.chains.free.len(), self.free_size);
+        let SegmentIterate { nodes, stages } = correction;
+        let factored = (&self.jacobians[..], &self.lu[..], &self.pivots[..]);
+        let known = (mesh, &nodes[..], dp, &residual.stages[..]);
+        let Ok(()) = for_each_run::<_, _, Infallible>(
+            0..mesh.len() - 1,
+            size * columns + free_size * free_size,
+            &mut stages[..],
+            &mut self.buffers,
+            &|run, stages, buffers| {
+                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(f in [1] =>
+                    recover_run(StageSystem::new(t, chains, [m, n, k, f]), run, factored, known, stages, buffers)
+                )), else specialise!(m in [1, 2, 3, 4, 5] =>
+                    recover_run(StageSystem::new(t, chains, [m, n, k, f]), run, factored, known, stages, buffers)
+                ));
+                Ok(())
+            },
+        );
+    }
+}
+
+/// What a run of intervals leaves: factors of M with pivots, and Xᵀ with the links.
+type Condensed<'a> = (
+    (&'a mut [f64], &'a mut [usize]),
+    (&'a mut [f64], &'a mut [f64]),
+);
+
+/// Eliminates the stages of a run of intervals; fails with the first one whose M is singular.
+#[inline(always)]
+fn condense_run(
+    system: StageSystem<'_>,
+    run: Range<usize>,
+    mesh: &[f64],
+    jacobians: &[f64],
+    ((lu, pivots), (adjoint, links)): Condensed<'_>,
+    buffers: &mut IntervalBuffers,
+) -> Result<(), usize> {
+    let StageSystem { m, n, k, f, .. } = system;
+    let (size, free_size, columns) = (m * n, m * f, n + k);
+    let workspace = &mut buffers.workspace;
+    let rows = &mut buffers.rows[..n * free_size];
+    for (place, i) in run.enumerate() {
+        let h = mesh[i + 1] - mesh[i];
+        let jacobians = &jacobians[i * size * columns..][..size * columns];
+        let lu = &mut lu[place * free_size * free_size..][..free_size * free_size];
+        let pivots = &mut pivots[place * free_size..][..free_size];
+        let adjoint = &mut adjoint[place * n * size..][..n * size];
+        let link = &mut links[place * n * columns..][..n * columns];
+        system.fill_matrix(h, jacobians, lu);
+        system.fill_weights(h, rows);
+        let done = match workspace {
+            Some(workspace) => large::lu_factor(lu, free_size, pivots, workspace)
+                .map(|()| large::lu_solve_transposed(lu, free_size, pivots, rows)),
+            None => dense::lu_factor_and_solve_transposed(lu, free_size, pivots, rows),
+        };
+        done.map_err(|SingularRow(_)| i)?;
+        system.expand(h, jacobians, rows, adjoint);
+        link.fill(0.0);
+        for row in 0..n {
+            link[row * columns + row] = 1.0;
+        }
+        if workspace.is_some() {
+            large::add_product(link, adjoint, jacobians, size, columns);
+        } else {
+            specialise!(k in [0, 1] => dense::add_product(link, adjoint, jacobians, size, n + k));
+        }
+    }
+    Ok(())
+}
+
+/// The corrections of the stages of a run of intervals from all Jacobians, factors and pivots, and from
+/// the mesh, the corrections of the nodes and of the parameters and the residuals of the stages.
+#[inline(always)]
+fn recover_run(
+    system: StageSystem<'_>,
+    run: Range<usize>,
+    (jacobians, lu, pivots): (&[f64], &[f64], &[usize]),
+    (mesh, nodes, dp, residuals): (&[f64], &[f64], &[f64], &[f64]),
+    stages: &mut [f64],
+    buffers: &mut IntervalBuffers,
+) {
+    let StageSystem { m, n, k, f, .. } = system;
+    let (size, free_size, columns) = (m * n, m * f, n + k);
+    let (free, known) = buffers.work.split_at_mut(free_size);
+    let known = &mut known[..size];
+    for (place, i) in run.enumerate() {
+        let h = mesh[i + 1] - mesh[i];
+        let jacobians = &jacobians[i * size * columns..][..size * columns];
+        let lu = &lu[i * free_size * free_size..][..free_size * free_size];
+        let pivots = &pivots[i * free_size..][..free_size];
+        let (dy, r) = (&nodes[i * n..][..n], &residuals[i * size..][..size]);
+        let stages = &mut stages[place * size..][..size];
+        system.apply(jacobians, dy, dp, r, stages);
+        system.gather_free(h, jacobians, stages, free, known);
+        if buffers.workspace.is_some() {
+            large::lu_solve(lu, free_size, pivots, free);
+        } else {
+            dense::lu_solve(lu, free_size, pivots, free);
+        }
+        system.scatter_free(h, free, stages);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Scheme;
+    use faer::Mat;
+
+    /// Numbers in [−1, 1) without a pattern.
+    fn noise(i: usize) -> f64 {
+        let x = (i as f64 + 0.5) * 0.754_877_666_246_692_8;
+        2.0 * (x - x.floor()) - 1.0
+    }
+
+    #[test]
+    fn the_sign_of_all_stage_determinants_is_known_in_small_and_large_systems() {
+        let mut seen = [false; 2];
+        for (n, m) in [(1, 3), (2, 4), (3, 1), (5, 7), (9, 4)] {
+            let t = Tableau::new(Scheme::Gauss { stages: m });
+            for trial in 0..20 {
+                let intervals = 3;
+                let mut stages = Condensation::new(n, 0, m);
+                stages.fit(intervals);
+                let mut sign = 1.0;
+                let mut mesh = vec![0.0];
+                let mut watch = Watch::new(n);
+                let all = stages.jacobians_mut().chunks_exact_mut(m * n * n);
+                for (i, jacobians) in all.enumerate() {
+                    // Intervals far too long for these equations.
+                    let h = 10.0 * (1.0 + noise(trial + 31 * i));
+                    mesh.push(mesh[i] + h);
+                    let h = mesh[i + 1] - mesh[i];
+                    for (j, x) in jacobians.iter_mut().enumerate() {
+                        *x = noise(1000 * trial + 100 * i + j);
+                    }
+                    watch.look(jacobians, n, n);
+                    let matrix = Mat::from_fn(m * n, m * n, |row, column| {
+                        let a = t.a[row / n * m + column / n];
+                        let identity = if row == column { 1.0 } else { 0.0 };
+                        identity - h * a * jacobians[row * n + column % n]
+                    });
+                    sign *= matrix.determinant().signum();
+                }
+                stages.chain(&watch);
+                let links = &mut vec![0.0; intervals * n * n];
+                stages.condense(&t, &mesh, links).unwrap();
+                let even = stages.negative().is_multiple_of(2);
+                assert_eq!(even, sign > 0.0, "n = {n}, m = {m}, trial {trial}");
+                seen[usize::from(even)] = true;
+            }
+        }
+        assert_eq!(seen, [true, true]);
+    }
+}

@@ -1,0 +1,51 @@
+//! What a singular system of ends and parameters leaves open.
+
+use crate::problem::problem::Segment;
+use crate::problem::unknown::Unknown;
+use faer::{ColRef, MatRef};
+use std::ops::Range;
+
+/// Conditions with at least this share of the largest entry of a null vector depend on each other.
+const DEPENDENT: f64 = 0.1;
+/// The first unknown with at least this share of the largest entry of a null vector is called free.
+const FREE: f64 = 0.5;
+
+/// Conditions that depend on each other, given the differential equations, and an unknown that they
+/// leave free. Nothing is known of a matrix that is regular or not finite.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Dependence {
+    /// Indices of the conditions, ascending.
+    pub(crate) conditions: Vec<usize>,
+    /// The unknown that is freest.
+    pub(crate) free: Option<Unknown>,
+}
+
+impl Dependence {
+    /// Of an equilibrated square matrix, row-major, whose conditions stand from row `first` on.
+    ///
+    /// With the singular value decomposition A = U Σ Vᵀ the last columns u, v of U and V have
+    /// uᵀ A = σ vᵀ and A v = σ u, the smallest singular value σ being negligible: the rows with
+    /// large uᵢ depend on each other, the unknowns with large vⱼ are free. Golub & Van Loan, *Matrix
+    /// Computations*, 4th ed., section 2.4.
+    pub(crate) fn of(matrix: &[f64], size: usize, first: usize, segments: &[Segment]) -> Self {
+        let finite = matrix.iter().all(|x| x.is_finite());
+        let Some(Ok(svd)) = finite.then(|| MatRef::from_row_major_slice(matrix, size, size).svd())
+        else {
+            return Self::default();
+        };
+        let sigma = svd.S().column_vector();
+        if sigma[size - 1] > f64::EPSILON.sqrt() * sigma[0] {
+            return Self::default();
+        }
+        let (u, v) = (svd.U().col(size - 1), svd.V().col(size - 1));
+        let largest =
+            |x: ColRef<'_, f64>, rows: Range<usize>| rows.fold(0.0, |m: f64, i| m.max(x[i].abs()));
+        let (dependent, free) = (largest(u, first..size), largest(v, 0..size));
+        let conditions = (first..size).filter(|&i| u[i].abs() > DEPENDENT * dependent);
+        let column = (0..size).find(|&j| v[j].abs() >= FREE * free);
+        Self {
+            conditions: conditions.map(|i| i - first).collect(),
+            free: column.map(|column| Unknown::of_column(segments, column)),
+        }
+    }
+}

@@ -1,0 +1,212 @@
+//! The dense system of all ends and parameters that remains when the segments are eliminated.
+
+use crate::kernels::dense::{SingularRow, lu_factor, lu_solve};
+use crate::kernels::lq::{lq_factor, lq_negative, lq_null_vector, lq_solve};
+use crate::newton_matrix::almost_block_diagonal::Singular;
+use crate::newton_matrix::dependence::Dependence;
+use crate::problem::problem::Segment;
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::{MatMut, MatRef};
+
+/// Systems of at least so many equations are factored by faer, whose blocked kernels are faster
+/// from about there on; below, its bookkeeping costs more than the arithmetic.
+const LARGE: usize = 64;
+
+/// An equilibrated system, factored: a square one with row pivoting, one with an equation fewer
+/// than unknowns by orthogonal transformations.
+#[derive(Clone, Debug)]
+pub(crate) struct EndSystem {
+    /// Unknowns.
+    size: usize,
+    /// The matrix, row-major; equilibrated once it is factored.
+    matrix: Vec<f64>,
+    /// Its factors, unless it is square and large.
+    factors: Vec<f64>,
+    /// Row exchanges of a square matrix.
+    pivots: Vec<usize>,
+    /// Factors of the reflections of a matrix with fewer rows.
+    tau: Vec<f64>,
+    /// The factors of a large square matrix.
+    large: Option<PartialPivLu<f64>>,
+    /// Equilibration of rows and columns.
+    row_scale: Vec<f64>,
+    column_scale: Vec<f64>,
+}
+
+impl EndSystem {
+    /// A system of as many `equations` as unknowns, or one fewer.
+    pub(crate) fn new(equations: usize, size: usize) -> Self {
+        let square = equations == size;
+        Self {
+            size,
+            matrix: vec![0.0; equations * size],
+            factors: vec![],
+            pivots: vec![0; if square { size } else { 0 }],
+            tau: vec![0.0; if square { 0 } else { equations }],
+            large: None,
+            row_scale: vec![0.0; equations],
+            column_scale: vec![0.0; size],
+        }
+    }
+
+    /// The matrix, row-major, to be filled before [`factor`](Self::factor).
+    pub(crate) fn matrix_mut(&mut self) -> &mut [f64] {
+        &mut self.matrix
+    }
+
+    /// Factors the filled matrix. A square one must be regular; one with fewer rows must be finite
+    /// and may have any rank.
+    pub(crate) fn factor(&mut self) -> Result<(), Singular> {
+        let size = self.size;
+        self.equilibrate()?;
+        if self.pivots.is_empty() || size < LARGE {
+            self.factors.clone_from(&self.matrix);
+        }
+        if self.pivots.is_empty() {
+            lq_factor(&mut self.factors, size, &mut self.tau);
+            return Ok(());
+        }
+        // In an equilibrated matrix a pivot at rounding level is a zero.
+        let negligible = size as f64 * f64::EPSILON;
+        if size < LARGE {
+            lu_factor(&mut self.factors, size, &mut self.pivots)
+                .map_err(|SingularRow(_)| Singular::Ends)?;
+        } else {
+            let matrix = MatRef::from_row_major_slice(&self.matrix, size, size);
+            self.large = Some(PartialPivLu::new(matrix));
+        }
+        if self.smallest_pivot() > negligible {
+            Ok(())
+        } else {
+            Err(Singular::Ends)
+        }
+    }
+
+    /// The smallest pivot of the equilibrated square matrix.
+    pub(crate) fn smallest_pivot(&self) -> f64 {
+        let pivot = |i: usize| match &self.large {
+            Some(factors) => factors.U()[(i, i)].abs(),
+            None => 1.0 / self.factors[i * self.size + i].abs(),
+        };
+        (0..self.size).map(pivot).fold(f64::INFINITY, f64::min)
+    }
+
+    /// What a square matrix that proved singular leaves open; its conditions stand from row
+    /// `first` on.
+    pub(crate) fn dependence(&self, first: usize, segments: &[Segment]) -> Dependence {
+        Dependence::of(&self.matrix, self.size, first, segments)
+    }
+
+    /// Scales rows, then columns, to largest entries of one; what is zero stays so.
+    fn equilibrate(&mut self) -> Result<(), Singular> {
+        self.column_scale.fill(0.0);
+        let rows = self.matrix.chunks_exact_mut(self.size);
+        for (row, scale) in rows.zip(&mut self.row_scale) {
+            *scale = inverse_of_largest(row).ok_or(Singular::Ends)?;
+            for (x, largest) in row.iter_mut().zip(&mut self.column_scale) {
+                *x *= *scale;
+                *largest = largest.max(x.abs());
+            }
+        }
+        for scale in &mut self.column_scale {
+            *scale = inverse_of_largest(&[*scale]).ok_or(Singular::Ends)?;
+        }
+        for row in self.matrix.chunks_exact_mut(self.size) {
+            for (x, scale) in row.iter_mut().zip(&self.column_scale) {
+                *x *= scale;
+            }
+        }
+        Ok(())
+    }
+
+    /// Replaces right-hand sides, the first entries of `x`, by the solution of the factored system;
+    /// by any one if there is an equation fewer.
+    pub(crate) fn solve(&self, x: &mut [f64]) {
+        for (x, scale) in x.iter_mut().zip(&self.row_scale) {
+            *x *= scale;
+        }
+        match &self.large {
+            Some(factors) => {
+                factors.solve_in_place(MatMut::from_column_major_slice_mut(x, self.size, 1));
+            }
+            None if self.pivots.is_empty() => lq_solve(&self.factors, self.size, &self.tau, x),
+            None => lu_solve(&self.factors, self.size, &self.pivots, x),
+        }
+        self.unscale(x);
+    }
+
+    /// A null vector of a system with an equation fewer than unknowns. Its direction is known up to
+    /// one sign for all systems of a size: det \[E; xᵀ\] is positive if the number returned is even.
+    pub(crate) fn null_vector(&self, x: &mut [f64]) -> usize {
+        lq_null_vector(&self.factors, self.size, &self.tau, x);
+        self.unscale(x);
+        lq_negative(&self.factors, self.size)
+    }
+
+    /// Undoes the scaling of the columns.
+    fn unscale(&self, x: &mut [f64]) {
+        for (x, scale) in x.iter_mut().zip(&self.column_scale) {
+            *x *= scale;
+        }
+    }
+}
+
+/// 1 / max |x|, 1 where all are zero, `None` where one is not finite.
+fn inverse_of_largest(x: &[f64]) -> Option<f64> {
+    let largest = x.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let finite = x.iter().all(|x| x.is_finite());
+    finite.then(|| if largest > 0.0 { 1.0 / largest } else { 1.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernels::dense::dot;
+
+    /// A well-conditioned matrix with rows of very different size.
+    fn system(size: usize) -> EndSystem {
+        let mut system = EndSystem::new(size, size);
+        for (i, row) in system.matrix_mut().chunks_exact_mut(size).enumerate() {
+            for (j, x) in row.iter_mut().enumerate() {
+                let number = ((i * 7919 + j * 104_729) % 1000) as f64 / 1000.0 - 0.5;
+                let diagonal = if (i * 5 + 3) % size == j {
+                    size as f64
+                } else {
+                    0.0
+                };
+                *x = (number + diagonal) * 10f64.powi(i32::try_from(i % 7).unwrap() - 3);
+            }
+        }
+        system
+    }
+
+    #[test]
+    fn small_and_large_systems_are_solved() {
+        // 5 and the sizes have no common factor, so the large entries form a permutation.
+        for size in [3, 33, LARGE - 1, LARGE, 101] {
+            let mut system = system(size);
+            let solution: Vec<f64> = (0..size).map(|i| 1.0 + i as f64).collect();
+            let rows = system.matrix_mut().chunks_exact(size);
+            let mut x: Vec<f64> = rows.map(|row| dot(row, &solution)).collect();
+            system.factor().unwrap();
+            assert_eq!(system.large.is_some(), size >= LARGE);
+            system.solve(&mut x);
+            for (found, exact) in x.iter().zip(&solution) {
+                assert!(
+                    (found / exact - 1.0).abs() < 1e-11,
+                    "{size}: {found} for {exact}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_repeated_row_is_singular_at_every_size() {
+        for size in [3, 33, LARGE, 101] {
+            let mut system = system(size);
+            let row = system.matrix_mut()[..size].to_vec();
+            system.matrix_mut()[size..2 * size].copy_from_slice(&row);
+            assert_eq!(system.factor(), Err(Singular::Ends), "{size}");
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! The Newton matrix of a discretised problem: condensed, factored, solved with.
+
+pub(crate) mod almost_block_diagonal;
+pub(crate) mod condensation;
+pub(crate) mod dependence;
+pub(crate) mod derivative_states;
+pub(crate) mod end_system;
+pub(crate) mod stage_system;

@@ -1,0 +1,275 @@
+//! The stages of one interval: the system of the free states, and the chained states from them.
+//!
+//! Notation of [`condensation`](crate::condensation).
+
+use crate::discretisation::scheme::MAX_STAGES;
+use crate::discretisation::tableau::{POWERS, Tableau};
+use crate::kernels::dense::add_scaled;
+use crate::kernels::specialise::specialise;
+use crate::newton_matrix::derivative_states::Chains;
+
+/// Unit vectors.
+const IDENTITY: [[f64; MAX_STAGES]; MAX_STAGES] = {
+    let mut identity = [[0.0; MAX_STAGES]; MAX_STAGES];
+    let mut i = 0;
+    while i < MAX_STAGES {
+        identity[i][i] = 1.0;
+        i += 1;
+    }
+    identity
+};
+
+/// The equations of the stages of an interval, with numbers that the compiler knows where it inlines
+/// what is done with them.
+#[derive(Clone, Copy)]
+pub(crate) struct StageSystem<'a> {
+    t: &'a Tableau,
+    chains: &'a Chains,
+    /// Stages m, states n, parameters k, free states f.
+    pub(crate) m: usize,
+    pub(crate) n: usize,
+    pub(crate) k: usize,
+    pub(crate) f: usize,
+}
+
+/// h, h², …
+#[inline(always)]
+fn powers_of(h: f64) -> [f64; POWERS] {
+    let mut powers = [h; POWERS];
+    for d in 1..POWERS {
+        powers[d] = powers[d - 1] * h;
+    }
+    powers
+}
+
+/// A x for an m × m matrix.
+#[inline(always)]
+fn product(a: &[f64], m: usize, x: &[f64]) -> [f64; MAX_STAGES] {
+    let mut products = [0.0; MAX_STAGES];
+    for (product, row) in products[..m].iter_mut().zip(a.chunks_exact(m)) {
+        for (a, x) in row.iter().zip(&x[..m]) {
+            *product += a * x;
+        }
+    }
+    products
+}
+
+impl<'a> StageSystem<'a> {
+    /// With m, n, k and f.
+    #[inline(always)]
+    pub(crate) fn new(t: &'a Tableau, chains: &'a Chains, [m, n, k, f]: [usize; 4]) -> Self {
+        Self {
+            t,
+            chains,
+            m,
+            n,
+            k,
+            f,
+        }
+    }
+
+    /// The part of M of the free states.
+    #[inline(always)]
+    pub(crate) fn fill_matrix(self, h: f64, jacobians: &[f64], matrix: &mut [f64]) {
+        let Self {
+            t,
+            chains,
+            m,
+            n,
+            k,
+            f,
+        } = self;
+        let powers = powers_of(h);
+        for (v, &state) in chains.free[..f].iter().enumerate() {
+            for (j, unit) in IDENTITY[..m].iter().enumerate() {
+                let slopes = &jacobians[(j * n + state) * (n + k)..][..n];
+                let row = &mut matrix[(v * m + j) * f * m..][..f * m];
+                for (end, block) in row.chunks_exact_mut(m).enumerate() {
+                    let mut sums = if end == v { *unit } else { [0.0; MAX_STAGES] };
+                    for &(c, links) in self.ending_at(end) {
+                        let a = &t.powers[(links * m + j) * m..][..m];
+                        add_scaled(&mut sums[..m], -slopes[c] * powers[links], a);
+                    }
+                    block.copy_from_slice(&sums[..m]);
+                }
+            }
+        }
+    }
+
+    /// The states whose chains end at a free one, with the numbers of links. They are all if there is no
+    /// other free state.
+    #[inline(always)]
+    fn ending_at(&self, place: usize) -> &[(usize, usize)] {
+        if self.f == 1 {
+            &self.chains.members[..self.n]
+        } else {
+            &self.chains.members[self.chains.groups[place].clone()]
+        }
+    }
+
+    /// h (bᵀ ⊗ I) for the free states, n rows: those of the other states through the chains.
+    #[inline(always)]
+    pub(crate) fn fill_weights(self, h: f64, rows: &mut [f64]) {
+        let Self {
+            t, chains, m, n, f, ..
+        } = self;
+        let powers = powers_of(h);
+        rows.fill(0.0);
+        for (row, &(end, links)) in chains.ends[..n].iter().enumerate() {
+            let of_end = &mut rows[(row * f + end) * m..][..m];
+            add_scaled(of_end, powers[links], &t.weights[links * m..][..m]);
+        }
+    }
+
+    /// Xᵀ from its columns of the free states: for a chained state c and all that is chained to it
+    ///
+    /// ```text
+    /// x_c = h b + h Aᵀ ( Σ_v diag(J_vc) x_v + Σ x_chained )      h b only in the row of c
+    /// ```
+    #[inline(always)]
+    pub(crate) fn expand(self, h: f64, jacobians: &[f64], rows: &[f64], adjoint: &mut [f64]) {
+        let Self {
+            t,
+            chains,
+            m,
+            n,
+            k,
+            f,
+        } = self;
+        for row in 0..n {
+            let x_free = &rows[row * f * m..][..f * m];
+            let adjoint = &mut adjoint[row * m * n..][..m * n];
+            for (place, &v) in chains.free[..f].iter().enumerate() {
+                for j in 0..m {
+                    adjoint[j * n + v] = x_free[place * m + j];
+                }
+            }
+            for &(c, _) in chains.chained.iter().rev() {
+                let mut sums = [0.0; MAX_STAGES];
+                let sums = &mut sums[..m];
+                for (x, &v) in x_free.chunks_exact(m).zip(&chains.free) {
+                    for (j, sum) in sums.iter_mut().enumerate() {
+                        *sum += jacobians[(j * n + v) * (n + k) + c] * x[j];
+                    }
+                }
+                for &(chained, source) in &chains.chained {
+                    if source == c {
+                        for (j, sum) in sums.iter_mut().enumerate() {
+                            *sum += adjoint[j * n + chained];
+                        }
+                    }
+                }
+                let mut x = [0.0; MAX_STAGES];
+                let x = &mut x[..m];
+                if c == row {
+                    x.copy_from_slice(&t.b[..m]);
+                }
+                for (sum, a) in sums.iter().zip(t.a.chunks_exact(m)) {
+                    add_scaled(x, *sum, a);
+                }
+                for (j, x) in x.iter().enumerate() {
+                    adjoint[j * n + c] = h * x;
+                }
+            }
+        }
+    }
+
+    /// J δy + F δp − r into `stages`.
+    #[inline(always)]
+    pub(crate) fn apply(
+        self,
+        jacobians: &[f64],
+        dy: &[f64],
+        dp: &[f64],
+        r: &[f64],
+        stages: &mut [f64],
+    ) {
+        let Self { m, n, k, .. } = self;
+        specialise!(k in [0, 1] => for i in 0..m * n {
+            let row = &jacobians[i * (n + k)..][..n + k];
+            let mut sum = -r[i];
+            for c in 0..n {
+                sum += row[c] * dy[c];
+            }
+            for c in 0..k {
+                sum += row[n + c] * dp[c];
+            }
+            stages[i] = sum;
+        });
+    }
+
+    /// The right-hand sides of the free states from those of all, which are those of a system where
+    /// every chained state c has its slopes
+    ///
+    /// ```text
+    /// K_c = T_c + h^d A^d K_end,    T_c = ρ_c + h A T_source      without the last term if the source is free
+    /// ```
+    ///
+    /// T is left in the place of ρ. `known` holds h A T.
+    #[inline(always)]
+    pub(crate) fn gather_free(
+        self,
+        h: f64,
+        jacobians: &[f64],
+        stages: &mut [f64],
+        free: &mut [f64],
+        known: &mut [f64],
+    ) {
+        let Self {
+            t,
+            chains,
+            m,
+            n,
+            k,
+            f,
+        } = self;
+        for (place, &v) in chains.free[..f].iter().enumerate() {
+            for j in 0..m {
+                free[place * m + j] = stages[j * n + v];
+            }
+        }
+        for &(c, source) in &chains.chained {
+            let mut slopes = [0.0; MAX_STAGES];
+            for j in 0..m {
+                slopes[j] = stages[j * n + c];
+            }
+            if chains.ends[source].1 > 0 {
+                for j in 0..m {
+                    slopes[j] += known[source * m + j];
+                    stages[j * n + c] = slopes[j];
+                }
+            }
+            let products = product(&t.a, m, &slopes);
+            for j in 0..m {
+                known[c * m + j] = h * products[j];
+            }
+            for (place, &v) in chains.free[..f].iter().enumerate() {
+                for j in 0..m {
+                    let slope = jacobians[(j * n + v) * (n + k) + c];
+                    free[place * m + j] += slope * (h * products[j]);
+                }
+            }
+        }
+    }
+
+    /// The slopes of all states from those of the free ones and T of the others.
+    #[inline(always)]
+    pub(crate) fn scatter_free(self, h: f64, free: &[f64], stages: &mut [f64]) {
+        let Self {
+            t, chains, m, n, f, ..
+        } = self;
+        let powers = powers_of(h);
+        for (place, &v) in chains.free[..f].iter().enumerate() {
+            for j in 0..m {
+                stages[j * n + v] = free[place * m + j];
+            }
+        }
+        for &(c, _) in &chains.chained {
+            let (end, links) = chains.ends[c];
+            let products = product(&t.powers[(links - 1) * m * m..], m, &free[end * m..]);
+            for j in 0..m {
+                stages[j * n + c] += powers[links - 1] * products[j];
+            }
+        }
+    }
+}

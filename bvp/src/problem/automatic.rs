@@ -1,0 +1,167 @@
+//! Exact Jacobians of a [`Problem`] by dual numbers.
+
+use crate::kernels::specialise::specialise;
+use crate::problem::dual::Dual;
+use crate::problem::equations::Equations;
+use crate::problem::problem::{Ends, Problem, Segment};
+use crate::problem::real::Real;
+
+/// The widest dual number: more directions are carried in several passes.
+const WIDEST: usize = 24;
+
+impl<P: Problem> Equations for P {
+    fn segments(&self) -> &[Segment] {
+        Problem::segments(self)
+    }
+
+    fn parameters(&self) -> usize {
+        Problem::parameters(self)
+    }
+
+    fn condition_count(&self) -> usize {
+        Problem::condition_count(self)
+    }
+
+    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        Problem::rhs(self, segment, s, y, p, dy);
+    }
+
+    fn rhs_jacobian(
+        &self,
+        segment: usize,
+        s: f64,
+        y: &[f64],
+        p: &[f64],
+        dy: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        let rhs = RhsAt {
+            problem: self,
+            segment,
+            s,
+        };
+        differentiate(&rhs, y, p, dy, jacobian);
+    }
+
+    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+        Problem::conditions(self, at, p, r);
+    }
+
+    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
+        differentiate(&Conditions(self), ends, p, r, jacobian);
+    }
+}
+
+/// A function of (z, p) that can be evaluated with any scalar.
+trait Differentiable {
+    fn evaluate<T: Real>(&self, z: &[T], p: &[T], value: &mut [T]);
+}
+
+/// The right-hand side of a problem at one s.
+struct RhsAt<'a, P> {
+    problem: &'a P,
+    segment: usize,
+    s: f64,
+}
+
+impl<P: Problem> Differentiable for RhsAt<'_, P> {
+    fn evaluate<T: Real>(&self, y: &[T], p: &[T], dy: &mut [T]) {
+        let s = T::from_f64(self.s);
+        self.problem.rhs(self.segment, s, y, p, dy);
+    }
+}
+
+/// The conditions of a problem.
+struct Conditions<'a, P>(&'a P);
+
+impl<P: Problem> Differentiable for Conditions<'_, P> {
+    fn evaluate<T: Real>(&self, ends: &[T], p: &[T], r: &mut [T]) {
+        let at = Ends::new(Problem::segments(self.0), ends);
+        Problem::conditions(self.0, at, p, r);
+    }
+}
+
+/// Value and Jacobian of a function with at most as many values as arguments. The Jacobian is
+/// row-major, its columns z and then p.
+fn differentiate(
+    function: &impl Differentiable,
+    z: &[f64],
+    p: &[f64],
+    value: &mut [f64],
+    jacobian: &mut [f64],
+) {
+    // The smallest of a few widths that carries all directions in one pass.
+    match z.len() + p.len() {
+        0..=2 => one_pass::<2>(function, z, p, value, jacobian),
+        3..=4 => one_pass::<4>(function, z, p, value, jacobian),
+        5..=6 => one_pass::<6>(function, z, p, value, jacobian),
+        7..=10 => one_pass::<10>(function, z, p, value, jacobian),
+        11..=16 => one_pass::<16>(function, z, p, value, jacobian),
+        17..=WIDEST => one_pass::<WIDEST>(function, z, p, value, jacobian),
+        _ => in_passes(function, z, p, value, jacobian),
+    }
+}
+
+/// All directions at once, on the stack.
+fn one_pass<const W: usize>(
+    function: &impl Differentiable,
+    z: &[f64],
+    p: &[f64],
+    value: &mut [f64],
+    jacobian: &mut [f64],
+) {
+    let columns = z.len() + p.len();
+    let mut arguments = Dual::<W>::VARIABLES;
+    for (argument, &x) in arguments.iter_mut().zip(z.iter().chain(p)) {
+        argument.value = x;
+    }
+    let mut values = [Dual::<W>::constant(f64::NAN); W];
+    let (zs, ps) = arguments[..columns].split_at(z.len());
+    function.evaluate(zs, ps, &mut values[..value.len()]);
+    specialise!(columns in [1, 2, 3, 4, 5, 6] => write(&values, value, jacobian, columns));
+}
+
+/// Writes values, and gradients with so many columns.
+#[inline(always)]
+fn write<const W: usize>(
+    from: &[Dual<W>; W],
+    value: &mut [f64],
+    jacobian: &mut [f64],
+    columns: usize,
+) {
+    let rows = from.iter().zip(value);
+    for ((dual, value), row) in rows.zip(jacobian.chunks_exact_mut(columns)) {
+        *value = dual.value;
+        row.copy_from_slice(&dual.gradient[..columns]);
+    }
+}
+
+/// [`WIDEST`] directions per pass. The only evaluation that allocates: beside so many arguments
+/// two buffers cost nothing.
+fn in_passes(
+    function: &impl Differentiable,
+    z: &[f64],
+    p: &[f64],
+    value: &mut [f64],
+    jacobian: &mut [f64],
+) {
+    let columns = z.len() + p.len();
+    let mut arguments: Vec<Dual<WIDEST>> = z.iter().chain(p).map(|&x| Dual::constant(x)).collect();
+    let mut values = vec![Dual::constant(f64::NAN); value.len()];
+    for first in (0..columns).step_by(WIDEST) {
+        let width = WIDEST.min(columns - first);
+        for direction in 0..width {
+            arguments[first + direction].gradient[direction] = 1.0;
+        }
+        let (zs, ps) = arguments.split_at(z.len());
+        function.evaluate(zs, ps, &mut values);
+        for (i, dual) in values.iter().enumerate() {
+            value[i] = dual.value;
+            let row = &mut jacobian[i * columns + first..][..width];
+            row.copy_from_slice(&dual.gradient[..width]);
+        }
+        for argument in &mut arguments[first..first + width] {
+            argument.gradient = [0.0; WIDEST];
+        }
+    }
+}

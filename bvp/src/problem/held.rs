@@ -1,0 +1,106 @@
+//! Equations with some of their parameters held.
+
+use crate::problem::equations::Equations;
+use crate::problem::problem::{Ends, Segment};
+
+/// Equations with one more condition pᵢ − value = 0 for each of some parameters, after their own.
+#[derive(Clone)]
+pub(crate) struct Held<'a> {
+    equations: &'a dyn Equations,
+    /// Index and value of each held parameter.
+    values: Vec<(usize, f64)>,
+}
+
+impl<'a> Held<'a> {
+    /// The equations as they are.
+    pub(crate) fn none(equations: &'a dyn Equations) -> Self {
+        Self::new(equations, &[], &[])
+    }
+
+    /// The equations with the parameters of these indices held at their values in `p`.
+    pub(crate) fn new(equations: &'a dyn Equations, indices: &[usize], p: &[f64]) -> Self {
+        let values = indices.iter().map(|&index| (index, p[index])).collect();
+        Self { equations, values }
+    }
+
+    /// Other equations with the same parameters held at the same values.
+    pub(crate) fn exchanged<'b>(&self, equations: &'b dyn Equations) -> Held<'b> {
+        let values = self.values.clone();
+        Held { equations, values }
+    }
+
+    /// Number of parameters held.
+    pub(crate) fn held_count(&self) -> usize {
+        self.values.len()
+    }
+
+    /// The value of a parameter, if it is held.
+    pub(crate) fn value(&self, index: usize) -> Option<f64> {
+        let held = self.values.iter().find(|(held, _)| *held == index);
+        held.map(|(_, value)| *value)
+    }
+
+    /// Holds a parameter at another value; returns whether it is held at all.
+    pub(crate) fn hold(&mut self, index: usize, value: f64) -> bool {
+        let held = self.values.iter_mut().find(|(held, _)| *held == index);
+        held.map(|(_, held)| *held = value).is_some()
+    }
+
+    /// Writes the held values into `p`.
+    pub(crate) fn fill(&self, p: &mut [f64]) {
+        for &(index, value) in &self.values {
+            p[index] = value;
+        }
+    }
+}
+
+impl Equations for Held<'_> {
+    fn segments(&self) -> &[Segment] {
+        self.equations.segments()
+    }
+
+    fn parameters(&self) -> usize {
+        self.equations.parameters()
+    }
+
+    fn condition_count(&self) -> usize {
+        self.equations.condition_count() + self.values.len()
+    }
+
+    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        self.equations.rhs(segment, s, y, p, dy);
+    }
+
+    fn rhs_jacobian(
+        &self,
+        segment: usize,
+        s: f64,
+        y: &[f64],
+        p: &[f64],
+        dy: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        self.equations.rhs_jacobian(segment, s, y, p, dy, jacobian);
+    }
+
+    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+        let (own, held) = r.split_at_mut(r.len() - self.values.len());
+        self.equations.conditions(at, p, own);
+        for (r, (index, value)) in held.iter_mut().zip(&self.values) {
+            *r = p[*index] - value;
+        }
+    }
+
+    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
+        let (own, held) = r.split_at_mut(r.len() - self.values.len());
+        let columns = ends.len() + p.len();
+        let (own_rows, held_rows) = jacobian.split_at_mut(own.len() * columns);
+        self.equations.conditions_jacobian(ends, p, own, own_rows);
+        let rows = held.iter_mut().zip(held_rows.chunks_exact_mut(columns));
+        for ((r, row), (index, value)) in rows.zip(&self.values) {
+            *r = p[*index] - value;
+            row.fill(0.0);
+            row[ends.len() + index] = 1.0;
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! What a user states: segments, equations, conditions and a guess.
+
+pub(crate) mod automatic;
+pub(crate) mod check;
+pub(crate) mod complex;
+pub(crate) mod difference;
+pub(crate) mod dual;
+pub(crate) mod equations;
+pub(crate) mod guess;
+pub(crate) mod held;
+pub(crate) mod problem;
+pub(crate) mod real;
+pub(crate) mod unknown;

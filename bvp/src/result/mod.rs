@@ -1,0 +1,6 @@
+//! What the solver returns.
+
+pub(crate) mod error;
+pub(crate) mod report;
+pub(crate) mod solution;
+pub(crate) mod stats;

@@ -1,0 +1,232 @@
+//! The continuous solution.
+
+use crate::accuracy::defect::Defects;
+use crate::accuracy::global_error::GlobalErrors;
+use crate::discretisation::iterate::Iterate;
+use crate::discretisation::mesh::Mesh;
+use crate::discretisation::scheme::MAX_STAGES;
+use crate::discretisation::scheme::Scheme;
+use crate::discretisation::tableau::Tableau;
+use crate::kernels::dense::{add_scaled, max_or_nan};
+use crate::problem::guess::Guess;
+use crate::problem::guess::{compare_shape, interval_of};
+use crate::problem::problem::Segment;
+use crate::result::error::Error;
+use crate::result::stats::Stats;
+use std::sync::Arc;
+
+/// A solution (or, in an [`Error`], the best iterate): a collocation polynomial on
+/// every interval, the parameters, and what is known of their accuracy.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    pub(crate) segments: Vec<Segment>,
+    pub(crate) tableau: Arc<Tableau>,
+    pub(crate) mesh: Mesh,
+    pub(crate) x: Iterate,
+    pub(crate) quality: Quality,
+    pub(crate) stats: Stats,
+}
+
+/// What is known of the accuracy of an iterate; infinite where it is not known.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Quality {
+    pub(crate) defects: Defects,
+    /// |Residual| of every condition; none where they are not known.
+    pub(crate) conditions: Vec<f64>,
+    /// Estimated global error of the states of every segment and of the parameters.
+    pub(crate) errors: Option<GlobalErrors>,
+}
+
+impl Quality {
+    /// Nothing is known.
+    pub(crate) fn unknown(mesh: &Mesh) -> Self {
+        Self {
+            defects: Defects::unknown(mesh),
+            conditions: vec![],
+            errors: None,
+        }
+    }
+}
+
+impl Solution {
+    /// The states of `segment` at `s`, into `y` (n numbers). Accurate to the order
+    /// [`Scheme::dense_order`] everywhere; outside the segment the last polynomial is extended.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    pub fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
+        let (i, h, theta) = self.locate(segment, s);
+        let mut weights = [0.0; MAX_STAGES];
+        self.tableau
+            .value_weights(theta, &mut weights[..self.tableau.stages]);
+        y.copy_from_slice(self.node(segment, i));
+        self.add_stages(segment, i, &weights, h, y);
+    }
+
+    /// The derivatives dy/ds of the continuous solution of `segment` at `s`, into `slope`.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    pub fn derivative(&self, segment: usize, s: f64, slope: &mut [f64]) {
+        let (i, _, theta) = self.locate(segment, s);
+        let mut weights = [0.0; MAX_STAGES];
+        self.tableau
+            .slope_weights(theta, &mut weights[..self.tableau.stages]);
+        slope.fill(0.0);
+        self.add_stages(segment, i, &weights, 1.0, slope);
+    }
+
+    /// The parameters, k numbers.
+    pub fn parameters(&self) -> &[f64] {
+        &self.x.p
+    }
+
+    /// The mesh nodes of a segment, ascending.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    pub fn mesh(&self, segment: usize) -> &[f64] {
+        &self.mesh[segment]
+    }
+
+    /// The states at a mesh node, where the order is highest.
+    ///
+    /// # Panics
+    /// If there is no such segment or node.
+    pub fn node(&self, segment: usize, node: usize) -> &[f64] {
+        let n = self.segments[segment].states;
+        &self.x.segments[segment].nodes[node * n..][..n]
+    }
+
+    /// The states at the left end of a segment.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    pub fn start(&self, segment: usize) -> &[f64] {
+        self.node(segment, 0)
+    }
+
+    /// The states at the right end of a segment.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    pub fn end(&self, segment: usize) -> &[f64] {
+        self.node(segment, self.mesh[segment].len() - 1)
+    }
+
+    /// The segments that were solved.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// The scheme that was used.
+    pub fn scheme(&self) -> Scheme {
+        self.tableau.scheme
+    }
+
+    /// The relative defect of every interval of a segment, root mean square over the interval.
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    pub fn defects(&self, segment: usize) -> &[f64] {
+        &self.quality.defects.relative[segment]
+    }
+
+    /// The largest relative defect; infinite for an iterate that never converged.
+    pub fn defect(&self) -> f64 {
+        let all = self.quality.defects.relative.iter().flatten();
+        all.copied().reduce(max_or_nan).unwrap_or(f64::INFINITY)
+    }
+
+    /// The largest |residual| among the conditions; infinite for an iterate that never converged.
+    pub fn condition_residual(&self) -> f64 {
+        let all = self.quality.conditions.iter().copied();
+        all.reduce(f64::max).unwrap_or(f64::INFINITY)
+    }
+
+    /// The largest estimated global error of all states and parameters, relative to 1 + |value|;
+    /// `None` where the estimate was skipped or could not be had.
+    pub fn error_estimate(&self) -> Option<f64> {
+        self.quality.errors.as_ref().map(GlobalErrors::largest)
+    }
+
+    /// The estimated global error of each state of a segment, the largest over the segment,
+    /// relative to 1 + |y|; `None` as for [`error_estimate`](Self::error_estimate).
+    ///
+    /// # Panics
+    /// If there is no such segment.
+    pub fn state_errors(&self, segment: usize) -> Option<&[f64]> {
+        let errors = self.quality.errors.as_ref()?;
+        Some(&errors.states[segment])
+    }
+
+    /// The estimated global error of each parameter, relative to 1 + |p|; `None` as for
+    /// [`error_estimate`](Self::error_estimate).
+    pub fn parameter_errors(&self) -> Option<&[f64]> {
+        let errors = self.quality.errors.as_ref()?;
+        Some(&errors.parameters)
+    }
+
+    /// What the solution has cost.
+    pub fn stats(&self) -> &Stats {
+        &self.stats
+    }
+
+    /// The interval with the largest defect: its segment, left end and length.
+    pub(crate) fn worst_interval(&self) -> (usize, f64, f64) {
+        let (mut worst, mut place) = (f64::NEG_INFINITY, (0, f64::NAN, f64::NAN));
+        for (segment, (nodes, defects)) in self
+            .mesh
+            .iter()
+            .zip(&self.quality.defects.relative)
+            .enumerate()
+        {
+            for (pair, &defect) in nodes.windows(2).zip(defects) {
+                if defect > worst {
+                    (worst, place) = (defect, (segment, pair[0], pair[1] - pair[0]));
+                }
+            }
+        }
+        place
+    }
+
+    /// The interval of `segment` with `s`, its length, and the place in it from 0 to 1.
+    fn locate(&self, segment: usize, s: f64) -> (usize, f64, f64) {
+        let nodes = &self.mesh[segment];
+        let i = interval_of(nodes, s);
+        let h = nodes[i + 1] - nodes[i];
+        (i, h, (s - nodes[i]) / h)
+    }
+
+    /// y += factor Σ weightsₗ Kₗ on interval i.
+    fn add_stages(&self, segment: usize, i: usize, weights: &[f64], factor: f64, y: &mut [f64]) {
+        let (n, m) = (y.len(), self.tableau.stages);
+        let stages = &self.x.segments[segment].stages[i * m * n..][..m * n];
+        for (weight, stage) in weights.iter().zip(stages.chunks_exact(n)) {
+            add_scaled(y, factor * weight, stage);
+        }
+    }
+}
+
+impl Guess for Solution {
+    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
+        Self::state(self, segment, s, y);
+    }
+
+    fn parameters(&self, p: &mut [f64]) {
+        p.copy_from_slice(&self.x.p);
+    }
+
+    fn mesh(&self) -> Option<Vec<Vec<f64>>> {
+        Some(self.mesh.clone())
+    }
+
+    fn check_shape(&self, segments: &[Segment], parameters: usize) -> Result<(), Error> {
+        compare_shape(
+            |segment| self.segments.get(segment).map_or(0, |s| s.states),
+            segments.iter().map(|segment| segment.states),
+            self.x.p.len(),
+            parameters,
+        )
+    }
+}

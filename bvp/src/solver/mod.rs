@@ -1,0 +1,10 @@
+//! The driver: from a statement and a guess to a solution or an error.
+
+pub(crate) mod embedding;
+pub(crate) mod failure;
+pub(crate) mod homotopy;
+pub(crate) mod options;
+pub(crate) mod solver;
+pub(crate) mod statement;
+pub(crate) mod stepping;
+pub(crate) mod straight;

@@ -1,0 +1,106 @@
+//! How to solve.
+
+use crate::discretisation::scheme::Scheme;
+use crate::result::error::Error;
+
+/// The settings of [`solve`](crate::solve) and [`Family`](crate::Family). Update the defaults with struct syntax:
+///
+/// ```
+/// let options = bvp::Options { tolerance: 1e-9, ..bvp::Options::default() };
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// The estimated global error relative to 1 + |y| is brought to at most this number, or, where its
+    /// estimate is skipped, the defect in the differential equations relative to 1 + |f|; and so are
+    /// the residuals of the conditions, relative to the size of their terms where that exceeds one.
+    /// Between 1e-13 and 1e-1; default 1e-6.
+    pub tolerance: f64,
+    /// The collocation scheme; default `None`, [`Scheme::for_tolerance`].
+    pub scheme: Option<Scheme>,
+    /// Number of equal intervals per segment that the solver may think of as a first mesh, where the
+    /// guess brings none; default 10. Where the error is estimated it begins with a third of more than
+    /// three equal intervals, also with those of a guess: they tell nothing of the solution.
+    pub initial_intervals: usize,
+    /// Largest number of intervals over all segments; default 10 000.
+    pub max_intervals: usize,
+    /// Largest number of Newton steps on one mesh; default 60.
+    pub max_newton_steps: usize,
+    /// How often, after a failure of Newton's method, the mesh is halved and the guess taken again;
+    /// default 3. Before that the guess is tried with its slopes replaced by f along it and integrated,
+    /// one step of Picard's iteration; after all that, once more from a straight line between end
+    /// states that meet the conditions, by a homotopy. Callers that have a better answer to a failure
+    /// set 0, which omits all of it.
+    pub retries: usize,
+    /// Whether the global error is estimated, and so what the mesh is chosen for; default
+    /// [`GlobalError::Estimated`].
+    pub global_error: GlobalError,
+}
+
+/// Whether the global error of a solution is estimated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GlobalError {
+    /// It is, by defect correction, and the mesh is chosen for it.
+    Estimated,
+    /// It is, on a mesh on which the defect, too, is at most the tolerance. For what depends on slopes or
+    /// integrates right-hand sides; asks for more intervals.
+    BesideDefect,
+    /// Not at all: for intermediate solutions on the way to another one. The mesh is chosen for the
+    /// defect, which asks for more intervals than the error does.
+    Skip,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-6,
+            scheme: None,
+            initial_intervals: 10,
+            max_intervals: 10_000,
+            max_newton_steps: 60,
+            retries: 3,
+            global_error: GlobalError::Estimated,
+        }
+    }
+}
+
+impl Options {
+    /// The default settings with another tolerance.
+    ///
+    /// ```
+    /// let options = bvp::Options::to(1e-9);
+    /// assert_eq!(options.scheme().order(), 14);
+    /// ```
+    pub fn to(tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            ..Self::default()
+        }
+    }
+
+    /// The scheme that is used: the one set, or that for the tolerance.
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+            .unwrap_or_else(|| Scheme::for_tolerance(self.tolerance))
+    }
+
+    /// Checks every setting.
+    ///
+    /// # Errors
+    /// [`Error::Tolerance`], [`Error::Stages`] or [`Error::NoIntervals`].
+    pub fn validate(&self) -> Result<(), Error> {
+        if !(1e-13..=1e-1).contains(&self.tolerance) {
+            return Err(Error::Tolerance {
+                tolerance: self.tolerance,
+            });
+        }
+        if !self.scheme().is_valid() {
+            return Err(Error::Stages {
+                scheme: self.scheme(),
+            });
+        }
+        if self.initial_intervals == 0 {
+            return Err(Error::NoIntervals);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,103 @@
+//! Checks of what the caller states, before any arithmetic.
+
+use crate::discretisation::iterate::Iterate;
+use crate::discretisation::mesh::{Mesh, intervals, uniform};
+use crate::problem::equations::Equations;
+use crate::problem::guess::Guess;
+use crate::result::error::Error;
+use crate::solver::options::Options;
+
+/// Checks that the problem is stated completely, with a condition for every state and parameter
+/// but so many `free` parameters.
+pub(crate) fn check_statement(equations: &dyn Equations, free: usize) -> Result<(), Error> {
+    let segments = equations.segments();
+    if segments.is_empty() {
+        return Err(Error::NoSegments);
+    }
+    for (index, segment) in segments.iter().enumerate() {
+        if segment.states == 0 {
+            return Err(Error::NoStates { segment: index });
+        }
+        let length = segment.to - segment.from;
+        if !(length > 0.0 && length.is_finite()) {
+            return Err(Error::Interval {
+                segment: index,
+                from: segment.from,
+                to: segment.to,
+            });
+        }
+    }
+    let states = segments.iter().map(|segment| segment.states).sum();
+    let parameters = equations.parameters() - free;
+    let unknowns = states + parameters;
+    let conditions = equations.condition_count();
+    if conditions != unknowns {
+        return Err(Error::ConditionCount {
+            conditions,
+            unknowns,
+            states,
+            parameters,
+        });
+    }
+    Ok(())
+}
+
+/// The mesh to start on: that of the guess or equal intervals, if the guess fits the problem.
+pub(crate) fn first_mesh(
+    equations: &dyn Equations,
+    guess: &dyn Guess,
+    options: &Options,
+) -> Result<Mesh, Error> {
+    let segments = equations.segments();
+    let mesh = match guess.mesh() {
+        None => uniform(segments, options.initial_intervals),
+        Some(mesh) => {
+            for (index, segment) in segments.iter().enumerate() {
+                let fits = mesh.get(index).is_some_and(|nodes| {
+                    nodes.len() >= 2
+                        && nodes.first() == Some(&segment.from)
+                        && nodes.last() == Some(&segment.to)
+                        && nodes.windows(2).all(|pair| pair[0] < pair[1])
+                });
+                if !fits || mesh.len() != segments.len() {
+                    return Err(Error::GuessMesh {
+                        segment: index,
+                        from: segment.from,
+                        to: segment.to,
+                    });
+                }
+            }
+            mesh
+        }
+    };
+    guess.check_shape(segments, equations.parameters())?;
+    let (intervals, limit) = (intervals(&mesh), options.max_intervals);
+    if intervals > limit {
+        return Err(Error::FirstMesh { intervals, limit });
+    }
+    Ok(mesh)
+}
+
+/// Checks that a guess is finite.
+pub(crate) fn check_guess(x: &Iterate, mesh: &Mesh) -> Result<(), Error> {
+    for (index, (segment, nodes)) in x.segments.iter().zip(mesh).enumerate() {
+        let values = segment.nodes.len();
+        if let Some(i) = segment.nodes.iter().position(|y| !y.is_finite()) {
+            return Err(Error::Guess {
+                segment: index,
+                s: nodes[i * nodes.len() / values],
+            });
+        }
+        let slopes = segment.stages.len();
+        if let Some(i) = segment.stages.iter().position(|y| !y.is_finite()) {
+            return Err(Error::Guess {
+                segment: index,
+                s: nodes[i * (nodes.len() - 1) / slopes],
+            });
+        }
+    }
+    match x.p.iter().position(|p| !p.is_finite()) {
+        Some(parameter) => Err(Error::GuessParameter { parameter }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,378 @@
+//! From one point of a branch to the next.
+
+use crate::branch::branch::Branch;
+use crate::branch::branch::reverse;
+use crate::branch::labels::Found;
+use crate::curve::corrector::{Accuracy, Condition, Correction};
+use crate::curve::predictor::History;
+use crate::error::Difficulty;
+use crate::options::{Parameterisation, Predictor};
+use crate::point::Kind;
+use crate::special_points::null_space;
+use crate::special_points::span::{Node, Span};
+use crate::stop::Stop;
+use crate::system::system::System;
+use std::f64::consts::PI;
+
+/// Contraction of Newton's method at which the step length stays as it is.
+const CONTRACTION: f64 = 0.1;
+/// Error of the prediction, as a share of the step, at which the step length stays as it is.
+const PREDICTION: f64 = 0.1;
+/// Predictions that miss by more than this share of the step are not trusted.
+const MISSED: f64 = 0.7;
+/// A step changes by at most these factors.
+const CHANGE: [f64; 2] = [0.3, 2.0];
+/// A tangent must turn by less than this many times the wanted angle.
+const SHARPEST: f64 = 3.0;
+/// Angle by which the second null vector should turn per step, rad; by less than twice as much it
+/// must. Between two branch points it turns by about a right angle.
+const SECOND: f64 = 0.6;
+/// A step on which the height of the null space should have changed its sign, and by more than this
+/// share of it, but has not, may have passed two branch points.
+const REFLECTED: f64 = 0.5;
+/// It is not shortened below this share of the largest, where the height only touches zero.
+const TOUCHING: f64 = 1.0 / 64.0;
+/// A linearisation further than this share of the step from a point gives no tangent there.
+const DRIFTED: f64 = 0.05;
+/// The most changes of the discretisation at one point.
+const ADAPTATIONS: usize = 3;
+/// An imperfect crossing shortens steps down to this share of the largest, then it is passed.
+const CROSSING: f64 = 1e-3;
+
+/// A step that has succeeded.
+struct Taken {
+    node: Node,
+    found: Vec<Found>,
+    landed: bool,
+    /// The factor by which the next step may be longer.
+    growth: f64,
+}
+
+impl<S: System> Branch<'_, S> {
+    /// Takes one step and queues its points, or finds the reason to stop.
+    pub(crate) fn advance(&mut self) {
+        if self.steps >= self.options.steps {
+            self.stop = Some(Stop::Steps { steps: self.steps });
+            return;
+        }
+        let n = self.node.z.len() - 1;
+        let (rate, lambda) = (self.node.tangent[n], self.node.z[n]);
+        let [low, high] = self.options.bounds;
+        if lambda == high && rate > 0.0 || lambda == low && rate < 0.0 {
+            self.stop = Some(Stop::Bound { lambda });
+            return;
+        }
+        loop {
+            let taken = self.attempt(self.step);
+            let Err(difficulty) = taken.and_then(|taken| self.accept(taken)) else {
+                return;
+            };
+            self.step *= match difficulty {
+                Difficulty::NotFinite { .. } | Difficulty::Linearisation(_) => 0.25,
+                _ => 0.5,
+            };
+            if self.step < self.options.smallest_step {
+                let step = self.step;
+                self.stop = Some(Stop::StepTooSmall { step, difficulty });
+                return;
+            }
+        }
+    }
+
+    /// Lets the system adapt its discretisation, and the branch with it; returns whether it has.
+    fn adapt(&mut self) -> Result<bool, Difficulty> {
+        let z = self.node.z.clone();
+        let mut vectors = self.take_vectors();
+        let outcome = self.system.adapt(&z, &mut vectors);
+        self.put_vectors(vectors);
+        let changed = outcome.map_err(Difficulty::Adaptation)?;
+        if changed {
+            self.settle()?;
+        }
+        Ok(changed)
+    }
+
+    /// All vectors that depend on the discretisation.
+    pub(crate) fn take_vectors(&mut self) -> Vec<Vec<f64>> {
+        let own = [&mut self.node.z, &mut self.node.tangent];
+        let home = [&mut self.home.z, &mut self.home.tangent];
+        let mut vectors: Vec<_> = own.into_iter().chain(home).map(std::mem::take).collect();
+        vectors.append(&mut self.history.points);
+        for point in &mut self.queue {
+            vectors.push(std::mem::take(&mut point.z));
+            vectors.push(std::mem::take(&mut point.tangent));
+            vectors.extend(point.other.as_mut().map(std::mem::take));
+        }
+        vectors
+    }
+
+    /// Puts them back.
+    pub(crate) fn put_vectors(&mut self, vectors: Vec<Vec<f64>>) {
+        let mut vectors = vectors.into_iter();
+        let mut next = || vectors.next().unwrap_or_default();
+        self.node.z = next();
+        self.node.tangent = next();
+        self.home.z = next();
+        self.home.tangent = next();
+        self.history.points = self.history.arclengths.iter().map(|_| next()).collect();
+        for point in &mut self.queue {
+            point.z = next();
+            point.tangent = next();
+            if let Some(other) = &mut point.other {
+                *other = next();
+            }
+        }
+    }
+
+    /// A step of length h, with everything that lies on it.
+    fn attempt(&mut self, h: f64) -> Result<Taken, Difficulty> {
+        let (z, landed, report) = self.land_or_correct(h)?;
+        let mut node = Node::new(z, self.corrector.null().to_vec());
+        self.orient(&mut node)?;
+        let angle = self.angle(&node)?;
+        // The tangent of the last linearisation, on the way to the point, will do unless something
+        // may have changed its sign since.
+        let n = node.z.len() - 1;
+        let share = report.drift / h;
+        let rate = self.rate(&node.tangent).abs();
+        let turned = node.tangent[n] * self.node.tangent[n] <= 0.0 || node.along != self.node.along;
+        let doubtful = turned || self.unoriented || rate <= 3.0 * share * angle || share > DRIFTED;
+        if doubtful || self.node.cusp.is_some() {
+            node.tangent = self.corrector.tangent(self.system, &self.metric, &node.z)?;
+            self.orient(&mut node)?;
+            node.cusp = self.system.cusp_function();
+        }
+        node.second = self.second_vector(&node.tangent)?;
+        let second = self.second_angle(&node, h)?;
+        node.events = self
+            .events
+            .iter_mut()
+            .map(|event| event(self.system, &node.z))
+            .collect();
+        let span = self.span(&node);
+        node.arclength = span.from.arclength + span.length();
+        let strict = h > CROSSING * self.options.largest_step;
+        let found = self.specials(&node, strict)?;
+        let turn = (angle / self.options.angle).max(second / SECOND);
+        let growth = growth(&report, h, turn);
+        Ok(Taken {
+            node,
+            found,
+            landed,
+            growth,
+        })
+    }
+
+    /// The corrected point a step h ahead, or on the bound of λ that it would cross.
+    fn land_or_correct(&mut self, h: f64) -> Result<(Vec<f64>, bool, Correction), Difficulty> {
+        let n = self.node.z.len() - 1;
+        let mut predicted = Vec::with_capacity(n + 1);
+        self.predict(h, &mut predicted);
+        let from = self.node.z[n];
+        let [low, high] = self.options.bounds;
+        let wall = |lambda: f64| lambda.clamp(low, high);
+        let mut bound = wall(predicted[n]);
+        let mut outside = bound != predicted[n];
+        if !outside {
+            let condition = match self.options.parameterisation {
+                Parameterisation::Natural => Condition::lambda(n + 1, predicted[n]),
+                Parameterisation::Pseudoarclength => {
+                    Condition::plane(&self.metric, &self.node.tangent, &predicted)
+                }
+            };
+            let mut z = predicted.clone();
+            match self.correct(&mut z, &condition, Accuracy::Length(self.options.accuracy)) {
+                Ok(report) if report.first <= MISSED * h => return Ok((z, false, report)),
+                Ok(report) => {
+                    return Err(Difficulty::NoConvergence {
+                        correction: report.first,
+                        steps: 1,
+                        limit: MISSED * h,
+                    });
+                }
+                Err(Difficulty::OutOfBounds { lambda }) => {
+                    (bound, outside) = (wall(lambda), true);
+                }
+                Err(difficulty) => return Err(difficulty),
+            }
+        }
+        // The step is cut so that the prediction lies on the bound.
+        let mut cut = h;
+        for _ in 0..8 {
+            let way = predicted[n] - from;
+            if outside && way * (bound - from) > 0.0 {
+                cut = (cut * (bound - from) / way).min(h);
+                self.predict(cut, &mut predicted);
+            }
+        }
+        predicted[n] = bound;
+        let condition = Condition::lambda(n + 1, bound);
+        let report = self.correct(&mut predicted, &condition, Accuracy::Rounding)?;
+        let moved = self.metric.distance(&predicted, &self.node.z);
+        if moved > 2.0 * h {
+            let lambda = bound;
+            return Err(Difficulty::OutOfBounds { lambda });
+        }
+        predicted[n] = bound;
+        Ok((predicted, true, report))
+    }
+
+    fn predict(&self, h: f64, to: &mut Vec<f64>) {
+        let (z, t, s) = (&self.node.z, &self.node.tangent, self.node.arclength);
+        match self.options.predictor {
+            Predictor::Polynomial => self.history.predict(z, t, s, h, to),
+            Predictor::Tangent => History::default().predict(z, t, s, h, to),
+        }
+        if self.options.parameterisation == Parameterisation::Natural {
+            // A polynomial would pass limit points now and then.
+            let n = z.len() - 1;
+            to[n] = z[n] + h * t[n];
+        }
+    }
+
+    fn correct(
+        &mut self,
+        z: &mut [f64],
+        to: &Condition,
+        accuracy: Accuracy,
+    ) -> Result<Correction, Difficulty> {
+        let limit = self.options.corrections;
+        self.corrector
+            .correct(self.system, &self.metric, z, to, accuracy, limit)
+    }
+
+    /// Turns the null vector of a node into the unit tangent in the direction of travel.
+    fn orient(&self, node: &mut Node) -> Result<(), Difficulty> {
+        if !self.metric.normalise(&mut node.tangent) {
+            return Err(Difficulty::Singular);
+        }
+        let ends = node.z.iter().zip(&self.node.z);
+        let secant: Vec<f64> = ends.map(|(b, a)| b - a).collect();
+        let limit = SHARPEST * self.options.angle;
+        if self.metric.dot(&secant, &self.node.tangent) <= 0.0 {
+            return Err(Difficulty::Turn { angle: PI, limit });
+        }
+        node.along = self.metric.dot(&node.tangent, &secant) > 0.0;
+        if !node.along {
+            reverse(&mut node.tangent);
+        }
+        Ok(())
+    }
+
+    /// The angle by which the tangent turns.
+    fn angle(&self, node: &Node) -> Result<f64, Difficulty> {
+        // Accurate at small angles, where the arc cosine is not.
+        let half = 0.5 * self.metric.distance(&node.tangent, &self.node.tangent);
+        let (angle, limit) = (2.0 * half.min(1.0).asin(), SHARPEST * self.options.angle);
+        let n = node.z.len() - 1;
+        let turned = node.tangent[n] * self.node.tangent[n] < 0.0;
+        let stuck = turned && self.options.parameterisation == Parameterisation::Natural;
+        if angle <= limit && !stuck {
+            Ok(angle)
+        } else {
+            Err(Difficulty::Turn { angle, limit })
+        }
+    }
+
+    /// The angle by which the second null vector turns on a step h: by too much, or with a height
+    /// that turns back before zero, the step may have passed two branch points.
+    fn second_angle(&self, node: &Node, h: f64) -> Result<f64, Difficulty> {
+        if self.unoriented {
+            return Ok(0.0);
+        }
+        let dot = |a: &[f64], b: &[f64]| null_space::dot(&self.metric, a, b);
+        let (a, b) = (&self.node.second, &node.second);
+        let cosine = dot(a, b).abs() / (dot(a, a) * dot(b, b)).sqrt();
+        let (mut angle, limit) = (cosine.min(1.0).acos(), 2.0 * SECOND);
+        let height = self.node.height();
+        let expected = 1.0 + self.trend.unwrap_or(0.0) * h / height;
+        let reflected = expected < -REFLECTED && node.along == self.node.along;
+        if reflected && h > TOUCHING * self.options.largest_step {
+            angle = PI;
+        }
+        if angle <= limit {
+            Ok(angle)
+        } else {
+            Err(Difficulty::Turn { angle, limit })
+        }
+    }
+
+    pub(crate) fn span<'b>(&'b mut self, to: &'b Node) -> Span<'b, S> {
+        Span {
+            system: self.system,
+            corrector: &mut self.corrector,
+            metric: &self.metric,
+            column: &self.column,
+            from: &self.node,
+            to,
+        }
+    }
+
+    /// Moves on to the end of a step and queues its points; fails, with nothing changed, if the
+    /// system cannot adapt its discretisation to the new point.
+    fn accept(&mut self, taken: Taken) -> Result<(), Difficulty> {
+        let Taken {
+            mut node,
+            found,
+            landed,
+            growth,
+        } = taken;
+        let closed = found.iter().any(|found| found.kind == Kind::Closed);
+        let length = node.arclength - self.node.arclength;
+        for found in found {
+            let point = self.labelled(found);
+            self.queue.push_back(point);
+        }
+        if closed || landed {
+            self.steps += 1;
+            if closed {
+                self.stop = Some(Stop::Closed);
+                return Ok(());
+            }
+            let point = self.point(&node, Kind::Bound);
+            let lambda = point.lambda();
+            self.queue.push_back(point);
+            self.stop = Some(Stop::Bound { lambda });
+            return Ok(());
+        }
+        self.metric.observe(&node.z);
+        self.metric.normalise(&mut node.tangent);
+        let mut trend = (!self.unoriented).then(|| (node.height() - self.node.height()) / length);
+        let left = std::mem::replace(&mut self.node, node);
+        let history = self.history.clone();
+        self.history.push(left.z.clone(), left.arclength);
+        for adaptation in 0..ADAPTATIONS {
+            match self.adapt() {
+                // Heights on different meshes do not compare.
+                Ok(true) => trend = None,
+                Ok(false) => break,
+                Err(difficulty) if adaptation == 0 => {
+                    (self.node, self.history) = (left, history);
+                    self.queue.clear();
+                    return Err(difficulty);
+                }
+                // The discretisation is better than it was; the next step asks again.
+                Err(_) => break,
+            }
+        }
+        self.steps += 1;
+        self.trend = trend;
+        // Rates along a branch begin to mean something with the first step off a branch point.
+        self.unoriented = false;
+        self.step = (self.step * growth).min(self.options.largest_step);
+        let point = self.point(&self.node, Kind::Regular);
+        self.queue.push_back(point);
+        Ok(())
+    }
+}
+
+/// The factor for the next step, from how a step went and its angle over the one wanted.
+fn growth(report: &Correction, h: f64, turn: f64) -> f64 {
+    let contraction = (CONTRACTION / report.contraction.max(1e-9)).sqrt();
+    let prediction = (PREDICTION * h / report.first.max(1e-300)).sqrt();
+    let [least, most] = CHANGE;
+    contraction
+        .min(prediction)
+        .min(1.0 / turn.max(1e-9))
+        .clamp(least, most)
+}

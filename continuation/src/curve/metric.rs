@@ -1,0 +1,209 @@
+//! The inner product in which the arclength is measured.
+
+use crate::options::Options;
+use crate::system::system::System;
+
+/// Groups smaller than this fraction of the largest have no size of their own yet.
+const NEGLIGIBLE: f64 = 1e-8;
+
+/// Tangents that reach further than this many times the largest size, or one, are vertical.
+const FARTHEST: f64 = 1e6;
+
+/// The weighted inner product ⟨a, b⟩ = Σ wᵢ aᵢ bᵢ.
+///
+/// By default, with the size of a group the largest |xᵢ| met in it so far,
+///
+/// ```text
+/// wᵢ = shareᵢ / (number of groups · size²)       w_λ = 1 / range of λ²
+/// ```
+///
+/// so that neither units nor the number of samples of a function nor copies of equations change the
+/// length. A group that is still zero takes the size that the first tangent reaches over the range
+/// of λ, else that of the largest group, else one.
+#[derive(Clone, Debug)]
+pub(crate) struct Metric {
+    group: Vec<usize>,
+    share: Vec<f64>,
+    size: Vec<f64>,
+    range: f64,
+    weights: Vec<f64>,
+    /// Weights given by the caller are never changed.
+    given: bool,
+}
+
+impl Metric {
+    /// The inner product for a system at its first point `z`.
+    pub(crate) fn new(system: &impl System, options: &Options, z: &[f64]) -> Self {
+        let [low, high] = options.bounds;
+        let range = high - low;
+        let mut metric = Self {
+            group: Vec::new(),
+            share: Vec::new(),
+            size: Vec::new(),
+            range: if range.is_finite() {
+                range
+            } else {
+                z[z.len() - 1].abs().max(1.0)
+            },
+            weights: options.weights.clone().unwrap_or_default(),
+            given: options.weights.is_some(),
+        };
+        metric.regroup(system);
+        metric.observe(z);
+        metric
+    }
+
+    /// Takes over the groups of a system that has changed.
+    pub(crate) fn regroup(&mut self, system: &impl System) {
+        if self.given {
+            return;
+        }
+        let n = system.unknowns() - 1;
+        self.group.resize(n, 0);
+        self.share.resize(n, 0.0);
+        system.groups(&mut self.group, &mut self.share);
+        let groups = self.group.iter().max().map_or(0, |last| last + 1);
+        self.size.resize(groups, 0.0);
+        self.weigh();
+    }
+
+    /// Takes note of the size of a point.
+    pub(crate) fn observe(&mut self, z: &[f64]) {
+        if self.given {
+            return;
+        }
+        for ((&group, &share), x) in self.group.iter().zip(&self.share).zip(z) {
+            if share > 0.0 {
+                self.size[group] = self.size[group].max(x.abs());
+            }
+        }
+        self.weigh();
+    }
+
+    /// Gives groups that are zero the size that the tangent `t` reaches over the range of λ, else
+    /// that of the largest group, else one.
+    pub(crate) fn reach(&mut self, t: &[f64]) {
+        let rate = t[t.len() - 1].abs();
+        if self.given {
+            return;
+        }
+        let negligible = NEGLIGIBLE * self.largest();
+        let farthest = FARTHEST * self.largest().max(1.0);
+        let empty: Vec<bool> = self.size.iter().map(|&size| size <= negligible).collect();
+        for ((&group, &share), t) in self.group.iter().zip(&self.share).zip(t) {
+            let reached = (t / rate).abs() * self.range;
+            if share > 0.0 && empty[group] && reached <= farthest {
+                self.size[group] = self.size[group].max(reached);
+            }
+        }
+        let sizes: Vec<f64> = (0..self.size.len())
+            .map(|group| self.size_of(group))
+            .collect();
+        self.size = sizes;
+        self.weigh();
+    }
+
+    fn largest(&self) -> f64 {
+        self.size.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// The size of a group, or its substitute.
+    fn size_of(&self, group: usize) -> f64 {
+        let largest = self.largest();
+        let size = self.size[group];
+        if size > NEGLIGIBLE * largest {
+            size
+        } else if largest > 0.0 {
+            largest
+        } else {
+            1.0
+        }
+    }
+
+    /// The change of unknown i that counts as one; zero if it does not count.
+    pub(crate) fn scale(&self, i: usize) -> f64 {
+        let n = self.weights.len() - 1;
+        if self.given {
+            let weight = self.weights[i];
+            return if weight > 0.0 {
+                weight.sqrt().recip()
+            } else {
+                0.0
+            };
+        }
+        if i == n {
+            self.range
+        } else if self.share[i] > 0.0 {
+            self.size_of(self.group[i])
+        } else {
+            0.0
+        }
+    }
+
+    fn weigh(&mut self) {
+        let groups = self.size.len() as f64;
+        let each: Vec<f64> = (0..self.size.len())
+            .map(|group| 1.0 / (groups * self.size_of(group).powi(2)))
+            .collect();
+        self.weights.clear();
+        let members = self.group.iter().zip(&self.share);
+        self.weights
+            .extend(members.map(|(&group, share)| share * each[group]));
+        self.weights.push(1.0 / self.range.powi(2));
+    }
+
+    /// The range of λ that counts as one.
+    pub(crate) fn range(&self) -> f64 {
+        self.range
+    }
+
+    /// ⟨a, b⟩.
+    pub(crate) fn dot(&self, a: &[f64], b: &[f64]) -> f64 {
+        let terms = self.weights.iter().zip(a).zip(b);
+        terms.map(|((w, a), b)| w * a * b).sum()
+    }
+
+    /// ‖a‖.
+    pub(crate) fn norm(&self, a: &[f64]) -> f64 {
+        self.dot(a, a).sqrt()
+    }
+
+    /// ‖a − b‖.
+    pub(crate) fn distance(&self, a: &[f64], b: &[f64]) -> f64 {
+        let terms = self.weights.iter().zip(a).zip(b);
+        let square: f64 = terms.map(|((w, a), b)| w * (a - b) * (a - b)).sum();
+        square.sqrt()
+    }
+
+    /// The functional ⟨a, ·⟩ as a row.
+    pub(crate) fn row(&self, a: &[f64]) -> Vec<f64> {
+        self.weights.iter().zip(a).map(|(w, a)| w * a).collect()
+    }
+
+    /// Scales `t` to length one; false where it has none.
+    pub(crate) fn normalise(&self, t: &mut [f64]) -> bool {
+        let norm = self.norm(t);
+        let usable = norm > 0.0 && norm.is_finite();
+        if usable {
+            t.iter_mut().for_each(|t| *t /= norm);
+        }
+        usable
+    }
+
+    /// The largest |a − b| over the unknowns x, relative to the size of their groups. With given
+    /// weights relative to 1 + |b|.
+    pub(crate) fn largest_difference(&self, a: &[f64], b: &[f64]) -> f64 {
+        let n = a.len() - 1;
+        let relative = |i: usize| {
+            let difference = (a[i] - b[i]).abs();
+            if self.given {
+                difference / (1.0 + b[i].abs())
+            } else if self.share[i] > 0.0 {
+                difference / self.size_of(self.group[i])
+            } else {
+                0.0
+            }
+        };
+        (0..n).map(relative).fold(0.0, f64::max)
+    }
+}

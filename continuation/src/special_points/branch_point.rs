@@ -1,0 +1,231 @@
+//! Simple branch points: located to rounding, with both branches.
+//!
+//! With a column b outside the range of J, G(z) + η b = 0 is a smooth surface around a simple branch
+//! point, and the point is the saddle of the height η on it: η is zero along both branches. In
+//! coordinates a of the tangent plane T
+//!
+//! ```text
+//! grad η = φ(z) = η components of T = 0          the branch point, by Newton's method
+//! aᵀ D a = 0,   D = grad φ                       the directions of the two branches
+//! ```
+//!
+//! That system is regular where [G; arclength] is singular. The perturbed problem has η ≠ 0 at the
+//! saddle: the branches miss each other (imperfect bifurcation). After M. Golubitsky & D. G.
+//! Schaeffer, *Singularities and Groups in Bifurcation Theory* I, Springer 1985; compare H. B.
+//! Keller (1977), section 5.
+
+use crate::curve::corrector::Corrector;
+use crate::curve::metric::Metric;
+use crate::error::Difficulty;
+use crate::special_points::null_space::{NullSpace, solve};
+use crate::special_points::second_derivative::{FINE, ROUGH, Rule, bending, mixed};
+use crate::system::system::System;
+
+/// Newton steps shorter than this that no longer shrink are rounding.
+const ROUNDING: f64 = 1e-7;
+/// Branches that come closer than this, in the arclength norm, meet.
+const MEETING: f64 = 1e-5;
+/// Changes of all unknowns tried for the sizes of the equations, relative to the sizes of the
+/// unknowns.
+const CHANGES: [f64; 3] = [0.1, 1e-3, 1e-6];
+/// The most Newton steps.
+const STEPS: usize = 25;
+
+/// A simple branch point.
+#[derive(Clone, Debug)]
+pub(crate) struct Crossing {
+    pub(crate) z: Vec<f64>,
+    /// Unit tangents of both branches; none where only one point satisfies the equations nearby.
+    pub(crate) tangents: Option<[Vec<f64>; 2]>,
+}
+
+/// A column outside the range of J with certainty in practice: the size of each equation, from how
+/// it responds to a change of all unknowns, with irregular signs. The change is large enough that an
+/// equation whose derivatives all vanish at the branch point responds too.
+pub(crate) fn column<S: System>(
+    system: &mut S,
+    metric: &Metric,
+    z: &[f64],
+) -> Result<Vec<f64>, Difficulty> {
+    let n = z.len() - 1;
+    let (mut here, mut there) = (vec![f64::NAN; n], vec![f64::NAN; n]);
+    system.residual(z, &mut here);
+    for share in CHANGES {
+        let change = |(i, z): (usize, &f64)| z + share * irregular(i) * metric.scale(i);
+        let moved: Vec<f64> = z.iter().enumerate().map(change).collect();
+        there.fill(f64::NAN);
+        system.residual(&moved, &mut there);
+        let pairs = here.iter().zip(&there);
+        let response: Vec<f64> = pairs.map(|(a, b)| ((b - a) / share).abs()).collect();
+        let mean = response.iter().sum::<f64>() / n as f64;
+        if mean > 0.0 && mean.is_finite() {
+            let sizes = response.iter().enumerate();
+            return Ok(sizes
+                .map(|(i, r)| (r + 0.1 * mean) * irregular(i + 1))
+                .collect());
+        }
+    }
+    Err(Difficulty::Singular)
+}
+
+/// Numbers between 0.5 and 1 of irregular size and sign.
+pub(crate) fn irregular(i: usize) -> f64 {
+    let x = (i as f64 + 1.0) * 0.618_033_988_749_894_9;
+    let fraction = x - x.floor();
+    (0.5 + 0.5 * fraction)
+        * if fraction * 7.0 % 2.0 < 1.0 {
+            1.0
+        } else {
+            -1.0
+        }
+}
+
+/// Finds the branch point near `z`.
+pub(crate) fn branch_point<S: System>(
+    system: &mut S,
+    corrector: &mut Corrector,
+    metric: &Metric,
+    z: &[f64],
+    b: &[f64],
+) -> Result<Crossing, Difficulty> {
+    let n = z.len() - 1;
+    let (mut z, mut eta) = (z.to_vec(), 0.0);
+    let mut residual = vec![0.0; n];
+    let mut before = f64::INFINITY;
+    let mut saddle = None;
+    for count in 0.. {
+        let space = NullSpace::at(system, corrector, metric, &z, b)?;
+        residual.fill(f64::NAN);
+        system.residual(&z, &mut residual);
+        let right: Vec<f64> = residual
+            .iter()
+            .zip(b)
+            .map(|(g, b)| -(g + eta * b))
+            .collect();
+        let onto = space.shortest(system, metric, b, &right);
+        let (hessian, change) = slopes(system, metric, &z, b, &space, &onto[..=n])?;
+        let gradient = [change[0], space.last(1) + change[1]];
+        let a = solve(hessian, gradient.map(|g| -g)).ok_or(Difficulty::Singular)?;
+        let along = space.combine(a);
+        let length = metric.norm(&onto[..=n]) + a[0].hypot(a[1]);
+        let settled = length > 0.25 * before && before <= ROUNDING || length == 0.0;
+        let lost = length.is_nan() || length > 1.0 || count == STEPS;
+        if lost {
+            return Err(Difficulty::NoConvergence {
+                correction: length,
+                steps: count,
+                limit: ROUNDING,
+            });
+        }
+        if settled {
+            saddle = Some((space, hessian));
+            break;
+        }
+        add(&mut z, &mut eta, &onto);
+        add(&mut z, &mut eta, &along);
+        before = length;
+    }
+    let Some((space, hessian)) = saddle else {
+        return Err(Difficulty::Singular);
+    };
+    let steepest = hessian
+        .iter()
+        .flatten()
+        .fold(0.0, |m: f64, h| m.max(h.abs()));
+    let gap = (2.0 * eta.abs() / steepest).sqrt();
+    if gap.is_nan() || gap > MEETING {
+        return Err(Difficulty::Imperfect { gap });
+    }
+    let tangents = null_directions(hessian).map(|directions| {
+        directions.map(|a| {
+            let mut tangent = space.combine(a);
+            tangent.truncate(n + 1);
+            metric.normalise(&mut tangent);
+            tangent
+        })
+    });
+    Ok(Crossing { z, tangents })
+}
+
+/// The derivatives D of φ along the basis of `space`, column by column, and its change by `onto`.
+fn slopes<S: System>(
+    system: &mut S,
+    metric: &Metric,
+    z: &[f64],
+    b: &[f64],
+    space: &NullSpace,
+    onto: &[f64],
+) -> Result<([[f64; 2]; 2], [f64; 2]), Difficulty> {
+    let mut bend = |direction: &[f64], rule: &Rule| {
+        let residual = |s: f64, g: &mut [f64]| {
+            let moved: Vec<f64> = z.iter().zip(direction).map(|(z, d)| z + s * d).collect();
+            system.residual(&moved, g);
+        };
+        bending(residual, z.len() - 1, rule)
+    };
+    let sum = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a + b).collect() };
+    let [first, second] = [0, 1].map(|i| &space.0[i][..z.len()]);
+    let bends = [bend(first, &FINE), bend(second, &FINE)];
+    let cross = mixed(&bend(&sum(first, second), &FINE), &bends[0], &bends[1]);
+    let length = metric.norm(onto);
+    let along_onto = (length > 0.0).then(|| {
+        let unit: Vec<f64> = onto.iter().map(|v| v / length).collect();
+        let own = bend(&unit, &ROUGH);
+        [(first, &bends[0]), (second, &bends[1])]
+            .map(|(t, other)| mixed(&bend(&sum(&unit, t), &ROUGH), &own, other))
+    });
+    let mut rate = |bends: [&Vec<f64>; 2]| {
+        let rates = bends.map(|bend| {
+            let turned = space.shortest(system, metric, b, bend);
+            turned.iter().map(|w| -w).collect()
+        });
+        space
+            .eta_rate(metric, space, &rates)
+            .ok_or(Difficulty::Singular)
+    };
+    let ([a, c], [b, d]) = (rate([&bends[0], &cross])?, rate([&cross, &bends[1]])?);
+    let change = match &along_onto {
+        Some([first, second]) => rate([first, second])?.map(|rate| length * rate),
+        None => [0.0; 2],
+    };
+    Ok(([[a, b], [c, d]], change))
+}
+
+fn add(z: &mut [f64], eta: &mut f64, step: &[f64]) {
+    z.iter_mut().zip(step).for_each(|(z, d)| *z += d);
+    *eta += step[z.len()];
+}
+
+/// Both solutions a of aᵀ D a = 0, unless D is definite.
+fn null_directions(d: [[f64; 2]; 2]) -> Option<[[f64; 2]; 2]> {
+    let (p, q, r) = (d[0][0], 0.5 * (d[0][1] + d[1][0]), d[1][1]);
+    let discriminant = q * q - p * r;
+    let size = p.abs().max(q.abs()).max(r.abs());
+    if discriminant.is_nan() || discriminant <= 1e-6 * size * size {
+        return None;
+    }
+    let s = q + discriminant.sqrt().copysign(q);
+    Some([[-s, p], [-r, s]])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn null_directions_annul_the_form() {
+        for d in [
+            [[0.0, 1.0], [1.0, 0.0]],
+            [[1.0, 0.0], [0.0, -4.0]],
+            [[2.0, -3.0], [-3.0, 0.5]],
+        ] {
+            for a in null_directions(d).unwrap() {
+                let form: f64 = (0..2)
+                    .flat_map(|i| (0..2).map(move |j| a[i] * d[i][j] * a[j]))
+                    .sum();
+                assert!(form.abs() < 1e-12 && a[0].hypot(a[1]) > 0.0);
+            }
+        }
+        assert!(null_directions([[1.0, 0.0], [0.0, 1.0]]).is_none());
+    }
+}

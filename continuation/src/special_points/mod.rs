@@ -1,0 +1,7 @@
+//! Limit points and branch points: found, located, and their null spaces.
+
+pub(crate) mod branch_point;
+pub(crate) mod limit_point;
+pub(crate) mod null_space;
+pub(crate) mod second_derivative;
+pub(crate) mod span;

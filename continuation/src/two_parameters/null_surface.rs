@@ -1,0 +1,267 @@
+//! The null space of \[J b\] along the solutions of a two-parameter system, and how it changes.
+
+use crate::curve::corrector::Corrector;
+use crate::curve::metric::Metric;
+use crate::error::Difficulty;
+use crate::options::Options;
+use crate::special_points::null_space::NullSpace;
+use crate::special_points::second_derivative::{FINE, Rule, bending, mixed};
+use crate::system::system::{Cause, TwoParameter};
+
+/// Step of the difference for `G_μ`, relative to 1 + |μ|.
+const CENTRAL: f64 = 1e-5;
+
+/// A place (z, μ) with the null space there.
+#[derive(Clone)]
+struct Place {
+    z: Vec<f64>,
+    mu: f64,
+    column: Vec<f64>,
+    space: NullSpace,
+}
+
+/// A two-parameter system with the null space of \[J b\] and its rates of change.
+#[derive(Clone)]
+pub(crate) struct Surface<S> {
+    /// Linearised at `here`.
+    pub(crate) base: S,
+    /// Linearised at `ahead`.
+    probe: S,
+    pub(crate) metric: Metric,
+    corrector: Corrector,
+    /// The column b; `G_μ` where there is none.
+    column: Option<Vec<f64>>,
+    here: Place,
+    ahead: Option<Place>,
+    /// Second derivatives of G along the basis.
+    bends: [Vec<f64>; 2],
+}
+
+impl<S: TwoParameter + Clone> Surface<S> {
+    /// The surface at `z` and the present μ of the system, with the column that `column` chooses.
+    pub(crate) fn new(
+        base: S,
+        z: &[f64],
+        column: impl FnOnce(&mut S, &Metric) -> Result<Option<Vec<f64>>, Difficulty>,
+    ) -> Result<Self, Difficulty> {
+        let anywhere = Options::within(f64::NEG_INFINITY, f64::INFINITY);
+        let mut metric = Metric::new(&base, &anywhere, z);
+        metric.reach(&vec![0.0; z.len()]);
+        let (mut probe, mut corrector, mu) = (base.clone(), Corrector::anywhere(), base.second());
+        let column = column(&mut probe, &metric)?;
+        let here = place(&mut probe, &mut corrector, &metric, &column, z, mu)?;
+        Ok(Self {
+            base,
+            probe,
+            metric,
+            corrector,
+            column,
+            ahead: Some(here.clone()),
+            here,
+            bends: [Vec::new(), Vec::new()],
+        })
+    }
+
+    /// The null space at the last linearisation.
+    pub(crate) fn space(&self) -> &NullSpace {
+        &self.here.space
+    }
+
+    /// The column b at the last linearisation.
+    pub(crate) fn column(&self) -> &[f64] {
+        self.column.as_deref().unwrap_or(&self.here.column)
+    }
+
+    /// Evaluates G away from the linearisation.
+    pub(crate) fn residual(&mut self, z: &[f64], mu: f64, g: &mut [f64]) {
+        self.ahead = None;
+        self.probe.set_second(mu);
+        self.probe.residual(z, g);
+    }
+
+    /// The null space away from the linearisation.
+    pub(crate) fn look(&mut self, z: &[f64], mu: f64) -> Result<&NullSpace, Difficulty> {
+        self.ahead = None;
+        let (probe, corrector) = (&mut self.probe, &mut self.corrector);
+        let found = place(probe, corrector, &self.metric, &self.column, z, mu)?;
+        Ok(&self.ahead.insert(found).space)
+    }
+
+    /// Linearises at (z, μ), with a basis oriented as `reference`.
+    pub(crate) fn linearise(
+        &mut self,
+        z: &[f64],
+        mu: f64,
+        reference: &NullSpace,
+    ) -> Result<(), Difficulty> {
+        self.here = match self.ahead.take() {
+            Some(ahead) if ahead.z == z && ahead.mu == mu => {
+                std::mem::swap(&mut self.base, &mut self.probe);
+                ahead
+            }
+            _ => {
+                let (base, corrector) = (&mut self.base, &mut self.corrector);
+                place(base, corrector, &self.metric, &self.column, z, mu)?
+            }
+        };
+        self.here.space.orient(&self.metric, reference);
+        self.bends = [0, 1].map(|i| {
+            let (direction, mu) = self.split(i);
+            self.bend(&direction, mu, &FINE)
+        });
+        Ok(())
+    }
+
+    /// The z and μ components of a basis vector.
+    fn split(&self, i: usize) -> (Vec<f64>, f64) {
+        let mut direction = self.here.space.0[i].clone();
+        let last = direction.pop().unwrap_or(0.0);
+        (direction, if self.column.is_none() { last } else { 0.0 })
+    }
+
+    /// Second derivative of G along a direction from the last linearisation.
+    fn bend(&mut self, direction: &[f64], rate: f64, rule: &Rule) -> Vec<f64> {
+        self.ahead = None;
+        let (probe, Place { z, mu, .. }) = (&mut self.probe, &self.here);
+        let residual = |s: f64, g: &mut [f64]| {
+            let moved: Vec<f64> = z.iter().zip(direction).map(|(z, d)| z + s * d).collect();
+            probe.set_second(mu + s * rate);
+            probe.residual(&moved, g);
+        };
+        bending(residual, z.len() - 1, rule)
+    }
+
+    /// The vector w orthogonal to the null space with \[J b\] w = r.
+    pub(crate) fn shortest(&mut self, r: &[f64]) -> Vec<f64> {
+        let Place { column, space, .. } = &self.here;
+        space.shortest(&mut self.base, &self.metric, column, r)
+    }
+
+    fn turned(&mut self, bend: &[f64]) -> Vec<f64> {
+        self.shortest(bend).iter().map(|w| -w).collect()
+    }
+
+    /// The rates of both basis vectors along a unit direction with this μ component.
+    pub(crate) fn rates(&mut self, direction: &[f64], rate: f64, rule: &Rule) -> [Vec<f64>; 2] {
+        let own = self.bend(direction, rate, rule);
+        [0, 1].map(|i| {
+            let (mut both, mu) = self.split(i);
+            both.iter_mut().zip(direction).for_each(|(b, d)| *b += d);
+            let both = self.bend(&both, mu + rate, rule);
+            self.turned(&mixed(&both, &own, &self.bends[i]))
+        })
+    }
+
+    /// The rates of both basis vectors along either.
+    pub(crate) fn own_rates(&mut self) -> [[Vec<f64>; 2]; 2] {
+        let [(first, mu), (second, nu)] = [0, 1].map(|i| self.split(i));
+        let sum: Vec<f64> = first.iter().zip(&second).map(|(a, b)| a + b).collect();
+        let both = self.bend(&sum, mu + nu, &FINE);
+        let [a, b] = self.bends.clone();
+        let cross = self.turned(&mixed(&both, &a, &b));
+        [[self.turned(&a), cross.clone()], [cross, self.turned(&b)]]
+    }
+
+    /// `G_μ` at the last linearisation.
+    pub(crate) fn second_derivative(&mut self) -> Vec<f64> {
+        self.ahead = None;
+        second_derivative(&mut self.probe, &self.here.z, self.here.mu)
+    }
+
+    /// Lets the base adapt at its solution (z, μ), `vectors` having `more` entries behind those of z.
+    /// The null space there, and whether the discretisation has changed; `column` then chooses a new
+    /// column.
+    pub(crate) fn adapt(
+        &mut self,
+        (z, mu): (&[f64], f64),
+        vectors: &mut [Vec<f64>],
+        more: usize,
+        column: impl FnOnce(&mut S, &Metric, &[f64]) -> Result<Option<Vec<f64>>, Difficulty>,
+    ) -> Result<(NullSpace, bool), Cause> {
+        self.base.set_second(mu);
+        let old = vectors.to_vec();
+        if !with_last(vectors, more, |short| self.base.adapt(z, short))? {
+            self.metric.observe(z);
+            return Ok((self.look(z, mu)?.clone(), false));
+        }
+        let probe = std::mem::replace(&mut self.probe, self.base.clone());
+        let (metric, old_column) = (self.metric.clone(), self.column.take());
+        self.probe.set_second(mu);
+        self.metric.regroup(&self.base);
+        let here = &vectors[0][..vectors[0].len() - more];
+        self.metric.observe(here);
+        let space = column(&mut self.probe, &self.metric, here).and_then(|column| {
+            self.column = column;
+            self.look(here, mu).cloned()
+        });
+        if let Err(difficulty) = space {
+            // As if nothing had been changed.
+            (self.base, self.probe) = (probe.clone(), probe);
+            (self.metric, self.column) = (metric, old_column);
+            vectors.clone_from_slice(&old);
+            return Err(difficulty.into());
+        }
+        Ok((space?, true))
+    }
+
+    /// The refined base at the first of `vectors`, which have `more` entries behind those of z, μ the
+    /// last.
+    pub(crate) fn refined(&self, vectors: &mut [Vec<f64>], more: usize) -> Option<S> {
+        let mut fine = with_last(vectors, more, |short| self.base.refined(short))?;
+        fine.set_second(*vectors.first()?.last()?);
+        Some(fine)
+    }
+}
+
+/// The null space at (z, μ) of a system that is linearised there.
+fn place<S: TwoParameter>(
+    system: &mut S,
+    corrector: &mut Corrector,
+    metric: &Metric,
+    column: &Option<Vec<f64>>,
+    z: &[f64],
+    mu: f64,
+) -> Result<Place, Difficulty> {
+    system.set_second(mu);
+    let column = match column {
+        Some(column) => column.clone(),
+        None => second_derivative(system, z, mu),
+    };
+    let space = NullSpace::at(system, corrector, metric, z, &column)?;
+    Ok(Place {
+        z: z.to_vec(),
+        mu,
+        column,
+        space,
+    })
+}
+
+/// `G_μ` by a central difference; leaves the system at μ.
+fn second_derivative(system: &mut impl TwoParameter, z: &[f64], mu: f64) -> Vec<f64> {
+    let h = CENTRAL * (1.0 + mu.abs());
+    let mut at = |mu: f64| {
+        let mut g = vec![f64::NAN; z.len() - 1];
+        system.set_second(mu);
+        system.residual(z, &mut g);
+        g
+    };
+    let (ahead, behind) = (at(mu + h), at(mu - h));
+    system.set_second(mu);
+    let pairs = ahead.iter().zip(&behind);
+    pairs.map(|(a, b)| (a - b) / (2.0 * h)).collect()
+}
+
+/// Works on vectors without their last entries, which are kept.
+fn with_last<T>(
+    vectors: &mut [Vec<f64>],
+    last: usize,
+    work: impl FnOnce(&mut [Vec<f64>]) -> T,
+) -> T {
+    let split = |v: &mut Vec<f64>| v.split_off(v.len() - last);
+    let tails: Vec<Vec<f64>> = vectors.iter_mut().map(split).collect();
+    let result = work(vectors);
+    for (vector, tail) in vectors.iter_mut().zip(tails) {
+        vector.extend(tail);
+    }
+    result
+}
