@@ -57,8 +57,8 @@ const NO_DIGIT: f64 = 1e-2;
 const HARMLESS_PIVOT: f64 = 1e-6;
 
 /// Whether a solution within the tolerance by all other measures may be nothing but rounding. A
-/// rounding error that is not a number hides everything.
-pub(crate) fn hides(rounding: f64, tolerance: f64) -> bool {
+/// rounding error that is not a number exceeds every tolerance.
+pub(crate) fn exceeds(rounding: f64, tolerance: f64) -> bool {
     let allowed = (SAFETY * tolerance).min(NO_DIGIT);
     rounding.is_nan() || rounding > allowed
 }

@@ -25,7 +25,12 @@ pub(crate) struct SegmentIterate {
 
 /// Makes room for the given segments, mesh and stages. What is new is zero, what was there before is
 /// left.
-pub(crate) fn fit(all: &mut Vec<SegmentIterate>, segments: &[Segment], mesh: &Mesh, stages: usize) {
+pub(crate) fn resize(
+    all: &mut Vec<SegmentIterate>,
+    segments: &[Segment],
+    mesh: &Mesh,
+    stages: usize,
+) {
     all.resize_with(segments.len(), Default::default);
     for ((segment, nodes), x) in segments.iter().zip(mesh).zip(all) {
         let (n, intervals) = (segment.states, nodes.len() - 1);
@@ -36,8 +41,8 @@ pub(crate) fn fit(all: &mut Vec<SegmentIterate>, segments: &[Segment], mesh: &Me
 
 impl Iterate {
     /// The same, and for so many parameters.
-    pub(crate) fn fit(&mut self, segments: &[Segment], mesh: &Mesh, stages: usize, k: usize) {
-        fit(&mut self.segments, segments, mesh, stages);
+    pub(crate) fn resize(&mut self, segments: &[Segment], mesh: &Mesh, stages: usize, k: usize) {
+        resize(&mut self.segments, segments, mesh, stages);
         self.p.resize(k, 0.0);
     }
 
@@ -51,7 +56,7 @@ impl Iterate {
     ) -> Self {
         let (m, points) = (t.stages, t.stages + 1);
         let mut x = Self::default();
-        x.fit(segments, mesh, m, k);
+        x.resize(segments, mesh, m, k);
         guess.parameters(&mut x.p);
         let each = segments.iter().zip(mesh).zip(&mut x.segments);
         for (index, ((segment, nodes), unknowns)) in each.enumerate() {

@@ -10,7 +10,7 @@ use crate::result::solution::Solution;
 /// The iterate with the nodes and slopes of a solution on another mesh, maybe of another scheme.
 pub(crate) fn transfer(mesh: &Mesh, t: &Tableau, from: &Solution) -> Iterate {
     let mut x = Iterate::default();
-    x.fit(&from.segments, mesh, t.stages, from.x.p.len());
+    x.resize(&from.segments, mesh, t.stages, from.x.p.len());
     x.p.copy_from_slice(&from.x.p);
     let m = from.tableau.stages;
     for (index, (nodes, x)) in mesh.iter().zip(&mut x.segments).enumerate() {

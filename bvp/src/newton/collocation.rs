@@ -12,7 +12,7 @@
 //! ([`Condensation`]), then their interior nodes ([`AlmostBlockDiagonal`]). Ascher, Mattheij &
 //! Russell (1995), sections 5.6 and 7.2.
 
-use crate::discretisation::iterate::{Iterate, NonFinite, Residual, SegmentIterate, fit};
+use crate::discretisation::iterate::{Iterate, NonFinite, Residual, SegmentIterate, resize};
 use crate::discretisation::mesh::Mesh;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::add_scaled;
@@ -81,30 +81,30 @@ impl<'a> Collocation<'a> {
             equations,
             tableau,
         };
-        new.lay(mesh);
+        new.set_mesh(mesh);
         new
     }
 
-    /// Goes over to another mesh.
-    pub(crate) fn lay(&mut self, mesh: Mesh) {
+    /// Changes to another mesh.
+    pub(crate) fn set_mesh(&mut self, mesh: Mesh) {
         self.mesh = mesh;
         let intervals = self.mesh.iter().map(|nodes| nodes.len() - 1);
-        self.matrix.fit(intervals.clone());
+        self.matrix.resize(intervals.clone());
         for (stages, intervals) in self.stages.iter_mut().zip(intervals) {
-            stages.fit(intervals);
+            stages.resize(intervals);
         }
     }
 
-    /// Makes an iterate one of the right size.
-    pub(crate) fn fit(&self, x: &mut Iterate) {
+    /// Gives an iterate the size of this mesh.
+    pub(crate) fn resize(&self, x: &mut Iterate) {
         let (segments, m) = (self.equations.segments(), self.tableau.stages);
-        x.fit(segments, &self.mesh, m, self.equations.parameters());
+        x.resize(segments, &self.mesh, m, self.equations.parameters());
     }
 
-    /// Makes a residual one of the right size.
-    pub(crate) fn fit_residual(&self, residual: &mut Residual) {
+    /// Gives a residual the size of this mesh.
+    pub(crate) fn resize_residual(&self, residual: &mut Residual) {
         let (segments, m) = (self.equations.segments(), self.tableau.stages);
-        fit(&mut residual.equations, segments, &self.mesh, m);
+        resize(&mut residual.equations, segments, &self.mesh, m);
         let conditions = self.negative_conditions.len();
         residual.conditions.resize(conditions, 0.0);
     }
@@ -112,14 +112,14 @@ impl<'a> Collocation<'a> {
     /// A zero iterate of the right size.
     pub(crate) fn zeros(&self) -> Iterate {
         let mut x = Iterate::default();
-        self.fit(&mut x);
+        self.resize(&mut x);
         x
     }
 
     /// A residual of the right size.
     pub(crate) fn residual_buffer(&self) -> Residual {
         let mut residual = Residual::default();
-        self.fit_residual(&mut residual);
+        self.resize_residual(&mut residual);
         residual
     }
 
@@ -133,19 +133,19 @@ impl<'a> Collocation<'a> {
     /// One step of Picard's iteration from a guess: its slopes are replaced by f along it and integrated
     /// from the beginning of every segment. A guess that is no solution at all, such as a constant,
     /// becomes one with consistent slopes.
-    pub(crate) fn swept(
+    pub(crate) fn picard(
         &mut self,
         guess: &dyn Guess,
         stats: &mut Stats,
     ) -> Result<Iterate, NonFinite> {
         let x = self.interpolate(guess);
-        let mut swept = x.clone();
+        let mut integrated = x.clone();
         let mut residual = self.residual_buffer();
         self.residual(&x, &mut residual, stats)?;
         let (t, m) = (&*self.tableau, self.tableau.stages);
         for (index, segment) in self.equations.segments().iter().enumerate() {
             let n = segment.states;
-            let SegmentIterate { nodes, stages } = &mut swept.segments[index];
+            let SegmentIterate { nodes, stages } = &mut integrated.segments[index];
             // The residual of a stage is what its slope is over f.
             for (stage, over) in stages.iter_mut().zip(&residual.equations[index].stages) {
                 *stage -= over;
@@ -158,7 +158,7 @@ impl<'a> Collocation<'a> {
                 }
             }
         }
-        Ok(swept)
+        Ok(integrated)
     }
 
     /// Evaluates the residual of `x`.

@@ -128,12 +128,12 @@ impl Newton {
     }
 
     /// Follows the collocation to another mesh.
-    pub(crate) fn fit(&mut self, collocation: &Collocation<'_>) {
+    pub(crate) fn resize(&mut self, collocation: &Collocation<'_>) {
         let Self { residual, .. } = self;
         for x in [&mut self.delta, &mut self.simplified, &mut self.trial] {
-            collocation.fit(x);
+            collocation.resize(x);
         }
-        collocation.fit_residual(residual);
+        collocation.resize_residual(residual);
     }
 
     /// Improves `x` until a correction is at most `tolerance` relative to 1 + |x|. On failure `x`

@@ -88,7 +88,7 @@ impl Chain {
     }
 
     /// Room for so many intervals.
-    fn fit(&mut self, intervals: usize) {
+    fn resize(&mut self, intervals: usize) {
         let (n, k, interior) = (self.n, self.k, intervals - 1);
         self.links.resize(intervals * n * (n + k), 0.0);
         self.panels.resize(interior * 2 * n * n, 0.0);
@@ -290,9 +290,9 @@ impl AlmostBlockDiagonal {
     }
 
     /// Room for so many intervals of every segment.
-    pub(crate) fn fit(&mut self, intervals: impl Iterator<Item = usize>) {
+    pub(crate) fn resize(&mut self, intervals: impl Iterator<Item = usize>) {
         for (chain, intervals) in self.chains.iter_mut().zip(intervals) {
-            chain.fit(intervals);
+            chain.resize(intervals);
         }
     }
 

@@ -97,7 +97,7 @@ impl Condensation {
     }
 
     /// Room for so many intervals.
-    pub(crate) fn fit(&mut self, intervals: usize) {
+    pub(crate) fn resize(&mut self, intervals: usize) {
         let Self { n, k, size, .. } = *self;
         self.adjoint.resize(intervals * n * size, 0.0);
         self.jacobians.resize(intervals * size * (n + k), 0.0);
@@ -343,7 +343,7 @@ mod tests {
             for trial in 0..20 {
                 let intervals = 3;
                 let mut stages = Condensation::new(n, 0, m);
-                stages.fit(intervals);
+                stages.resize(intervals);
                 let mut sign = 1.0;
                 let mut mesh = vec![0.0];
                 let mut watch = Watch::new(n);

@@ -2,7 +2,7 @@
 
 use crate::accuracy::defect::{Samples, defects};
 use crate::accuracy::mesh_selection::{GRADING, GRADING_BY_ERROR, UNRESOLVED, next_mesh};
-use crate::accuracy::rounding::hides;
+use crate::accuracy::rounding::exceeds;
 use crate::discretisation::iterate::{Iterate, NonFinite};
 use crate::discretisation::mesh::{Mesh, halved, intervals, thinned};
 use crate::discretisation::tableau::Tableau;
@@ -164,7 +164,7 @@ impl Run<'_> {
     /// The solution on a mesh.
     fn on(&mut self, mesh: Mesh, start: Start<'_>) -> Result<Solution, Error> {
         self.stats.meshes += 1;
-        self.lay(mesh);
+        self.set_mesh(mesh);
         let Self { collocation, .. } = self;
         let mut x = match start {
             Start::Guess(guess) => {
@@ -180,9 +180,9 @@ impl Run<'_> {
         if outcome.is_err()
             && self.options.retries > 0
             && let Start::Guess(guess) = start
-            && let Ok(swept) = self.collocation.swept(guess, &mut self.stats)
+            && let Ok(picard) = self.collocation.picard(guess, &mut self.stats)
         {
-            x = swept;
+            x = picard;
             outcome = self.iterate(&mut x);
         }
         match outcome {
@@ -192,9 +192,9 @@ impl Run<'_> {
     }
 
     /// Discretises the problem on a mesh.
-    fn lay(&mut self, mesh: Mesh) {
-        self.collocation.lay(mesh);
-        self.newton.fit(&self.collocation);
+    fn set_mesh(&mut self, mesh: Mesh) {
+        self.collocation.set_mesh(mesh);
+        self.newton.resize(&self.collocation);
     }
 
     /// Estimates the error of a solution where that is to be, and makes a better mesh: none if the
@@ -254,7 +254,7 @@ impl Run<'_> {
         if self.collocation.is_suspect() {
             let rounding = self.collocation.rounding(&solution.x);
             let tolerance = self.options.tolerance;
-            if hides(rounding, tolerance) {
+            if exceeds(rounding, tolerance) {
                 let mut best = solution.clone();
                 best.stats = self.cost();
                 return Err(ill_conditioned(rounding, tolerance, best));
@@ -266,7 +266,7 @@ impl Run<'_> {
     /// Whether a solution within the tolerance on its own mesh is so on another one, by its correction
     /// there.
     fn is_kept(&mut self, solution: &Solution, mesh: &Mesh) -> bool {
-        self.lay(mesh.clone());
+        self.set_mesh(mesh.clone());
         let Self {
             newton,
             collocation,

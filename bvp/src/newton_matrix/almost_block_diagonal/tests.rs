@@ -51,7 +51,7 @@ impl Linear {
     fn structured(&self) -> Result<Vec<f64>, Singular> {
         let (states, conditions) = (self.sizes.iter().map(|size| size.0), self.values.len());
         let mut matrix = AlmostBlockDiagonal::new(states, self.k, conditions);
-        matrix.fit(self.sizes.iter().map(|size| size.1));
+        matrix.resize(self.sizes.iter().map(|size| size.1));
         for (segment, links) in self.links.iter().enumerate() {
             let all = matrix.chain_mut(segment).links_mut();
             all.copy_from_slice(&links.concat());
