@@ -124,8 +124,9 @@
 //! takes the place of the error. With [`GlobalError::Skip`] nothing is estimated and the mesh is chosen
 //! for the relative defect, with [`GlobalError::BesideDefect`] for both.
 //!
-//! **Chained states.** A state whose derivative is another state, as an equation of second order has, is
-//! eliminated from the stage systems beforehand: such equations cost what they would in their own form.
+//! **Derivative states.** A state whose derivative is another state, as in an equation of second order, is
+//! eliminated from the stage systems in advance, so that writing such an equation as a first-order system
+//! costs nothing.
 //!
 //! # What success means
 //!

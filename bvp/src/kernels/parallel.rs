@@ -14,7 +14,7 @@
 use rayon::join;
 use std::ops::Range;
 
-/// A run is halved if each half then costs at least so many multiplications. Linear problems of four
+/// The least cost, in multiplications, of each half for a run to be halved. Linear problems of four
 /// states on two threads: no gain at 200 intervals, a third less time at 400.
 const WORTH_SHARING: usize = 100_000;
 
@@ -40,8 +40,8 @@ impl<A: Written, B: Written> Written for (A, B) {
 
 /// What the work on a run needs beside the run: every thread has a copy.
 pub(crate) trait Buffers: Clone + Send {
-    /// Learns what a copy has learned. Buffers that are only scratch have nothing to learn.
-    fn learn(&mut self, _copy: Self) {}
+    /// Adds what a copy has observed. Buffers that are only scratch space have nothing to add.
+    fn merge(&mut self, _copy: Self) {}
 }
 
 impl Buffers for () {}
@@ -68,7 +68,7 @@ pub(crate) fn for_each_run<W: Written, B: Buffers, E: Send>(
             || for_each_run(before, cost, first, buffers, work),
             || for_each_run(after, cost, second, &mut copy, work),
         );
-        buffers.learn(copy);
+        buffers.merge(copy);
         return one.and(other);
     }
     work(run, written, buffers)
@@ -89,7 +89,7 @@ mod tests {
     struct Largest(usize);
 
     impl Buffers for Largest {
-        fn learn(&mut self, copy: Self) {
+        fn merge(&mut self, copy: Self) {
             self.0 = self.0.max(copy.0);
         }
     }

@@ -209,7 +209,7 @@ impl<'a> Collocation<'a> {
             let condensation = &mut self.stages[index];
             let buffers = &mut self.buffers[index];
             let SegmentIterate { nodes, stages } = &mut residual.equations[index];
-            buffers.watch.restart();
+            buffers.observed.restart();
             for_each_run(
                 0..intervals,
                 m * n * (m + n * (n + k)),
@@ -222,10 +222,10 @@ impl<'a> Collocation<'a> {
             )?;
             stats.rhs_evaluations += intervals * m;
             stats.jacobian_evaluations += intervals * m;
-            condensation.chain(&buffers.watch);
-            let links = self.matrix.chain_mut(index).links_mut();
+            condensation.reduce_order(&buffers.observed);
+            let transitions = self.matrix.transitions_mut(index).blocks_mut();
             condensation
-                .condense(&self.tableau, &self.mesh[index], links)
+                .condense(&self.tableau, &self.mesh[index], transitions)
                 .map_err(|node| {
                     let segment = index;
                     LinearisationError::Singular(Singular::Node { segment, node })
@@ -336,10 +336,10 @@ mod tests {
     use crate::problem::problem::Problem;
     use crate::problem::real::Real;
 
-    /// Two states chained to the third, and one free beside it.
-    struct Chained;
+    /// Two derivative states of the third, and one free state beside it.
+    struct ThirdOrder;
 
-    impl Problem for Chained {
+    impl Problem for ThirdOrder {
         fn segments(&self) -> &[Segment] {
             const { &[Segment::new(4)] }
         }
@@ -382,7 +382,7 @@ mod tests {
         let (intervals, part) = (3000, 10);
         let mesh: Vec<f64> = (0..=intervals).map(|i| f64::from(i) / 300.0).collect();
         let on = |nodes: &[f64]| {
-            let equations = Held::none(&Chained);
+            let equations = Held::none(&ThirdOrder);
             Collocation::new(equations, Arc::clone(&tableau), vec![nodes.to_vec()])
         };
         let stats = &mut Stats::default();

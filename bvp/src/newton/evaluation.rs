@@ -5,7 +5,7 @@ use crate::discretisation::mesh::Mesh;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::all_finite;
 use crate::kernels::parallel::Buffers;
-use crate::newton_matrix::derivative_states::Watch;
+use crate::newton_matrix::derivative_states::ObservedRows;
 use crate::problem::equations::Equations;
 use crate::problem::held::Held;
 use crate::problem::problem::Segment;
@@ -17,7 +17,7 @@ pub(crate) struct StageBuffers {
     /// One state.
     y: Vec<f64>,
     /// What the last Jacobians have shown.
-    pub(crate) watch: Watch,
+    pub(crate) observed: ObservedRows,
 }
 
 impl StageBuffers {
@@ -25,14 +25,14 @@ impl StageBuffers {
         let n = segment.states;
         Self {
             y: vec![0.0; n],
-            watch: Watch::new(n),
+            observed: ObservedRows::new(n),
         }
     }
 }
 
 impl Buffers for StageBuffers {
-    fn learn(&mut self, copy: Self) {
-        self.watch.learn(&copy.watch);
+    fn merge(&mut self, copy: Self) {
+        self.observed.merge(&copy.observed);
     }
 }
 
@@ -115,7 +115,7 @@ impl<'a> SegmentAt<'a> {
         buffers: &mut StageBuffers,
     ) -> Result<(), NonFinite> {
         let (t, m, columns) = (self.tableau, self.tableau.stages, n + k);
-        let StageBuffers { y, watch } = buffers;
+        let StageBuffers { y, observed } = buffers;
         let y = &mut y[..n];
         let residuals = stages
             .chunks_exact_mut(m * n)
@@ -141,7 +141,7 @@ impl<'a> SegmentAt<'a> {
                     component: row % n,
                 });
             }
-            watch.look(jacobians, n, columns);
+            observed.observe(jacobians, n, columns);
             interval.continuity(t, c);
         }
         Ok(())

@@ -1,8 +1,8 @@
 //! The Newton matrix: almost block diagonal with a border, by structured orthogonal elimination.
 //!
-//! After the stages are condensed, the linearised problem on a segment with N intervals is a chain
-//! of links between neighbouring nodes, and everything else — conditions on all ends, parameters —
-//! is a dense border:
+//! After the stages are condensed, the linearised problem on a segment with N intervals has one
+//! transition block Γᵢ between each pair of neighbouring nodes. The conditions on all ends and the
+//! parameters form a dense border:
 //!
 //! ```text
 //!   δy₀   δy₁   δy₂  …  δy_N │ δp
@@ -19,10 +19,10 @@
 //! ```text
 //!   δyᵢ   δyᵢ₊₁  δy₀   δp                  δyᵢ   δyᵢ₊₁  δy₀   δp
 //! ┌  B     0     A     C  ┐            ┌   R     E      F     H  ┐   kept for back-substitution
-//! └ −Γᵢ    I     0    −Pᵢ ┘   ──Qᵀ──▶  └   0     B'     A'    C' ┘   the link from y₀ to yᵢ₊₁
+//! └ −Γᵢ    I     0    −Pᵢ ┘   ──Qᵀ──▶  └   0     B'     A'    C' ┘   from y₀ to yᵢ₊₁
 //! ```
 //!
-//! so that one link A δy₀ + `B δy_N` + C δp = d is left per segment. Those links and the conditions
+//! which leaves one equation A δy₀ + `B δy_N` + C δp = d per segment. These equations and the conditions
 //! form a dense system for all ends and parameters. Eliminating with orthogonal transformations is
 //! stable where row-pivoted block elimination loses all digits: S. J. Wright, "A collection of
 //! problems for which Gaussian elimination with partial pivoting is unstable", SIAM J. Sci.
@@ -46,59 +46,59 @@ pub(crate) enum Singular {
     Ends,
 }
 
-/// The links of one segment and their elimination.
+/// The transition blocks of one segment and their elimination.
 #[derive(Clone, Debug)]
-pub(crate) struct Chain {
+pub(crate) struct Transitions {
     /// States n.
     n: usize,
     /// Parameters k.
     k: usize,
-    /// \[Γᵢ Pᵢ\], n × (n + k) per interval: yᵢ₊₁ responds to yᵢ and p.
-    links: Vec<f64>,
+    /// \[Γᵢ Pᵢ\], n × (n + k) per interval: the derivatives of yᵢ₊₁ with respect to yᵢ and p.
+    blocks: Vec<f64>,
     /// Householder vectors below the diagonal and R on and above it, 2n × n per interior node.
     panels: Vec<f64>,
     /// Factors τ of the reflections I − τ v vᵀ, n per interior node.
     tau: Vec<f64>,
     /// \[E F H\], n × (2n + k) per interior node.
     couplings: Vec<f64>,
-    /// The remaining link \[A B C\] between both ends and the parameters, n × (2n + k).
+    /// \[A B C\], the equation between both ends and the parameters that remains, n × (2n + k).
     reduced: Vec<f64>,
     /// The 2n rows in work, 2n × (3n + k).
     work: Vec<f64>,
     /// One row of `work`, or 2n right-hand sides.
     row: Vec<f64>,
     /// For the elimination of many states.
-    blocks: Option<Blocks>,
+    reflections: Option<Blocks>,
 }
 
-impl Chain {
+impl Transitions {
     fn new(n: usize, k: usize) -> Self {
         Self {
             n,
             k,
-            links: vec![],
+            blocks: vec![],
             panels: vec![],
             tau: vec![],
             couplings: vec![],
             reduced: vec![0.0; n * (2 * n + k)],
             work: vec![0.0; 2 * n * (3 * n + k)],
             row: vec![0.0; 3 * n + k],
-            blocks: (n >= MANY).then(|| Blocks::new(2 * n, 3 * n + k)),
+            reflections: (n >= MANY).then(|| Blocks::new(2 * n, 3 * n + k)),
         }
     }
 
-    /// Room for so many intervals.
+    /// Makes room for a number of intervals.
     fn resize(&mut self, intervals: usize) {
         let (n, k, interior) = (self.n, self.k, intervals - 1);
-        self.links.resize(intervals * n * (n + k), 0.0);
+        self.blocks.resize(intervals * n * (n + k), 0.0);
         self.panels.resize(interior * 2 * n * n, 0.0);
         self.tau.resize(interior * n, 0.0);
         self.couplings.resize(interior * n * (2 * n + k), 0.0);
     }
 
     /// The blocks \[Γ P\] of all intervals, to be filled before [`AlmostBlockDiagonal::factor`].
-    pub(crate) fn links_mut(&mut self) -> &mut [f64] {
-        &mut self.links
+    pub(crate) fn blocks_mut(&mut self) -> &mut [f64] {
+        &mut self.blocks
     }
 
     /// Eliminates all interior nodes; fails with the node whose R is singular.
@@ -112,23 +112,23 @@ impl Chain {
     #[inline(always)]
     fn eliminate_nodes(&mut self, n: usize, k: usize) -> Result<(), usize> {
         let width = 3 * n + k;
-        let link_size = n * (n + k);
-        // The first link: −Γ₀ δy₀ + δy₁ − P₀ δp = g₀.
+        let block_size = n * (n + k);
+        // The first interval: −Γ₀ δy₀ + δy₁ − P₀ δp = g₀.
         for i in 0..n {
             let row = &mut self.reduced[i * (2 * n + k)..][..2 * n + k];
-            let link = &self.links[i * (n + k)..][..n + k];
+            let row_of_block = &self.blocks[i * (n + k)..][..n + k];
             row.fill(0.0);
-            add_scaled(&mut row[..n], -1.0, &link[..n]);
+            add_scaled(&mut row[..n], -1.0, &row_of_block[..n]);
             row[n + i] = 1.0;
-            add_scaled(&mut row[2 * n..], -1.0, &link[n..]);
+            add_scaled(&mut row[2 * n..], -1.0, &row_of_block[n..]);
         }
         let nodes = self
             .panels
             .chunks_exact_mut(2 * n * n)
             .zip(self.tau.chunks_exact_mut(n))
             .zip(self.couplings.chunks_exact_mut(n * (2 * n + k)))
-            .zip(self.links.chunks_exact(link_size).skip(1));
-        for (interior, (((panel, tau), coupling), links)) in nodes.enumerate() {
+            .zip(self.blocks.chunks_exact(block_size).skip(1));
+        for (interior, (((panel, tau), coupling), block)) in nodes.enumerate() {
             // Columns of the work rows: δyᵢ, δyᵢ₊₁, δy₀, δp.
             let (top, bottom) = self.work.split_at_mut(n * width);
             for (i, row) in top.chunks_exact_mut(width).enumerate() {
@@ -139,14 +139,14 @@ impl Chain {
                 row[3 * n..].copy_from_slice(&reduced[2 * n..]);
             }
             for (i, row) in bottom.chunks_exact_mut(width).enumerate() {
-                let link = &links[i * (n + k)..][..n + k];
+                let row_of_block = &block[i * (n + k)..][..n + k];
                 row.fill(0.0);
-                add_scaled(&mut row[..n], -1.0, &link[..n]);
+                add_scaled(&mut row[..n], -1.0, &row_of_block[..n]);
                 row[n + i] = 1.0;
-                add_scaled(&mut row[3 * n..], -1.0, &link[n..]);
+                add_scaled(&mut row[3 * n..], -1.0, &row_of_block[n..]);
             }
-            match &mut self.blocks {
-                Some(blocks) => blocks.eliminate(&mut self.work, width, tau),
+            match &mut self.reflections {
+                Some(reflections) => reflections.eliminate(&mut self.work, width, tau),
                 None => eliminate(&mut self.work, width, tau, &mut self.row),
             }
             .ok_or(interior + 1)?;
@@ -174,17 +174,17 @@ impl Chain {
     }
 
     /// Carries the right-hand sides gᵢ (in the slot of node i + 1) through the elimination; what
-    /// belongs to the interior nodes stays in their slots, that of the reduced link is left in
-    /// `link`.
-    fn forward(&mut self, nodes: &mut [f64], link: &mut [f64]) {
+    /// belongs to the interior nodes stays in their slots, that of the remaining equation is left in
+    /// `reduced`.
+    fn forward(&mut self, nodes: &mut [f64], reduced: &mut [f64]) {
         let n = self.n;
-        specialise!(n in [1, 2, 3, 4, 5, 6] => self.forward_nodes(n, nodes, link));
+        specialise!(n in [1, 2, 3, 4, 5, 6] => self.forward_nodes(n, nodes, reduced));
     }
 
     /// [`forward`](Self::forward), likewise.
     #[inline(always)]
-    fn forward_nodes(&mut self, n: usize, nodes: &mut [f64], link: &mut [f64]) {
-        link.copy_from_slice(&nodes[n..2 * n]);
+    fn forward_nodes(&mut self, n: usize, nodes: &mut [f64], reduced: &mut [f64]) {
+        reduced.copy_from_slice(&nodes[n..2 * n]);
         let factors = self
             .panels
             .chunks_exact(2 * n * n)
@@ -192,7 +192,7 @@ impl Chain {
         for (i, (panel, tau)) in factors.enumerate() {
             let node = i + 1;
             let stacked = &mut self.row[..2 * n];
-            stacked[..n].copy_from_slice(link);
+            stacked[..n].copy_from_slice(reduced);
             stacked[n..].copy_from_slice(&nodes[(node + 1) * n..][..n]);
             for (j, tau) in tau.iter().enumerate() {
                 let mut product = stacked[j];
@@ -206,7 +206,7 @@ impl Chain {
                 }
             }
             nodes[node * n..][..n].copy_from_slice(&stacked[..n]);
-            link.copy_from_slice(&stacked[n..]);
+            reduced.copy_from_slice(&stacked[n..]);
         }
     }
 
@@ -262,58 +262,58 @@ impl Chain {
     }
 }
 
-/// The whole matrix: one [`Chain`] per segment and the dense system of all ends and parameters.
+/// The whole matrix: one [`Transitions`] per segment and the dense system of all ends and parameters.
 #[derive(Clone, Debug)]
 pub(crate) struct AlmostBlockDiagonal {
-    chains: Vec<Chain>,
+    transitions: Vec<Transitions>,
     /// Parameters k.
     k: usize,
-    /// The end system of Σ 2n + k unknowns: reduced links first, then the conditions.
+    /// The end system of Σ 2n + k unknowns: the equations that remain of the segments first, then the conditions.
     ends: EndSystem,
     /// Right-hand side and solution of the end system.
     unknowns: Vec<f64>,
 }
 
 impl AlmostBlockDiagonal {
-    /// For segments with the given numbers of states, k parameters and so many conditions: Σ n + k, or
-    /// one fewer for a matrix with a null vector; without any intervals.
+    /// For segments with the given numbers of states, k parameters and a number of conditions, which is
+    /// Σ n + k, or one fewer for a matrix with a null vector. There are no intervals yet.
     pub(crate) fn new(states: impl Iterator<Item = usize>, k: usize, conditions: usize) -> Self {
-        let chains: Vec<_> = states.map(|n| Chain::new(n, k)).collect();
-        let states: usize = chains.iter().map(|chain| chain.n).sum();
+        let transitions: Vec<_> = states.map(|n| Transitions::new(n, k)).collect();
+        let states: usize = transitions.iter().map(|of| of.n).sum();
         let unknowns = 2 * states + k;
         Self {
-            chains,
+            transitions,
             k,
             ends: EndSystem::new(states + conditions, unknowns),
             unknowns: vec![0.0; unknowns],
         }
     }
 
-    /// Room for so many intervals of every segment.
+    /// Makes room for the given numbers of intervals of the segments.
     pub(crate) fn resize(&mut self, intervals: impl Iterator<Item = usize>) {
-        for (chain, intervals) in self.chains.iter_mut().zip(intervals) {
-            chain.resize(intervals);
+        for (transitions, intervals) in self.transitions.iter_mut().zip(intervals) {
+            transitions.resize(intervals);
         }
     }
 
-    /// The links of one segment.
-    pub(crate) fn chain_mut(&mut self, segment: usize) -> &mut Chain {
-        &mut self.chains[segment]
+    /// The transition blocks of one segment.
+    pub(crate) fn transitions_mut(&mut self, segment: usize) -> &mut Transitions {
+        &mut self.transitions[segment]
     }
 
-    /// Factors the matrix from the filled links and the Jacobian of the conditions, a row each with
+    /// Factors the matrix from the filled transition blocks and the Jacobian of the conditions, a row each with
     /// Σ 2n + k columns: start and end of each segment in turn, then the parameters.
     pub(crate) fn factor(&mut self, conditions: &[f64]) -> Result<(), Singular> {
         let size = self.unknowns.len();
         let ends = self.ends.matrix_mut();
         ends.fill(0.0);
         let (mut row, mut column) = (0, 0);
-        for (segment, chain) in self.chains.iter_mut().enumerate() {
-            chain
+        for (segment, transitions) in self.transitions.iter_mut().enumerate() {
+            transitions
                 .eliminate()
                 .map_err(|node| Singular::Node { segment, node })?;
-            let (n, k) = (chain.n, chain.k);
-            for reduced in chain.reduced.chunks_exact(2 * n + k) {
+            let (n, k) = (transitions.n, transitions.k);
+            for reduced in transitions.reduced.chunks_exact(2 * n + k) {
                 let end_row = &mut ends[row * size..][..size];
                 end_row[column..column + 2 * n].copy_from_slice(&reduced[..2 * n]);
                 end_row[size - k..].copy_from_slice(&reduced[2 * n..]);
@@ -327,17 +327,20 @@ impl AlmostBlockDiagonal {
 
     /// What a matrix whose end system proved singular leaves open.
     pub(crate) fn dependence(&self, segments: &[Segment]) -> Dependence {
-        let links = segments.iter().map(|segment| segment.states).sum();
-        self.ends.dependence(links, segments)
+        let first = segments.iter().map(|segment| segment.states).sum();
+        self.ends.dependence(first, segments)
     }
 
     /// Solves with the factored matrix. On entry the slot of node i + 1 of `x` holds gᵢ and
     /// `conditions` the right-hand sides of the conditions; on return `x` holds all δy and δp.
     pub(crate) fn solve(&mut self, x: &mut Iterate, conditions: &[f64]) {
         let mut row = 0;
-        for (chain, segment) in self.chains.iter_mut().zip(&mut x.segments) {
-            chain.forward(&mut segment.nodes, &mut self.unknowns[row..row + chain.n]);
-            row += chain.n;
+        for (transitions, segment) in self.transitions.iter_mut().zip(&mut x.segments) {
+            transitions.forward(
+                &mut segment.nodes,
+                &mut self.unknowns[row..row + transitions.n],
+            );
+            row += transitions.n;
         }
         self.unknowns[row..row + conditions.len()].copy_from_slice(conditions);
         self.ends.solve(&mut self.unknowns);
@@ -347,8 +350,8 @@ impl AlmostBlockDiagonal {
     /// The smallest pivot of the last factorisation relative to the largest entry, or the norm, of its
     /// column before: a matrix without small ones is well conditioned, at least node by node.
     pub(crate) fn smallest_pivot(&self) -> f64 {
-        let chains = self.chains.iter().map(Chain::smallest_pivot);
-        chains.fold(self.ends.smallest_pivot(), f64::min)
+        let pivots = self.transitions.iter().map(Transitions::smallest_pivot);
+        pivots.fold(self.ends.smallest_pivot(), f64::min)
     }
 
     /// The null vector t of a matrix J with one condition fewer, in the nodes and the parameters of
@@ -361,7 +364,11 @@ impl AlmostBlockDiagonal {
     pub(crate) fn null_vector(&mut self, x: &mut Iterate, stages: usize) {
         let negative = stages
             + self.ends.null_vector(&mut self.unknowns)
-            + self.chains.iter().map(Chain::negative).sum::<usize>();
+            + self
+                .transitions
+                .iter()
+                .map(Transitions::negative)
+                .sum::<usize>();
         if negative % 2 == 1 {
             self.unknowns.iter_mut().for_each(|t| *t = -*t);
         }
@@ -375,12 +382,12 @@ impl AlmostBlockDiagonal {
     fn backward(&self, x: &mut Iterate) {
         x.p.copy_from_slice(&self.unknowns[self.unknowns.len() - self.k..]);
         let mut first = 0;
-        for (chain, segment) in self.chains.iter().zip(&mut x.segments) {
-            let (n, nodes) = (chain.n, &mut segment.nodes);
+        for (transitions, segment) in self.transitions.iter().zip(&mut x.segments) {
+            let (n, nodes) = (transitions.n, &mut segment.nodes);
             let last = nodes.len() - n;
             nodes[..n].copy_from_slice(&self.unknowns[first..first + n]);
             nodes[last..].copy_from_slice(&self.unknowns[first + n..first + 2 * n]);
-            chain.backward(nodes, &x.p);
+            transitions.backward(nodes, &x.p);
             first += 2 * n;
         }
     }

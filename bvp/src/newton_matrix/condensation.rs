@@ -11,7 +11,7 @@
 //! └                    ┘
 //! ```
 //!
-//! With Xᵀ = h (bᵀ ⊗ I) M⁻¹ a link between the two nodes is left,
+//! With Xᵀ = h (bᵀ ⊗ I) M⁻¹ a transition block between the two nodes is left,
 //!
 //! ```text
 //! δyᵢ₊₁ = (I + Xᵀ J) δyᵢ + (Xᵀ F_p) δp − Xᵀ r − c
@@ -20,11 +20,11 @@
 //! so only n systems with Mᵀ are solved per interval, whatever the number of parameters. Ascher,
 //! Mattheij & Russell (1995), section 5.6.
 //!
-//! Of M only the part of the free states ([`Chains`]) is factored. With d links from state c to the
-//! free state u its blocks are
+//! Only the part of M that belongs to the free states is factored ([`OrderReduction`]). Where the free
+//! state u is the derivative of order d of state c, its blocks are
 //!
 //! ```text
-//! M_vu = δ_vu I − Σ_c diag(J_vc) h^(d+1) A^(d+1)      over all c whose chain ends at u
+//! M_vu = δ_vu I − Σ_c diag(J_vc) h^(d+1) A^(d+1)      over all c whose highest derivative is u
 //! ```
 //!
 //! and det M is the determinant of this part.
@@ -39,7 +39,7 @@ use crate::kernels::dense::{self, SingularRow, dot};
 use crate::kernels::large::{self, LARGE};
 use crate::kernels::parallel::{Buffers, for_each_run};
 use crate::kernels::specialise::specialise;
-use crate::newton_matrix::derivative_states::{Chains, Watch};
+use crate::newton_matrix::derivative_states::{ObservedRows, OrderReduction};
 use crate::newton_matrix::stage_system::StageSystem;
 use std::convert::Infallible;
 use std::ops::Range;
@@ -64,8 +64,8 @@ pub(crate) struct Condensation {
     n: usize,
     k: usize,
     size: usize,
-    /// The free states, f of them, and those chained to them.
-    chains: Chains,
+    /// The free states, f of them, and the derivative states.
+    reduction: OrderReduction,
     /// Unknowns of the stages of the free states, mf.
     free_size: usize,
     /// LU factors of M, (mf)² per interval, and their pivots, mf per interval; free states one after
@@ -86,7 +86,7 @@ impl Condensation {
             n,
             k,
             size: m * n,
-            chains: Chains::default(),
+            reduction: OrderReduction::default(),
             free_size: 0,
             lu: vec![],
             pivots: vec![],
@@ -96,16 +96,16 @@ impl Condensation {
         }
     }
 
-    /// Room for so many intervals.
+    /// Makes room for a number of intervals.
     pub(crate) fn resize(&mut self, intervals: usize) {
         let Self { n, k, size, .. } = *self;
         self.adjoint.resize(intervals * n * size, 0.0);
         self.jacobians.resize(intervals * size * (n + k), 0.0);
-        self.fit_free();
+        self.resize_free();
     }
 
-    /// Room for the systems of the free states.
-    fn fit_free(&mut self) {
+    /// Makes room for the systems of the free states.
+    fn resize_free(&mut self) {
         let intervals = self.adjoint.len() / (self.n * self.size);
         let free_size = self.free_size;
         self.lu.resize(intervals * free_size * free_size, 0.0);
@@ -123,12 +123,13 @@ impl Condensation {
         &self.jacobians
     }
 
-    /// Chains the states that all Jacobians show to be chained, before [`condense`](Self::condense).
-    pub(crate) fn chain(&mut self, watch: &Watch) {
-        if self.chains.update(watch) {
-            let free_size = self.chains.free.len() * self.size / self.n;
+    /// Treats states whose rows are the same unit vector in all Jacobians as derivative states. To be
+    /// called before [`condense`](Self::condense).
+    pub(crate) fn reduce_order(&mut self, observed: &ObservedRows) {
+        if self.reduction.update(observed) {
+            let free_size = self.reduction.free.len() * self.size / self.n;
             self.free_size = free_size;
-            self.fit_free();
+            self.resize_free();
             self.buffers.rows.resize(self.n * free_size, 0.0);
             self.buffers.work.resize(free_size + self.size, 0.0);
             let large = free_size >= LARGE;
@@ -136,20 +137,21 @@ impl Condensation {
         }
     }
 
-    /// Eliminates the stages of all intervals of a mesh: factors every M, finds Xᵀ and the link
-    /// \[I + Xᵀ J, Xᵀ F\]; fails with the first interval whose M is singular.
+    /// Eliminates the stages of all intervals of a mesh: factors every M, finds Xᵀ and the
+    /// transition block \[I + Xᵀ J, Xᵀ F\]; fails with the first interval whose M is singular.
     pub(crate) fn condense(
         &mut self,
         t: &Tableau,
         mesh: &[f64],
-        links: &mut [f64],
+        transitions: &mut [f64],
     ) -> Result<(), usize> {
         let (n, k, m, size, columns) = (self.n, self.k, t.stages, self.size, self.n + self.k);
-        let (chains, f, free_size) = (&self.chains, self.chains.free.len(), self.free_size);
+        let (reduction, f, free_size) =
+            (&self.reduction, self.reduction.free.len(), self.free_size);
         let jacobians = &self.jacobians;
         let written = (
             (&mut self.lu[..], &mut self.pivots[..]),
-            (&mut self.adjoint[..], links),
+            (&mut self.adjoint[..], transitions),
         );
         for_each_run(
             0..mesh.len() - 1,
@@ -158,9 +160,9 @@ impl Condensation {
             &mut self.buffers,
             &move |run, written, buffers| {
                 specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(f in [1] =>
-                    condense_run(StageSystem::new(t, chains, [m, n, k, f]), run, mesh, jacobians, written, buffers)
+                    condense_run(StageSystem::new(t, reduction, [m, n, k, f]), run, mesh, jacobians, written, buffers)
                 )), else specialise!(m in [1, 2, 3, 4, 5] =>
-                    condense_run(StageSystem::new(t, chains, [m, n, k, f]), run, mesh, jacobians, written, buffers)
+                    condense_run(StageSystem::new(t, reduction, [m, n, k, f]), run, mesh, jacobians, written, buffers)
                 ))
             },
         )
@@ -182,7 +184,7 @@ impl Condensation {
         intervals.map(count).sum()
     }
 
-    /// The right-hand sides −Xᵀ r − c of all links, into the slots of nodes 1 … N of `nodes`.
+    /// The right-hand sides −Xᵀ r − c of all transitions, into the slots of nodes 1 … N of `nodes`.
     pub(crate) fn reduce(&self, residual: &SegmentIterate, nodes: &mut [f64]) {
         let (n, m) = (self.n, self.size / self.n);
         let Ok(()) = for_each_run::<_, _, Infallible>(
@@ -220,7 +222,8 @@ impl Condensation {
         dp: &[f64],
     ) {
         let (n, k, m, size, columns) = (self.n, self.k, t.stages, self.size, self.n + self.k);
-        let (chains, f, free_size) = (&self.chains, self.chains.free.len(), self.free_size);
+        let (reduction, f, free_size) =
+            (&self.reduction, self.reduction.free.len(), self.free_size);
         let SegmentIterate { nodes, stages } = correction;
         let factored = (&self.jacobians[..], &self.lu[..], &self.pivots[..]);
         let known = (mesh, &nodes[..], dp, &residual.stages[..]);
@@ -231,9 +234,9 @@ impl Condensation {
             &mut self.buffers,
             &|run, stages, buffers| {
                 specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(f in [1] =>
-                    recover_run(StageSystem::new(t, chains, [m, n, k, f]), run, factored, known, stages, buffers)
+                    recover_run(StageSystem::new(t, reduction, [m, n, k, f]), run, factored, known, stages, buffers)
                 )), else specialise!(m in [1, 2, 3, 4, 5] =>
-                    recover_run(StageSystem::new(t, chains, [m, n, k, f]), run, factored, known, stages, buffers)
+                    recover_run(StageSystem::new(t, reduction, [m, n, k, f]), run, factored, known, stages, buffers)
                 ));
                 Ok(())
             },
@@ -241,7 +244,7 @@ impl Condensation {
     }
 }
 
-/// What a run of intervals leaves: factors of M with pivots, and Xᵀ with the links.
+/// What a run of intervals leaves: factors of M with pivots, and Xᵀ with the transition blocks.
 type Condensed<'a> = (
     (&'a mut [f64], &'a mut [usize]),
     (&'a mut [f64], &'a mut [f64]),
@@ -254,7 +257,7 @@ fn condense_run(
     run: Range<usize>,
     mesh: &[f64],
     jacobians: &[f64],
-    ((lu, pivots), (adjoint, links)): Condensed<'_>,
+    ((lu, pivots), (adjoint, transitions)): Condensed<'_>,
     buffers: &mut IntervalBuffers,
 ) -> Result<(), usize> {
     let StageSystem { m, n, k, f, .. } = system;
@@ -267,7 +270,7 @@ fn condense_run(
         let lu = &mut lu[place * free_size * free_size..][..free_size * free_size];
         let pivots = &mut pivots[place * free_size..][..free_size];
         let adjoint = &mut adjoint[place * n * size..][..n * size];
-        let link = &mut links[place * n * columns..][..n * columns];
+        let transition = &mut transitions[place * n * columns..][..n * columns];
         system.fill_matrix(h, jacobians, lu);
         system.fill_weights(h, rows);
         let done = match workspace {
@@ -277,14 +280,14 @@ fn condense_run(
         };
         done.map_err(|SingularRow(_)| i)?;
         system.expand(h, jacobians, rows, adjoint);
-        link.fill(0.0);
+        transition.fill(0.0);
         for row in 0..n {
-            link[row * columns + row] = 1.0;
+            transition[row * columns + row] = 1.0;
         }
         if workspace.is_some() {
-            large::add_product(link, adjoint, jacobians, size, columns);
+            large::add_product(transition, adjoint, jacobians, size, columns);
         } else {
-            specialise!(k in [0, 1] => dense::add_product(link, adjoint, jacobians, size, n + k));
+            specialise!(k in [0, 1] => dense::add_product(transition, adjoint, jacobians, size, n + k));
         }
     }
     Ok(())
@@ -346,7 +349,7 @@ mod tests {
                 stages.resize(intervals);
                 let mut sign = 1.0;
                 let mut mesh = vec![0.0];
-                let mut watch = Watch::new(n);
+                let mut observed = ObservedRows::new(n);
                 let all = stages.jacobians_mut().chunks_exact_mut(m * n * n);
                 for (i, jacobians) in all.enumerate() {
                     // Intervals far too long for these equations.
@@ -356,7 +359,7 @@ mod tests {
                     for (j, x) in jacobians.iter_mut().enumerate() {
                         *x = noise(1000 * trial + 100 * i + j);
                     }
-                    watch.look(jacobians, n, n);
+                    observed.observe(jacobians, n, n);
                     let matrix = Mat::from_fn(m * n, m * n, |row, column| {
                         let a = t.a[row / n * m + column / n];
                         let identity = if row == column { 1.0 } else { 0.0 };
@@ -364,9 +367,9 @@ mod tests {
                     });
                     sign *= matrix.determinant().signum();
                 }
-                stages.chain(&watch);
-                let links = &mut vec![0.0; intervals * n * n];
-                stages.condense(&t, &mesh, links).unwrap();
+                stages.reduce_order(&observed);
+                let transitions = &mut vec![0.0; intervals * n * n];
+                stages.condense(&t, &mesh, transitions).unwrap();
                 let even = stages.negative().is_multiple_of(2);
                 assert_eq!(even, sign > 0.0, "n = {n}, m = {m}, trial {trial}");
                 seen[usize::from(even)] = true;

@@ -1,33 +1,34 @@
-//! States whose derivative is another state.
+//! Order reduction: states whose derivative is another state.
 //!
-//! An equation of order two or more becomes a system by y' = z, z' = …: rows of the Jacobian that are
-//! unit vectors. On an interval the slopes of such a state, `K = h A K_source + known`, follow from those
-//! of its source, so that only those of the other, *free* states are unknown: the system for the slopes
-//! is as small as if the equation were collocated in its own form, and its solution is the same. The
-//! stages see y⁽ᵈ⁾ through h^(d+1) A^(d+1), the Runge-Kutta-Nyström form of the scheme (Hairer, Nørsett &
-//! Wanner, *Solving Ordinary Differential Equations I*, section II.14).
+//! An equation of order two or more is written as a first-order system with y' = z, z' = …. Here y is a
+//! *derivative state* and z is its *source*; the row of y in the Jacobian is a unit vector. On an interval
+//! the slopes of a derivative state follow from those of its source, `K = h A K_source + known`, so only
+//! the slopes of the other states, the *free* states, are unknown. The linear system for them is as small
+//! as if the equation were collocated without reducing its order, and the solution is the same. A free
+//! state y⁽ᵈ⁾ acts on y through h^(d+1) A^(d+1), as in the Runge-Kutta-Nyström form of the scheme (Hairer,
+//! Nørsett & Wanner, *Solving Ordinary Differential Equations I*, section II.14).
 
 use crate::discretisation::tableau::POWERS;
 use std::ops::Range;
 
-/// What the rows of the Jacobian of a segment have shown so far of one component.
+/// What the Jacobians of a segment have shown so far about the row of one state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Row {
-    /// Nothing yet.
+    /// No Jacobian has been observed.
     Unseen,
-    /// Unit vectors with the one in this column.
+    /// Every row was the unit vector with its one in this column.
     Unit(usize),
-    /// Something else.
+    /// Anything else.
     Other,
 }
 
-/// Watches Jacobians for rows that are the same unit vector at all stages of a segment.
+/// Which rows of the Jacobian are the same unit vector at all stages of a segment.
 #[derive(Clone, Debug)]
-pub(crate) struct Watch {
+pub(crate) struct ObservedRows {
     rows: Vec<Row>,
 }
 
-impl Watch {
+impl ObservedRows {
     /// For n states.
     pub(crate) fn new(n: usize) -> Self {
         Self {
@@ -35,13 +36,13 @@ impl Watch {
         }
     }
 
-    /// Forgets what was seen.
+    /// Forgets all observations.
     pub(crate) fn restart(&mut self) {
         self.rows.fill(Row::Unseen);
     }
 
-    /// Sees what another watch of the same segment has seen elsewhere.
-    pub(crate) fn learn(&mut self, other: &Self) {
+    /// Adds the observations of other intervals of the same segment.
+    pub(crate) fn merge(&mut self, other: &Self) {
         for (seen, other) in self.rows.iter_mut().zip(&other.rows) {
             *seen = match (*seen, *other) {
                 (Row::Unseen, one) | (one, Row::Unseen) => one,
@@ -51,10 +52,10 @@ impl Watch {
         }
     }
 
-    /// Looks at the Jacobians of any number of stages, one after the other, a row per state; a row may go
-    /// on with derivatives with respect to parameters.
+    /// Observes the Jacobians of any number of stages, stored one after the other with `columns` numbers
+    /// per row: derivatives with respect to n states, then with respect to parameters.
     #[inline(always)]
-    pub(crate) fn look(&mut self, jacobians: &[f64], n: usize, columns: usize) {
+    pub(crate) fn observe(&mut self, jacobians: &[f64], n: usize, columns: usize) {
         for (state, seen) in self.rows[..n].iter_mut().enumerate() {
             let mut rows = jacobians[state * columns..]
                 .chunks(n * columns)
@@ -82,66 +83,67 @@ fn is_unit(row: &[f64], column: usize) -> bool {
     entries.fold(true, |all, (j, &x)| all & (x == unit(j)))
 }
 
-/// The free and the chained states of a segment.
+/// The free and the derivative states of a segment.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Chains {
-    /// The rows that they follow from.
+pub(crate) struct OrderReduction {
+    /// The observed rows that this reduction was made for.
     rows: Vec<Row>,
     /// The free states.
     pub(crate) free: Vec<usize>,
-    /// Each chained state and its source, a source before what is chained to it.
-    pub(crate) chained: Vec<(usize, usize)>,
-    /// For every state the place among the free ones of that which its chain ends at, and how many
-    /// links are between.
-    pub(crate) ends: Vec<(usize, usize)>,
-    /// For every place the states whose chains end there, with the numbers of links: a part of `members`.
+    /// Each derivative state with its source; a derivative state that is itself a source comes first.
+    pub(crate) sources: Vec<(usize, usize)>,
+    /// For each state: the index in `free` of its highest derivative that is a state, and the order of that
+    /// derivative (0 for a free state).
+    pub(crate) highest: Vec<(usize, usize)>,
+    /// For each free state: the range of `members` with the states whose highest derivative it is.
     pub(crate) groups: Vec<Range<usize>>,
+    /// States with the orders of their highest derivatives, grouped by free state.
     pub(crate) members: Vec<(usize, usize)>,
 }
 
-impl Chains {
-    /// Brings the chains up to what a watch has seen; returns whether that is anything new.
-    pub(crate) fn update(&mut self, watch: &Watch) -> bool {
-        if self.rows == watch.rows {
+impl OrderReduction {
+    /// Adapts the reduction to what has been observed; returns whether it has changed.
+    pub(crate) fn update(&mut self, observed: &ObservedRows) -> bool {
+        if self.rows == observed.rows {
             return false;
         }
-        let n = watch.rows.len();
+        let n = observed.rows.len();
         *self = Self {
-            rows: watch.rows.clone(),
+            rows: observed.rows.clone(),
             ..Self::default()
         };
-        let mut place = vec![None; n];
-        for (c, (place, row)) in place.iter_mut().zip(&watch.rows).enumerate() {
+        let mut highest = vec![None; n];
+        for (c, (highest, row)) in highest.iter_mut().zip(&observed.rows).enumerate() {
             if !matches!(row, Row::Unit(source) if *source != c) {
-                *place = Some((self.free.len(), 0));
+                *highest = Some((self.free.len(), 0));
                 self.free.push(c);
             }
         }
-        // What is chained to a state with a place has one, too; where nothing is, chains are closed or
-        // too long, and are cut.
-        while let Some(cut) = place.iter().position(Option::is_none) {
-            let before = self.chained.len();
+        // Each pass adds the states whose source is known. If a pass adds none, the remaining states form
+        // a cycle or would exceed the highest order, and one of them is made free.
+        while let Some(cut) = highest.iter().position(Option::is_none) {
+            let before = self.sources.len();
             for c in 0..n {
-                if let (None, Row::Unit(source)) = (place[c], watch.rows[c])
-                    && let Some((end, links)) = place[source]
-                    && links + 1 < POWERS
+                if let (None, Row::Unit(source)) = (highest[c], observed.rows[c])
+                    && let Some((place, order)) = highest[source]
+                    && order + 1 < POWERS
                 {
-                    place[c] = Some((end, links + 1));
-                    self.chained.push((c, source));
+                    highest[c] = Some((place, order + 1));
+                    self.sources.push((c, source));
                 }
             }
-            if self.chained.len() == before {
-                place[cut] = Some((self.free.len(), 0));
+            if self.sources.len() == before {
+                highest[cut] = Some((self.free.len(), 0));
                 self.free.push(cut);
             }
         }
-        self.ends = place.into_iter().flatten().collect();
+        self.highest = highest.into_iter().flatten().collect();
         for place in 0..self.free.len() {
             let first = self.members.len();
-            let ends = self.ends.iter().enumerate();
-            let ending = ends.filter(|(_, (end, _))| *end == place);
+            let states = self.highest.iter().enumerate();
+            let group = states.filter(|(_, (of, _))| *of == place);
             self.members
-                .extend(ending.map(|(c, &(_, links))| (c, links)));
+                .extend(group.map(|(c, &(_, order))| (c, order)));
             self.groups.push(first..self.members.len());
         }
         true
@@ -152,36 +154,36 @@ impl Chains {
 mod tests {
     use super::*;
 
-    fn chains(rows: &[Row]) -> Chains {
-        let watch = Watch {
+    fn reduction(rows: &[Row]) -> OrderReduction {
+        let observed = ObservedRows {
             rows: rows.to_vec(),
         };
-        let mut chains = Chains::default();
-        assert!(chains.update(&watch));
-        assert!(!chains.update(&watch));
-        assert_eq!(chains.free.len() + chains.chained.len(), rows.len());
-        chains
+        let mut reduction = OrderReduction::default();
+        assert!(reduction.update(&observed));
+        assert!(!reduction.update(&observed));
+        assert_eq!(reduction.free.len() + reduction.sources.len(), rows.len());
+        reduction
     }
 
     #[test]
-    fn equal_unit_rows_of_all_stages_are_seen() {
-        let mut watch = Watch::new(3);
-        watch.look(
+    fn equal_unit_rows_of_all_stages_are_observed() {
+        let mut observed = ObservedRows::new(3);
+        observed.observe(
             &[0.0, 1.0, 0.0, 9.0, 0.0, 0.0, 1.0, 9.0, 1.0, 1.0, 0.0, 9.0],
             3,
             4,
         );
-        assert_eq!(watch.rows, [Row::Unit(1), Row::Unit(2), Row::Other]);
-        watch.look(
+        assert_eq!(observed.rows, [Row::Unit(1), Row::Unit(2), Row::Other]);
+        observed.observe(
             &[0.0, 1.0, 0.0, 8.0, 0.0, 1.0, 0.0, 8.0, 1.0, 0.0, 0.0, 8.0],
             3,
             4,
         );
-        assert_eq!(watch.rows, [Row::Unit(1), Row::Other, Row::Other]);
+        assert_eq!(observed.rows, [Row::Unit(1), Row::Other, Row::Other]);
     }
 
     #[test]
-    fn watches_of_two_parts_see_together_what_one_of_the_whole_sees() {
+    fn merged_observations_of_two_parts_equal_those_of_the_whole() {
         let rows = [Row::Unseen, Row::Unit(0), Row::Unit(1), Row::Other];
         // The first of two rows; the second is never a unit vector.
         let shown = |row: Row| match row {
@@ -190,36 +192,36 @@ mod tests {
             _ => [0.5; 4],
         };
         for (one, other) in rows.iter().flat_map(|a| rows.map(|b| (*a, b))) {
-            let [mut first, mut second, mut whole] = [(); 3].map(|()| Watch::new(2));
-            for (watch, row) in [(&mut first, one), (&mut second, other)] {
+            let [mut first, mut second, mut whole] = [(); 3].map(|()| ObservedRows::new(2));
+            for (observed, row) in [(&mut first, one), (&mut second, other)] {
                 if row != Row::Unseen {
-                    watch.look(&shown(row), 2, 2);
-                    whole.look(&shown(row), 2, 2);
+                    observed.observe(&shown(row), 2, 2);
+                    whole.observe(&shown(row), 2, 2);
                 }
             }
-            first.learn(&second);
+            first.merge(&second);
             assert_eq!(first.rows, whole.rows);
         }
     }
 
     #[test]
-    fn chains_end_at_free_states() {
+    fn derivative_states_lead_to_free_states() {
         use Row::{Other, Unit};
-        // y₀' = y₁, y₁' = y₂, y₃' = y₁, and y₄' = y₄ is no chain.
-        let found = chains(&[Unit(1), Unit(2), Other, Unit(1), Unit(4)]);
+        // y₀' = y₁, y₁' = y₂, y₃' = y₁, and y₄' = y₄ is its own derivative.
+        let found = reduction(&[Unit(1), Unit(2), Other, Unit(1), Unit(4)]);
         assert_eq!(found.free, [2, 4]);
-        assert_eq!(found.chained, [(1, 2), (3, 1), (0, 1)]);
-        assert_eq!(found.ends, [(0, 2), (0, 1), (0, 0), (0, 2), (1, 0)]);
+        assert_eq!(found.sources, [(1, 2), (3, 1), (0, 1)]);
+        assert_eq!(found.highest, [(0, 2), (0, 1), (0, 0), (0, 2), (1, 0)]);
     }
 
     #[test]
-    fn closed_and_long_chains_are_cut() {
+    fn cycles_and_orders_above_the_highest_are_cut() {
         use Row::{Other, Unit};
-        let closed = chains(&[Unit(1), Unit(0)]);
-        assert_eq!((closed.free, closed.chained), (vec![0], vec![(1, 0)]));
-        let long: Vec<Row> = (1..8).map(Unit).chain([Other]).collect();
-        let long = chains(&long);
-        assert!(long.ends.iter().all(|(_, links)| *links < POWERS));
-        assert_eq!(long.free.len() + long.chained.len(), 8);
+        let cycle = reduction(&[Unit(1), Unit(0)]);
+        assert_eq!((cycle.free, cycle.sources), (vec![0], vec![(1, 0)]));
+        let high: Vec<Row> = (1..8).map(Unit).chain([Other]).collect();
+        let high = reduction(&high);
+        assert!(high.highest.iter().all(|(_, order)| *order < POWERS));
+        assert_eq!(high.free.len() + high.sources.len(), 8);
     }
 }

@@ -1,4 +1,4 @@
-//! The stages of one interval: the system of the free states, and the chained states from them.
+//! The stages of one interval: the system of the free states, and the derivative states from them.
 //!
 //! Notation of [`condensation`](crate::condensation).
 
@@ -6,7 +6,7 @@ use crate::discretisation::scheme::MAX_STAGES;
 use crate::discretisation::tableau::{POWERS, Tableau};
 use crate::kernels::dense::add_scaled;
 use crate::kernels::specialise::specialise;
-use crate::newton_matrix::derivative_states::Chains;
+use crate::newton_matrix::derivative_states::OrderReduction;
 
 /// Unit vectors.
 const IDENTITY: [[f64; MAX_STAGES]; MAX_STAGES] = {
@@ -24,7 +24,7 @@ const IDENTITY: [[f64; MAX_STAGES]; MAX_STAGES] = {
 #[derive(Clone, Copy)]
 pub(crate) struct StageSystem<'a> {
     t: &'a Tableau,
-    chains: &'a Chains,
+    reduction: &'a OrderReduction,
     /// Stages m, states n, parameters k, free states f.
     pub(crate) m: usize,
     pub(crate) n: usize,
@@ -57,10 +57,14 @@ fn product(a: &[f64], m: usize, x: &[f64]) -> [f64; MAX_STAGES] {
 impl<'a> StageSystem<'a> {
     /// With m, n, k and f.
     #[inline(always)]
-    pub(crate) fn new(t: &'a Tableau, chains: &'a Chains, [m, n, k, f]: [usize; 4]) -> Self {
+    pub(crate) fn new(
+        t: &'a Tableau,
+        reduction: &'a OrderReduction,
+        [m, n, k, f]: [usize; 4],
+    ) -> Self {
         Self {
             t,
-            chains,
+            reduction,
             m,
             n,
             k,
@@ -73,22 +77,22 @@ impl<'a> StageSystem<'a> {
     pub(crate) fn fill_matrix(self, h: f64, jacobians: &[f64], matrix: &mut [f64]) {
         let Self {
             t,
-            chains,
+            reduction,
             m,
             n,
             k,
             f,
         } = self;
         let powers = powers_of(h);
-        for (v, &state) in chains.free[..f].iter().enumerate() {
+        for (v, &state) in reduction.free[..f].iter().enumerate() {
             for (j, unit) in IDENTITY[..m].iter().enumerate() {
                 let slopes = &jacobians[(j * n + state) * (n + k)..][..n];
                 let row = &mut matrix[(v * m + j) * f * m..][..f * m];
-                for (end, block) in row.chunks_exact_mut(m).enumerate() {
-                    let mut sums = if end == v { *unit } else { [0.0; MAX_STAGES] };
-                    for &(c, links) in self.ending_at(end) {
-                        let a = &t.powers[(links * m + j) * m..][..m];
-                        add_scaled(&mut sums[..m], -slopes[c] * powers[links], a);
+                for (place, block) in row.chunks_exact_mut(m).enumerate() {
+                    let mut sums = if place == v { *unit } else { [0.0; MAX_STAGES] };
+                    for &(c, order) in self.members_of(place) {
+                        let a = &t.powers[(order * m + j) * m..][..m];
+                        add_scaled(&mut sums[..m], -slopes[c] * powers[order], a);
                     }
                     block.copy_from_slice(&sums[..m]);
                 }
@@ -96,41 +100,46 @@ impl<'a> StageSystem<'a> {
         }
     }
 
-    /// The states whose chains end at a free one, with the numbers of links. They are all if there is no
-    /// other free state.
+    /// The states whose highest derivative is a given free state, with its order. These are all states if
+    /// there is only one free state.
     #[inline(always)]
-    fn ending_at(&self, place: usize) -> &[(usize, usize)] {
+    fn members_of(&self, place: usize) -> &[(usize, usize)] {
         if self.f == 1 {
-            &self.chains.members[..self.n]
+            &self.reduction.members[..self.n]
         } else {
-            &self.chains.members[self.chains.groups[place].clone()]
+            &self.reduction.members[self.reduction.groups[place].clone()]
         }
     }
 
-    /// h (bᵀ ⊗ I) for the free states, n rows: those of the other states through the chains.
+    /// h (bᵀ ⊗ I) for the free states, n rows. A derivative state contributes through its highest derivative.
     #[inline(always)]
     pub(crate) fn fill_weights(self, h: f64, rows: &mut [f64]) {
         let Self {
-            t, chains, m, n, f, ..
+            t,
+            reduction,
+            m,
+            n,
+            f,
+            ..
         } = self;
         let powers = powers_of(h);
         rows.fill(0.0);
-        for (row, &(end, links)) in chains.ends[..n].iter().enumerate() {
-            let of_end = &mut rows[(row * f + end) * m..][..m];
-            add_scaled(of_end, powers[links], &t.weights[links * m..][..m]);
+        for (row, &(place, order)) in reduction.highest[..n].iter().enumerate() {
+            let of_free = &mut rows[(row * f + place) * m..][..m];
+            add_scaled(of_free, powers[order], &t.weights[order * m..][..m]);
         }
     }
 
-    /// Xᵀ from its columns of the free states: for a chained state c and all that is chained to it
+    /// Xᵀ from its columns of the free states: for a derivative state c and all states d with source c
     ///
     /// ```text
-    /// x_c = h b + h Aᵀ ( Σ_v diag(J_vc) x_v + Σ x_chained )      h b only in the row of c
+    /// x_c = h b + h Aᵀ ( Σ_v diag(J_vc) x_v + Σ_d x_d )      h b only in the row of c
     /// ```
     #[inline(always)]
     pub(crate) fn expand(self, h: f64, jacobians: &[f64], rows: &[f64], adjoint: &mut [f64]) {
         let Self {
             t,
-            chains,
+            reduction,
             m,
             n,
             k,
@@ -139,23 +148,23 @@ impl<'a> StageSystem<'a> {
         for row in 0..n {
             let x_free = &rows[row * f * m..][..f * m];
             let adjoint = &mut adjoint[row * m * n..][..m * n];
-            for (place, &v) in chains.free[..f].iter().enumerate() {
+            for (place, &v) in reduction.free[..f].iter().enumerate() {
                 for j in 0..m {
                     adjoint[j * n + v] = x_free[place * m + j];
                 }
             }
-            for &(c, _) in chains.chained.iter().rev() {
+            for &(c, _) in reduction.sources.iter().rev() {
                 let mut sums = [0.0; MAX_STAGES];
                 let sums = &mut sums[..m];
-                for (x, &v) in x_free.chunks_exact(m).zip(&chains.free) {
+                for (x, &v) in x_free.chunks_exact(m).zip(&reduction.free) {
                     for (j, sum) in sums.iter_mut().enumerate() {
                         *sum += jacobians[(j * n + v) * (n + k) + c] * x[j];
                     }
                 }
-                for &(chained, source) in &chains.chained {
+                for &(d, source) in &reduction.sources {
                     if source == c {
                         for (j, sum) in sums.iter_mut().enumerate() {
-                            *sum += adjoint[j * n + chained];
+                            *sum += adjoint[j * n + d];
                         }
                     }
                 }
@@ -198,11 +207,11 @@ impl<'a> StageSystem<'a> {
         });
     }
 
-    /// The right-hand sides of the free states from those of all, which are those of a system where
-    /// every chained state c has its slopes
+    /// The right-hand sides of the free states from those ρ of all states. Every derivative state c of
+    /// order d has the slopes
     ///
     /// ```text
-    /// K_c = T_c + h^d A^d K_end,    T_c = ρ_c + h A T_source      without the last term if the source is free
+    /// K_c = T_c + h^d A^d K_free,    T_c = ρ_c + h A T_source      without the last term if the source is free
     /// ```
     ///
     /// T is left in the place of ρ. `known` holds h A T.
@@ -217,23 +226,23 @@ impl<'a> StageSystem<'a> {
     ) {
         let Self {
             t,
-            chains,
+            reduction,
             m,
             n,
             k,
             f,
         } = self;
-        for (place, &v) in chains.free[..f].iter().enumerate() {
+        for (place, &v) in reduction.free[..f].iter().enumerate() {
             for j in 0..m {
                 free[place * m + j] = stages[j * n + v];
             }
         }
-        for &(c, source) in &chains.chained {
+        for &(c, source) in &reduction.sources {
             let mut slopes = [0.0; MAX_STAGES];
             for j in 0..m {
                 slopes[j] = stages[j * n + c];
             }
-            if chains.ends[source].1 > 0 {
+            if reduction.highest[source].1 > 0 {
                 for j in 0..m {
                     slopes[j] += known[source * m + j];
                     stages[j * n + c] = slopes[j];
@@ -243,7 +252,7 @@ impl<'a> StageSystem<'a> {
             for j in 0..m {
                 known[c * m + j] = h * products[j];
             }
-            for (place, &v) in chains.free[..f].iter().enumerate() {
+            for (place, &v) in reduction.free[..f].iter().enumerate() {
                 for j in 0..m {
                     let slope = jacobians[(j * n + v) * (n + k) + c];
                     free[place * m + j] += slope * (h * products[j]);
@@ -256,19 +265,24 @@ impl<'a> StageSystem<'a> {
     #[inline(always)]
     pub(crate) fn scatter_free(self, h: f64, free: &[f64], stages: &mut [f64]) {
         let Self {
-            t, chains, m, n, f, ..
+            t,
+            reduction,
+            m,
+            n,
+            f,
+            ..
         } = self;
         let powers = powers_of(h);
-        for (place, &v) in chains.free[..f].iter().enumerate() {
+        for (place, &v) in reduction.free[..f].iter().enumerate() {
             for j in 0..m {
                 stages[j * n + v] = free[place * m + j];
             }
         }
-        for &(c, _) in &chains.chained {
-            let (end, links) = chains.ends[c];
-            let products = product(&t.powers[(links - 1) * m * m..], m, &free[end * m..]);
+        for &(c, _) in &reduction.sources {
+            let (place, order) = reduction.highest[c];
+            let products = product(&t.powers[(order - 1) * m * m..], m, &free[place * m..]);
             for j in 0..m {
-                stages[j * n + c] += powers[links - 1] * products[j];
+                stages[j * n + c] += powers[order - 1] * products[j];
             }
         }
     }

@@ -1,10 +1,10 @@
 //! What the solver promises, one property per file.
 
-mod chains;
 mod classes;
 mod complex;
 mod conditioning;
 mod control;
+mod derivative_states;
 mod diagnostics;
 mod embedding;
 mod end_to_end;

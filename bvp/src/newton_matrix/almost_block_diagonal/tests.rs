@@ -8,13 +8,13 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 use proptest::prelude::*;
 
-/// A linear problem: links and right-hand sides of every segment, and the conditions.
+/// A linear problem: transition blocks and right-hand sides of every segment, and the conditions.
 struct Linear {
     /// (states, intervals) of each segment.
     sizes: Vec<(usize, usize)>,
     k: usize,
     /// \[Γ P\] of each interval, row-major, for each segment.
-    links: Vec<Vec<Vec<f64>>>,
+    blocks: Vec<Vec<Vec<f64>>>,
     /// gᵢ of all intervals of a segment, one after the other.
     loads: Vec<Vec<f64>>,
     /// Jacobian and right-hand sides of the conditions.
@@ -35,7 +35,7 @@ impl Linear {
             move |count: usize| -> Vec<f64> { (0..count).map(|_| number()).collect() };
         let states: usize = sizes.iter().map(|(n, _)| n).sum();
         Self {
-            links: sizes
+            blocks: sizes
                 .iter()
                 .map(|&(n, intervals)| (0..intervals).map(|_| numbers(n * (n + k))).collect())
                 .collect(),
@@ -52,9 +52,9 @@ impl Linear {
         let (states, conditions) = (self.sizes.iter().map(|size| size.0), self.values.len());
         let mut matrix = AlmostBlockDiagonal::new(states, self.k, conditions);
         matrix.resize(self.sizes.iter().map(|size| size.1));
-        for (segment, links) in self.links.iter().enumerate() {
-            let all = matrix.chain_mut(segment).links_mut();
-            all.copy_from_slice(&links.concat());
+        for (segment, blocks) in self.blocks.iter().enumerate() {
+            let all = matrix.transitions_mut(segment).blocks_mut();
+            all.copy_from_slice(&blocks.concat());
         }
         matrix.factor(&self.conditions)?;
         let segment = |(&(n, _), loads): (&(usize, usize), &Vec<f64>)| SegmentIterate {
@@ -93,14 +93,14 @@ impl Linear {
             }
         }
         let (mut row, mut first) = (self.values.len(), 0);
-        for ((&(n, _), links), loads) in self.sizes.iter().zip(&self.links).zip(&self.loads) {
-            for (link, load) in links.iter().zip(loads.chunks(n)) {
-                for (r, (link, load)) in link.chunks(n + self.k).zip(load).enumerate() {
+        for ((&(n, _), blocks), loads) in self.sizes.iter().zip(&self.blocks).zip(&self.loads) {
+            for (block, load) in blocks.iter().zip(loads.chunks(n)) {
+                for (r, (row_of_block, load)) in block.chunks(n + self.k).zip(load).enumerate() {
                     for j in 0..n {
-                        a[(row + r, first + j)] = -link[j];
+                        a[(row + r, first + j)] = -row_of_block[j];
                     }
                     for j in 0..self.k {
-                        a[(row + r, nodes + j)] = -link[n + j];
+                        a[(row + r, nodes + j)] = -row_of_block[n + j];
                     }
                     a[(row + r, first + n + r)] = 1.0;
                     b[(row + r, 0)] = *load;
@@ -157,7 +157,7 @@ fn wrights_problem_is_solved_to_rounding() {
     let problem = Linear {
         sizes: vec![(2, intervals)],
         k: 0,
-        links: vec![vec![vec![cosh, sinh, sinh, cosh]; intervals]],
+        blocks: vec![vec![vec![cosh, sinh, sinh, cosh]; intervals]],
         loads: vec![vec![0.0; 2 * intervals]],
         conditions: vec![1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0],
         values: vec![1.0, 0.0],
@@ -196,10 +196,10 @@ fn a_condition_given_twice_is_singular() {
 }
 
 #[test]
-fn a_node_that_no_link_determines_is_named() {
-    // Links that are not finite cannot be eliminated.
+fn a_node_that_no_block_determines_is_named() {
+    // Blocks that are not finite cannot be eliminated.
     let mut problem = Linear::random(vec![(1, 2), (2, 4)], 1, 2);
-    problem.links[1][2][0] = f64::NAN;
+    problem.blocks[1][2][0] = f64::NAN;
     let (segment, node) = (1, 2);
     assert_eq!(problem.structured(), Err(Singular::Node { segment, node }));
 }

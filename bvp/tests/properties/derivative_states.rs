@@ -4,31 +4,31 @@ use bvp::{
     Constant, Ends, Equations, Family, GlobalError, Options, Scheme, Segment, Solution, solve,
 };
 
-/// How many states are chained: y₀' = y₁, y₁' = y₂, …
-const LINKS: std::ops::RangeInclusive<usize> = 1..=4;
+/// Numbers of derivative states: y₀' = y₁, y₁' = y₂, …
+const DERIVATIVES: std::ops::RangeInclusive<usize> = 1..=4;
 
-/// y₀⁽ⁿ⁻¹⁾ = −y₀ + p y₀² / 20 + cos s, n − 2 chained states, and a last state with the slope y₀ y₁.
+/// y₀⁽ⁿ⁻¹⁾ = −y₀ + p y₀² / 20 + cos s, n − 2 derivative states, and a last state with the slope y₀ y₁.
 struct Oscillator {
     segments: [Segment; 1],
-    links: usize,
-    /// What the first derivative of a chained row is more than a unit vector by.
+    derivatives: usize,
+    /// The last entry of the Jacobian row of a derivative state, zero for a unit vector.
     extra: f64,
     /// Whether p is left free.
     free: bool,
 }
 
 impl Oscillator {
-    fn new(links: usize, extra: f64, free: bool) -> Self {
+    fn new(derivatives: usize, extra: f64, free: bool) -> Self {
         Self {
-            segments: [Segment::on(links + 2, 0.0, 1.0)],
-            links,
+            segments: [Segment::on(derivatives + 2, 0.0, 1.0)],
+            derivatives,
             extra,
             free,
         }
     }
 
     fn states(&self) -> usize {
-        self.links + 2
+        self.derivatives + 2
     }
 }
 
@@ -46,9 +46,9 @@ impl Equations for Oscillator {
     }
 
     fn rhs(&self, _: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
-        dy[..self.links].copy_from_slice(&y[1..=self.links]);
-        dy[self.links] = 0.05 * p[0] * y[0] * y[0] - y[0] + s.cos();
-        dy[self.links + 1] = y[0] * y[1];
+        dy[..self.derivatives].copy_from_slice(&y[1..=self.derivatives]);
+        dy[self.derivatives] = 0.05 * p[0] * y[0] * y[0] - y[0] + s.cos();
+        dy[self.derivatives + 1] = y[0] * y[1];
     }
 
     fn rhs_jacobian(
@@ -62,15 +62,15 @@ impl Equations for Oscillator {
     ) {
         self.rhs(segment, s, y, p, dy);
         jacobian.fill(0.0);
-        let (n, links, columns) = (self.states(), self.links, self.states() + 1);
-        for link in 0..links {
-            jacobian[link * columns + link + 1] = 1.0;
-            jacobian[link * columns + n - 1] = self.extra;
+        let (n, derivatives, columns) = (self.states(), self.derivatives, self.states() + 1);
+        for state in 0..derivatives {
+            jacobian[state * columns + state + 1] = 1.0;
+            jacobian[state * columns + n - 1] = self.extra;
         }
-        jacobian[links * columns] = 0.1 * p[0] * y[0] - 1.0;
-        jacobian[links * columns + n] = 0.05 * y[0] * y[0];
-        jacobian[(links + 1) * columns] = y[1];
-        jacobian[(links + 1) * columns + 1] = y[0];
+        jacobian[derivatives * columns] = 0.1 * p[0] * y[0] - 1.0;
+        jacobian[derivatives * columns + n] = 0.05 * y[0] * y[0];
+        jacobian[(derivatives + 1) * columns] = y[1];
+        jacobian[(derivatives + 1) * columns + 1] = y[0];
     }
 
     fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
@@ -102,9 +102,9 @@ impl Equations for Oscillator {
 /// The smallest number that makes a row no unit vector: it changes no sum.
 const TINY: f64 = 1e-300;
 
-fn guess(links: usize) -> Constant {
+fn guess(derivatives: usize) -> Constant {
     Constant {
-        states: vec![vec![0.1; links + 2]],
+        states: vec![vec![0.1; derivatives + 2]],
         parameters: vec![1.0],
     }
 }
@@ -125,41 +125,47 @@ fn near(x: &[f64], y: &[f64]) -> bool {
 }
 
 #[test]
-fn a_chain_changes_neither_the_solution_nor_the_way_to_it() {
-    for links in LINKS {
+fn order_reduction_changes_neither_the_solution_nor_the_way_to_it() {
+    for derivatives in DERIVATIVES {
         for stages in [3, 4, 6, 7] {
-            let [chained, plain] = [0.0, TINY].map(|extra| -> Solution {
-                let equations = Oscillator::new(links, extra, false);
-                solve(&equations, &guess(links), &options(stages)).unwrap()
+            let [reduced, plain] = [0.0, TINY].map(|extra| -> Solution {
+                let equations = Oscillator::new(derivatives, extra, false);
+                solve(&equations, &guess(derivatives), &options(stages)).unwrap()
             });
-            let [one, two] = [&chained, &plain].map(|solution| {
+            let [one, two] = [&reduced, &plain].map(|solution| {
                 let stats = solution.stats();
                 (stats.newton_steps, stats.factorisations, stats.meshes)
             });
-            assert_eq!(one, two, "{links} links, {stages} stages");
-            assert_eq!(chained.mesh(0), plain.mesh(0));
-            let [mut y, mut z] = [vec![0.0; links + 2], vec![0.0; links + 2]];
+            assert_eq!(one, two, "{derivatives} derivative states, {stages} stages");
+            assert_eq!(reduced.mesh(0), plain.mesh(0));
+            let [mut y, mut z] = [vec![0.0; derivatives + 2], vec![0.0; derivatives + 2]];
             for i in 0..=50 {
                 let s = 0.02 * f64::from(i);
-                chained.state(0, s, &mut y);
+                reduced.state(0, s, &mut y);
                 plain.state(0, s, &mut z);
-                assert!(near(&y, &z), "{links} links, {stages} stages: {y:?} {z:?}");
-                chained.derivative(0, s, &mut y);
+                assert!(
+                    near(&y, &z),
+                    "{derivatives} derivative states, {stages} stages: {y:?} {z:?}"
+                );
+                reduced.derivative(0, s, &mut y);
                 plain.derivative(0, s, &mut z);
-                assert!(near(&y, &z), "{links} links, {stages} stages: {y:?} {z:?}");
+                assert!(
+                    near(&y, &z),
+                    "{derivatives} derivative states, {stages} stages: {y:?} {z:?}"
+                );
             }
         }
     }
 }
 
 #[test]
-fn a_chain_changes_neither_corrections_nor_null_vectors_of_a_family() {
-    for links in LINKS {
+fn order_reduction_changes_neither_corrections_nor_null_vectors_of_a_family() {
+    for derivatives in DERIVATIVES {
         for stages in [3, 4, 6, 7] {
             let [one, two] = [0.0, TINY].map(|extra| {
-                let equations = Oscillator::new(links, extra, true);
+                let equations = Oscillator::new(derivatives, extra, true);
                 let (mut family, mut z) =
-                    Family::new(&equations, 0, &[], &guess(links), &options(stages)).unwrap();
+                    Family::new(&equations, 0, &[], &guess(derivatives), &options(stages)).unwrap();
                 // Off the curve, where the correction is not nothing.
                 for (i, z) in z.iter_mut().enumerate() {
                     *z += 1e-2 * (i as f64).sin();
@@ -175,7 +181,7 @@ fn a_chain_changes_neither_corrections_nor_null_vectors_of_a_family() {
             });
             assert!(
                 near(&one.0, &two.0) && near(&one.1, &two.1),
-                "{links} links, {stages} stages"
+                "{derivatives} derivative states, {stages} stages"
             );
         }
     }
