@@ -8,7 +8,7 @@ use crate::input::Key;
 use crate::{
     BranchEnd, Drive, LimitCurve, LimitCurvePoint, SolveError, SolveOptions, TraceConvergence,
 };
-use std::time::Instant;
+use web_time::Instant;
 
 /// Intervals between the points of a curve.
 const INTERVALS: usize = 40;

@@ -6,7 +6,7 @@ use super::solve::refused;
 use super::trace::branch_between;
 use crate::input::Key;
 use crate::{Drive, Limit, LimitReason, Limits, RangeEnd, SolveError, SolveOptions};
-use std::time::Instant;
+use web_time::Instant;
 
 /// An end that is a limit.
 #[derive(Clone, Copy, Debug)]

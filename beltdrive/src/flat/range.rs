@@ -3,7 +3,7 @@
 use super::closed_form::{ClosedForm, Refusal};
 use crate::input::Key;
 use crate::{Drive, SpanTension, StateErrors, StateSummary};
-use std::time::Instant;
+use web_time::Instant;
 
 /// Factor between the values at which an end of the range is looked for.
 const STEP: f64 = 1.1;

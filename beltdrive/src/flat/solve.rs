@@ -5,7 +5,7 @@ use super::limits::largest_load;
 use super::state::steady_state;
 use crate::input::Key;
 use crate::{Drive, SolveError, SolveOptions, SteadyState};
-use std::time::Instant;
+use web_time::Instant;
 
 /// The steady state of a flat-belt drive.
 pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {

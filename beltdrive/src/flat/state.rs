@@ -8,7 +8,7 @@ use crate::{
     SteadyState, Warning,
 };
 use std::f64::consts::FRAC_PI_2;
-use std::time::Instant;
+use web_time::Instant;
 
 /// Points of a profile: at least so many on a pulley, and in a panel of a zone.
 const POINTS: usize = 240;

@@ -11,7 +11,7 @@ use crate::{
     Branch, BranchEnd, BranchEvent, Drive, EventKind, LimitReason, Pulley, PulleySummary,
     SolveError, SolveOptions, TraceConvergence, TracePoint, Zone, ZoneKind,
 };
-use std::time::Instant;
+use web_time::Instant;
 
 /// Intervals between the samples of a branch.
 const INTERVALS: usize = 48;

@@ -3,7 +3,7 @@
 use super::chart::Chart;
 use crate::input::Key;
 use crate::{Drive, LimitCurve, SolveError, SolveOptions};
-use std::time::Instant;
+use web_time::Instant;
 
 /// The limit of one entry of a V-belt drive over a second one.
 pub(crate) fn limit_curve(

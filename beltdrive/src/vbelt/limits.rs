@@ -12,7 +12,7 @@ use crate::{
 };
 use continuation::Direction;
 use std::f64::consts::PI;
-use std::time::Instant;
+use web_time::Instant;
 
 /// How far a load is lowered, in logarithms of its ratio to the slack tension, where the drive does
 /// not carry it.

@@ -4,7 +4,7 @@ use super::limit::Found;
 use super::path::{Path, Solved, Stuck};
 use super::state::steady_state;
 use crate::{Drive, SolveError, SolveOptions, SpanTension, SteadyState};
-use std::time::Instant;
+use web_time::Instant;
 
 /// The steady state of a V-belt drive, from nothing but the drive.
 pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {

@@ -7,7 +7,7 @@ use crate::steady_state::{
 };
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
-use std::time::Instant;
+use web_time::Instant;
 
 /// Gauss rule with four points on \[0, 1\] for integrals over a mesh interval (abscissae ±x₁, ±x₂
 /// and weights of the rule on \[−1, 1\], Abramowitz & Stegun table 25.4).

@@ -5,7 +5,7 @@ use super::tracer::{Tracer, Until};
 use crate::input::Key;
 use crate::{Branch, Drive, SolveError, SolveOptions};
 use continuation::Direction;
-use std::time::Instant;
+use web_time::Instant;
 
 /// The branch of steady states of a V-belt drive over one entry of the drive file.
 pub(crate) fn trace(

@@ -17,7 +17,7 @@ use crate::{
     TraceConvergence, TracePoint,
 };
 use continuation::{Direction, Kind, Point, Stop};
-use std::time::Instant;
+use web_time::Instant;
 
 /// The most pieces of a branch.
 const MAX_PIECES: usize = 40;

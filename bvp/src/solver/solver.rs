@@ -21,7 +21,7 @@ use crate::solver::homotopy::rough_solution;
 use crate::solver::options::{GlobalError, Options};
 use crate::solver::statement::{check_guess, check_statement, first_mesh};
 use std::sync::Arc;
-use std::time::Instant;
+use web_time::Instant;
 
 /// Newton's method stops when its corrections are this fraction of the tolerance. What is left of them
 /// is in the defect, and so in the estimate of the error, ...

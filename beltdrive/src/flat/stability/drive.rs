@@ -13,7 +13,7 @@ use crate::{
     AxialMode, Drive, FormStability, FrictionLaw, Onset, PulleyStability, ShapePoint, SolveError,
     Stability, ZoneKind,
 };
-use std::time::Instant;
+use web_time::Instant;
 
 /// Modes of which shapes are given, and points of a shape.
 const SHAPES: usize = 3;
