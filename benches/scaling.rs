@@ -66,7 +66,7 @@ impl<'a> Bench<'a> {
         intervals: usize,
         size: usize,
     ) {
-        let guess = guess(equations.segments()[0].states, intervals);
+        let guess = guess(equations.shape().segments[0].states, intervals);
         let mut fastest = Duration::MAX;
         let mut group = criterion.benchmark_group(self.names[0]);
         group.sampling_mode(SamplingMode::Flat);

@@ -6,8 +6,8 @@ use bvp::{Ends, Problem, Real, Segment};
 pub(crate) struct Bratu;
 
 impl Problem for Bratu {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
     }
 
     fn parameters(&self) -> usize {
@@ -37,8 +37,8 @@ pub(crate) struct Swirl;
 const L: f64 = 10.0;
 
 impl Problem for Swirl {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(5)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(5)]
     }
 
     fn parameters(&self) -> usize {
@@ -84,8 +84,8 @@ impl Copies {
 }
 
 impl Problem for Copies {
-    fn segments(&self) -> &[Segment] {
-        &self.0
+    fn segments(&self) -> Vec<Segment> {
+        self.0.to_vec()
     }
 
     fn parameters(&self) -> usize {

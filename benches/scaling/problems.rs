@@ -1,6 +1,6 @@
 //! Problems of any number of states whose Jacobians are written by hand.
 
-use bvp::{Ends, Equations, Segment};
+use bvp::{Ends, Equations, Segment, Shape};
 
 /// y′ = A y with a full antisymmetric A; the first half of the states is 1 at s = 0, the others
 /// are 1 at s = 1. The Jacobian costs no more than to copy A.
@@ -33,19 +33,11 @@ impl Rotation {
 }
 
 impl Equations for Rotation {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
+    fn shape(&self) -> Shape {
+        Shape::new(self.segments.to_vec(), 0)
     }
 
-    fn parameters(&self) -> usize {
-        0
-    }
-
-    fn condition_count(&self) -> usize {
-        self.states()
-    }
-
-    fn rhs(&self, _: usize, _: f64, y: &[f64], _: &[f64], dy: &mut [f64]) {
+    fn evaluate_rhs(&self, _: usize, _: f64, y: &[f64], _: &[f64], dy: &mut [f64]) {
         for (dy, row) in dy.iter_mut().zip(self.a.chunks_exact(y.len())) {
             *dy = row.iter().zip(y).map(|(a, y)| a * y).sum();
         }
@@ -60,11 +52,11 @@ impl Equations for Rotation {
         dy: &mut [f64],
         jacobian: &mut [f64],
     ) {
-        self.rhs(segment, s, y, p, dy);
+        self.evaluate_rhs(segment, s, y, p, dy);
         jacobian.copy_from_slice(&self.a);
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, _: &[f64], r: &mut [f64]) {
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, _: &[f64], r: &mut [f64]) {
         let half = self.states() / 2;
         for (i, r) in r.iter_mut().enumerate() {
             let end = if i < half { at.start(0) } else { at.end(0) };
@@ -72,8 +64,14 @@ impl Equations for Rotation {
         }
     }
 
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
-        self.conditions(Ends::new(&self.segments, ends), p, r);
+    fn conditions_jacobian(
+        &self,
+        at: Ends<'_, f64>,
+        p: &[f64],
+        r: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        self.evaluate_conditions(at, p, r);
         let n = self.states();
         jacobian.fill(0.0);
         for i in 0..n {
@@ -112,19 +110,11 @@ impl ReactionDiffusion {
 }
 
 impl Equations for ReactionDiffusion {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
+    fn shape(&self) -> Shape {
+        Shape::new(self.segments.to_vec(), 0)
     }
 
-    fn parameters(&self) -> usize {
-        0
-    }
-
-    fn condition_count(&self) -> usize {
-        2 * self.lines
-    }
-
-    fn rhs(&self, _: usize, _: f64, y: &[f64], _: &[f64], dy: &mut [f64]) {
+    fn evaluate_rhs(&self, _: usize, _: f64, y: &[f64], _: &[f64], dy: &mut [f64]) {
         let u = |line: Option<usize>| line.and_then(|j| y.get(2 * j)).copied().unwrap_or(0.0);
         for (j, dy) in dy.chunks_exact_mut(2).enumerate() {
             let here = u(Some(j));
@@ -143,7 +133,7 @@ impl Equations for ReactionDiffusion {
         dy: &mut [f64],
         jacobian: &mut [f64],
     ) {
-        self.rhs(segment, s, y, p, dy);
+        self.evaluate_rhs(segment, s, y, p, dy);
         jacobian.fill(0.0);
         let columns = y.len();
         for (j, rows) in jacobian.chunks_exact_mut(2 * columns).enumerate() {
@@ -159,7 +149,7 @@ impl Equations for ReactionDiffusion {
         }
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, _: &[f64], r: &mut [f64]) {
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, _: &[f64], r: &mut [f64]) {
         for (j, r) in r.chunks_exact_mut(2).enumerate() {
             let x = (j + 1) as f64 / (self.lines + 1) as f64;
             let edge = (std::f64::consts::PI * x).sin();
@@ -168,8 +158,14 @@ impl Equations for ReactionDiffusion {
         }
     }
 
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
-        self.conditions(Ends::new(&self.segments, ends), p, r);
+    fn conditions_jacobian(
+        &self,
+        at: Ends<'_, f64>,
+        p: &[f64],
+        r: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        self.evaluate_conditions(at, p, r);
         jacobian.fill(0.0);
         let n = 2 * self.lines;
         for (i, row) in jacobian.chunks_exact_mut(2 * n).enumerate() {

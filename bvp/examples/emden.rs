@@ -20,8 +20,8 @@ use bvp::{Constant, Ends, Error, Options, Problem, Real, Segment, solve};
 struct Emden;
 
 impl Problem for Emden {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
     }
 
     fn rhs<T: Real>(&self, _segment: usize, x: T, y: &[T], _p: &[T], dy: &mut [T]) {

@@ -28,8 +28,8 @@ struct Explosion {
 }
 
 impl Problem for Explosion {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(4)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(4)]
     }
 
     fn parameters(&self) -> usize {

@@ -47,8 +47,8 @@ impl Front {
 }
 
 impl Problem for Front {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
+    fn segments(&self) -> Vec<Segment> {
+        self.segments.to_vec()
     }
 
     fn parameters(&self) -> usize {

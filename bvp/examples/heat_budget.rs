@@ -27,8 +27,8 @@ struct Slab {
 }
 
 impl Problem for Slab {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(3)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(3)]
     }
 
     fn parameters(&self) -> usize {

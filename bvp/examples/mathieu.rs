@@ -20,8 +20,8 @@ struct Mathieu {
 }
 
 impl Problem for Mathieu {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, 0.0, PI)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, PI)]
     }
 
     fn parameters(&self) -> usize {

@@ -25,8 +25,8 @@ struct Wave {
 }
 
 impl Problem for Wave {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(8)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(8)]
     }
 
     fn parameters(&self) -> usize {

@@ -28,8 +28,8 @@ struct Osmosis {
 }
 
 impl Problem for Osmosis {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, 0.0, 1.0), Segment::on(2, 1.0, LENGTH)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, 1.0), Segment::on(2, 1.0, LENGTH)]
     }
 
     fn rhs<T: Real>(&self, segment: usize, x: T, y: &[T], _p: &[T], dy: &mut [T]) {

@@ -18,8 +18,8 @@ use std::f64::consts::PI;
 struct Injection;
 
 impl Problem for Injection {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(3)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(3)]
     }
 
     fn parameters(&self) -> usize {

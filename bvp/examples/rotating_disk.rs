@@ -27,8 +27,8 @@ const LENGTH: f64 = 2.0;
 struct Disk;
 
 impl Problem for Disk {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(5)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(5)]
     }
 
     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {

@@ -19,8 +19,8 @@ const EPSILON: f64 = 1e-4;
 struct Shock;
 
 impl Problem for Shock {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, -1.0, 1.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, -1.0, 1.0)]
     }
 
     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {

@@ -32,8 +32,8 @@ struct Pruefer {
 }
 
 impl Problem for Pruefer {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(1, -FRAC_PI_2, 0.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(1, -FRAC_PI_2, 0.0)]
     }
 
     fn parameters(&self) -> usize {

@@ -49,8 +49,8 @@
 //! struct Mathieu;
 //!
 //! impl Problem for Mathieu {
-//!     fn segments(&self) -> &[Segment] {
-//!         &[Segment { states: 2, from: 0.0, to: PI }]
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::on(2, 0.0, PI)]
 //!     }
 //!
 //!     fn parameters(&self) -> usize {
@@ -178,7 +178,7 @@ pub use problem::check::{Differenced, JacobianCheck, Place, check_jacobians};
 pub use problem::complex::Complex;
 pub use problem::difference::FiniteDifferences;
 pub use problem::dual::Dual;
-pub use problem::equations::Equations;
+pub use problem::equations::{Equations, Shape};
 pub use problem::guess::{Constant, Function, Guess, Table};
 pub use problem::problem::{Ends, Problem, Segment};
 pub use problem::real::Real;

@@ -11,8 +11,8 @@ static ALLOCATOR: dhat::Alloc = dhat::Alloc;
 struct Power;
 
 impl Problem for Power {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2), Segment::new(3)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2), Segment::new(3)]
     }
 
     fn parameters(&self) -> usize {

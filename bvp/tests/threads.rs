@@ -12,8 +12,8 @@ struct Power {
 }
 
 impl Problem for Power {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2), Segment::new(3)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2), Segment::new(3)]
     }
 
     fn parameters(&self) -> usize {
@@ -118,7 +118,7 @@ mod parallel {
     }
 
     impl Problem for Watched {
-        fn segments(&self) -> &[Segment] {
+        fn segments(&self) -> Vec<Segment> {
             Problem::segments(&Power { end: 2.0 })
         }
 

@@ -131,8 +131,8 @@
 //! struct Bratu;
 //!
 //! impl Problem for Bratu {
-//!     fn segments(&self) -> &[Segment] {
-//!         &[Segment { states: 2, from: 0.0, to: 1.0 }]
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::on(2, 0.0, 1.0)]
 //!     }
 //!     fn parameters(&self) -> usize { 1 }
 //!     fn condition_count(&self) -> usize { 2 }

@@ -8,8 +8,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 struct Mathieu;
 
 impl Problem for Mathieu {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, 0.0, PI)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, PI)]
     }
 
     fn parameters(&self) -> usize {
@@ -32,8 +32,8 @@ impl Problem for Mathieu {
 pub(crate) struct Wavenumber;
 
 impl Problem for Wavenumber {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn parameters(&self) -> usize {
@@ -62,8 +62,8 @@ impl Problem for Wavenumber {
 struct Elastica;
 
 impl Problem for Elastica {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(4, 0.0, 0.5)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(4, 0.0, 0.5)]
     }
 
     fn parameters(&self) -> usize {
@@ -99,8 +99,8 @@ impl Problem for Elastica {
 struct FreeFinalTime;
 
 impl Problem for FreeFinalTime {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(3)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(3)]
     }
 
     fn parameters(&self) -> usize {
@@ -139,8 +139,8 @@ pub(crate) struct Catenary {
 }
 
 impl Problem for Catenary {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(3)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(3)]
     }
 
     fn parameters(&self) -> usize {

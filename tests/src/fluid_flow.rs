@@ -10,8 +10,8 @@ struct Channel {
 }
 
 impl Problem for Channel {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(4)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(4)]
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -33,8 +33,8 @@ impl Problem for Channel {
 struct FalknerSkan;
 
 impl Problem for FalknerSkan {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(3, 0.0, 6.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(3, 0.0, 6.0)]
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -67,8 +67,8 @@ impl SwirlingFlow {
 }
 
 impl Problem for SwirlingFlow {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(5, 0.0, 11.3)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(5, 0.0, 11.3)]
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -96,8 +96,8 @@ impl Problem for SwirlingFlow {
 struct Slider;
 
 impl Problem for Slider {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(1, -FRAC_PI_2, FRAC_PI_2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(1, -FRAC_PI_2, FRAC_PI_2)]
     }
 
     fn parameters(&self) -> usize {
@@ -132,8 +132,8 @@ impl Injection {
 }
 
 impl Problem for Injection {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(7)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(7)]
     }
 
     fn parameters(&self) -> usize {

@@ -134,7 +134,7 @@ impl bvp::Guess for Case {
     }
 
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {
-        let segments = self.equations.segments();
+        let segments = self.equations.shape().segments;
         let count = self.initial_intervals.div_ceil(segments.len());
         let nodes = |segment: &Segment| -> Vec<f64> {
             let length = segment.to - segment.from;

@@ -10,8 +10,8 @@ pub(crate) struct Reaction {
 }
 
 impl Problem for Reaction {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -30,8 +30,8 @@ struct Convection {
 }
 
 impl Problem for Convection {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -52,8 +52,8 @@ struct StiffOperator {
 }
 
 impl Problem for StiffOperator {
-    fn segments(&self) -> &[Segment] {
-        SYMMETRIC
+    fn segments(&self) -> Vec<Segment> {
+        SYMMETRIC.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -75,8 +75,8 @@ struct ConvectionReaction {
 }
 
 impl Problem for ConvectionReaction {
-    fn segments(&self) -> &[Segment] {
-        SYMMETRIC
+    fn segments(&self) -> Vec<Segment> {
+        SYMMETRIC.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -99,8 +99,8 @@ struct ReactionDiffusion {
 }
 
 impl Problem for ReactionDiffusion {
-    fn segments(&self) -> &[Segment] {
-        SYMMETRIC
+    fn segments(&self) -> Vec<Segment> {
+        SYMMETRIC.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -125,8 +125,8 @@ impl Harmonic {
 }
 
 impl Problem for Harmonic {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -145,8 +145,8 @@ struct Decay {
 }
 
 impl Problem for Decay {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {

@@ -14,8 +14,8 @@ pub(crate) struct Bratu {
 }
 
 impl Problem for Bratu {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -33,8 +33,8 @@ impl Problem for Bratu {
 struct AbsoluteValue;
 
 impl Problem for AbsoluteValue {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, 0.0, 4.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, 4.0)]
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -51,8 +51,8 @@ impl Problem for AbsoluteValue {
 struct BuckledRod;
 
 impl Problem for BuckledRod {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {

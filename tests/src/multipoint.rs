@@ -17,8 +17,8 @@ pub(crate) struct SandwichBeam {
 }
 
 impl Problem for SandwichBeam {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(3, 0.0, 0.5), Segment::on(3, 0.5, 1.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(3, 0.0, 0.5), Segment::on(3, 0.5, 1.0)]
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -42,13 +42,11 @@ impl Problem for SandwichBeam {
 struct StepSource;
 
 impl Problem for StepSource {
-    fn segments(&self) -> &[Segment] {
-        const {
-            &[
-                Segment::on(2, 0.0, 1.0 / 3.0),
-                Segment::on(2, 1.0 / 3.0, 1.0),
-            ]
-        }
+    fn segments(&self) -> Vec<Segment> {
+        vec![
+            Segment::on(2, 0.0, 1.0 / 3.0),
+            Segment::on(2, 1.0 / 3.0, 1.0),
+        ]
     }
 
     fn rhs<T: Real>(&self, segment: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -86,8 +84,8 @@ impl OscillationToTransport {
 }
 
 impl Problem for OscillationToTransport {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, 0.0, 1.0), Segment::on(1, 1.0, Self::END)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, 1.0), Segment::on(1, 1.0, Self::END)]
     }
 
     fn rhs<T: Real>(&self, segment: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {

@@ -10,8 +10,8 @@ struct ExponentialConvection {
 }
 
 impl Problem for ExponentialConvection {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -37,8 +37,8 @@ impl QuadraticReaction {
 }
 
 impl Problem for QuadraticReaction {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -58,8 +58,8 @@ struct Troesch {
 }
 
 impl Problem for Troesch {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -90,8 +90,8 @@ impl Nozzle {
 }
 
 impl Problem for Nozzle {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -119,8 +119,8 @@ struct LagerstromCole {
 }
 
 impl Problem for LagerstromCole {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {

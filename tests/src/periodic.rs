@@ -20,8 +20,8 @@ impl FitzHughNagumo {
 }
 
 impl Problem for FitzHughNagumo {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn parameters(&self) -> usize {
@@ -57,8 +57,8 @@ impl Duffing {
 }
 
 impl Problem for Duffing {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {

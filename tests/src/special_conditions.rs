@@ -8,8 +8,8 @@ use bvp::{Ends, Problem, Real, Segment};
 struct LaneEmden;
 
 impl Problem for LaneEmden {
-    fn segments(&self) -> &[Segment] {
-        UNIT
+    fn segments(&self) -> Vec<Segment> {
+        UNIT.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -41,8 +41,8 @@ impl ButlerVolmer {
 }
 
 impl Problem for ButlerVolmer {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, 0.0, 0.1)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, 0.1)]
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {

@@ -18,8 +18,8 @@ impl Lines {
 }
 
 impl Problem for Lines {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2 * Self::COUNT)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2 * Self::COUNT)]
     }
 
     fn rhs<T: Real>(&self, _: usize, _: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -85,8 +85,8 @@ impl RotatingModes {
 }
 
 impl Problem for RotatingModes {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(3, 0.0, PI)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(3, 0.0, PI)]
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {

@@ -11,8 +11,8 @@ struct Shock {
 }
 
 impl Problem for Shock {
-    fn segments(&self) -> &[Segment] {
-        SYMMETRIC
+    fn segments(&self) -> Vec<Segment> {
+        SYMMETRIC.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -33,8 +33,8 @@ struct Corner {
 }
 
 impl Problem for Corner {
-    fn segments(&self) -> &[Segment] {
-        SYMMETRIC
+    fn segments(&self) -> Vec<Segment> {
+        SYMMETRIC.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -55,8 +55,8 @@ pub(crate) struct Spike {
 }
 
 impl Problem for Spike {
-    fn segments(&self) -> &[Segment] {
-        SYMMETRIC
+    fn segments(&self) -> Vec<Segment> {
+        SYMMETRIC.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -76,8 +76,8 @@ struct Airy {
 }
 
 impl Problem for Airy {
-    fn segments(&self) -> &[Segment] {
-        SYMMETRIC
+    fn segments(&self) -> Vec<Segment> {
+        SYMMETRIC.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {

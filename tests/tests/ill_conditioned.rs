@@ -13,8 +13,8 @@ struct TwoLayers {
 }
 
 impl Problem for TwoLayers {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, -1.0, 1.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, -1.0, 1.0)]
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {

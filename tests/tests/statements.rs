@@ -1,6 +1,6 @@
 //! The statements of the reference problems against their solutions and against differences.
 
-use bvp::{Ends, Equations};
+use bvp::{Ends, Equations, Shape};
 use reference_problems::{Case, all, case, exact_problems, scaled_error};
 use std::collections::HashSet;
 
@@ -23,7 +23,7 @@ impl Spread {
 /// The states of a reference table at all ends, laid out as [`Ends`] wants them.
 fn reference_ends(case: &Case) -> Vec<f64> {
     let mut ends = Vec::new();
-    for (index, segment) in case.equations.segments().iter().enumerate() {
+    for (index, segment) in case.equations.shape().segments.iter().enumerate() {
         for end in [segment.from, segment.to] {
             let mut points = case.reference.points.iter();
             let point = points.find(|(s, x, _)| *s == index && *x == end);
@@ -79,13 +79,14 @@ fn assert_jacobians(
     ends: &[f64],
     parameters: &[f64],
 ) {
-    let k = equations.parameters();
+    let shape = equations.shape();
+    let k = shape.parameters;
     let mut spread = Spread(0.1);
     for (segment, x, y) in points {
         let (n, segment, x) = (y.len(), *segment, *x);
         // Every collocation point lies inside its segment; right-hand sides may be singular at its
         // ends.
-        let of = equations.segments()[segment];
+        let of = &shape.segments[segment];
         if x <= of.from || x >= of.to {
             continue;
         }
@@ -95,27 +96,29 @@ fn assert_jacobians(
         equations.rhs_jacobian(segment, x, &z[..n], &z[n..], &mut dy, &mut jacobian);
         let what = format!("{name}, right-hand side at {x}");
         assert_jacobian(&what, &jacobian, &z, n, |z, dy| {
-            equations.rhs(segment, x, &z[..n], &z[n..], dy);
+            equations.evaluate_rhs(segment, x, &z[..n], &z[n..], dy);
         });
     }
     let z = [spread.around(ends), spread.around(parameters)].concat();
-    let count = equations.condition_count();
+    let count = shape.conditions;
     let mut r = vec![f64::NAN; count];
     let mut jacobian = vec![f64::NAN; count * z.len()];
     let (ends, p) = z.split_at(ends.len());
-    equations.conditions_jacobian(ends, p, &mut r, &mut jacobian);
+    let at = Ends::new(&shape.segments, ends);
+    equations.conditions_jacobian(at, p, &mut r, &mut jacobian);
     let what = format!("{name}, conditions");
     assert_jacobian(&what, &jacobian, &z, count, |z, r| {
         let (ends, p) = z.split_at(ends.len());
-        equations.conditions(Ends::new(equations.segments(), ends), p, r);
+        equations.evaluate_conditions(Ends::new(&shape.segments, ends), p, r);
     });
 }
 
 /// The conditions at the given ends.
 fn conditions(equations: &dyn Equations, ends: &[f64], parameters: &[f64]) -> Vec<f64> {
-    let mut r = vec![f64::NAN; equations.condition_count()];
-    let at = Ends::new(equations.segments(), ends);
-    equations.conditions(at, parameters, &mut r);
+    let shape = equations.shape();
+    let mut r = vec![f64::NAN; shape.conditions];
+    let at = Ends::new(&shape.segments, ends);
+    equations.evaluate_conditions(at, parameters, &mut r);
     r
 }
 
@@ -127,9 +130,13 @@ fn every_case_is_complete() {
     assert_eq!(ids.len(), 89, "names are unique");
     for case in &cases {
         let (id, equations) = (case.id, &case.equations);
-        let (segments, k) = (equations.segments(), equations.parameters());
+        let Shape {
+            segments,
+            parameters: k,
+            conditions,
+        } = equations.shape();
         let states: usize = segments.iter().map(|segment| segment.states).sum();
-        assert_eq!(equations.condition_count(), states + k, "{id}");
+        assert_eq!(conditions, states + k, "{id}");
         assert_eq!(case.parameter_guess.len(), k, "{id}");
         assert_eq!(case.reference.parameters.len(), k, "{id}");
         assert!(case.initial_intervals >= segments.len(), "{id}");
@@ -153,7 +160,7 @@ fn every_case_is_complete() {
 #[test]
 fn a_case_is_found_by_name() {
     let found = case("E31").expect("the case with free final time");
-    assert_eq!(found.equations.parameters(), 2);
+    assert_eq!(found.equations.shape().parameters, 2);
     assert!(case("T99").is_none());
 }
 
@@ -190,7 +197,7 @@ fn the_exact_solutions_solve_their_problems() {
     for problem in exact_problems() {
         let (equations, p) = (&*problem.equations, &problem.parameters);
         let (mut points, mut ends) = (Vec::new(), Vec::new());
-        for (index, segment) in equations.segments().iter().enumerate() {
+        for (index, segment) in equations.shape().segments.iter().enumerate() {
             let solution = |x: f64| {
                 let mut y = vec![f64::NAN; segment.states];
                 (problem.solution)(index, x, &mut y);
@@ -201,7 +208,7 @@ fn the_exact_solutions_solve_their_problems() {
                 let x = segment.from + length * f64::from(tenth) / 10.0;
                 let y = solution(x);
                 let mut dy = vec![f64::NAN; segment.states];
-                equations.rhs(index, x, &y, p, &mut dy);
+                equations.evaluate_rhs(index, x, &y, p, &mut dy);
                 let slopes = differences(solution, x, 1e-3 * length);
                 let error = scaled_error(&slopes, &dy);
                 assert!(

@@ -287,8 +287,8 @@ fn scaled(tension: SpanTension, force: f64) -> SpanTension {
 }
 
 impl Problem for DriveProblem {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
+    fn segments(&self) -> Vec<Segment> {
+        self.segments.clone()
     }
 
     fn parameters(&self) -> usize {

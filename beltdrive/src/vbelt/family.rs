@@ -9,7 +9,7 @@ use super::groove::Groove;
 use super::{DRIVEN, DRIVER, DriveProblem, Regime, Scales, Solved};
 use crate::Drive;
 use crate::input::Key;
-use bvp::{Ends, Equations, Problem, Segment};
+use bvp::{Ends, Equations, Problem, Segment, Shape};
 use std::sync::Mutex;
 
 /// Relative step of the differences.
@@ -172,22 +172,18 @@ impl Members {
 }
 
 impl Equations for DriveFamily {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
-    }
-
-    fn parameters(&self) -> usize {
-        self.constants + self.entries.len()
-    }
-
-    fn condition_count(&self) -> usize {
+    fn shape(&self) -> Shape {
         let states: usize = self.segments.iter().map(|segment| segment.states).sum();
-        states + self.constants
+        Shape {
+            segments: self.segments.clone(),
+            parameters: self.constants + self.entries.len(),
+            conditions: states + self.constants,
+        }
     }
 
-    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+    fn evaluate_rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
         self.with(p, false, |members, p| {
-            Problem::rhs(&members.here, segment, s, y, p, dy);
+            members.here.rhs(segment, s, y, p, dy);
         });
     }
 
@@ -212,29 +208,34 @@ impl Equations for DriveFamily {
                 y.len(),
                 jacobian,
                 |one, other| grooves(one) != grooves(other),
-                |problem, dy| Problem::rhs(problem, segment, s, y, p, dy),
+                |problem, dy| problem.rhs(segment, s, y, p, dy),
             );
         });
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
         self.with(p, false, |members, p| {
-            Problem::conditions(&members.here, at, p, r);
+            members.here.conditions(at, p, r);
         });
     }
 
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
+    fn conditions_jacobian(
+        &self,
+        at: Ends<'_, f64>,
+        p: &[f64],
+        r: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
         self.with(p, true, |members, p| {
             let mut own = std::mem::take(&mut members.jacobian);
-            own.resize(r.len() * (ends.len() + p.len()), 0.0);
-            members.here.conditions_jacobian(ends, p, r, &mut own);
+            own.resize(r.len() * (at.values().len() + p.len()), 0.0);
+            members.here.conditions_jacobian(at, p, r, &mut own);
             members.jacobian = own;
-            let at = Ends::new(&self.segments, ends);
             members.complete(
                 r.len(),
                 jacobian,
                 |_, _| true,
-                |problem, r| Problem::conditions(problem, at, p, r),
+                |problem, r| problem.conditions(at, p, r),
             );
         });
     }

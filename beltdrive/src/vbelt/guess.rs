@@ -180,7 +180,7 @@ mod tests {
             let problem = DriveProblem::new(&drive, Scales::new(&drive), 1e-3);
             let (values, p) = ends(&problem);
             let mut r = vec![f64::NAN; problem.condition_count()];
-            problem.conditions(Ends::new(problem.segments(), &values), &p, &mut r);
+            problem.conditions(Ends::new(&problem.segments(), &values), &p, &mut r);
             for residual in r {
                 assert!(residual.abs() < 1e-5, "{residual}");
             }

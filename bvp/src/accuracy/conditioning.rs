@@ -76,14 +76,15 @@ pub struct Conditioning {
 /// [`Error::NonFiniteRhs`], [`Error::NonFiniteCondition`], [`Error::SingularNode`] or
 /// [`Error::SingularConditions`], with the solution, if they cannot be linearised there.
 pub fn conditioning(equations: &dyn Equations, solution: &Solution) -> Result<Conditioning, Error> {
-    check_statement(equations, 0)?;
+    let equations = Held::none(equations);
+    check_statement(&equations, 0)?;
     let any_size = Options {
         max_intervals: usize::MAX,
         ..Options::default()
     };
-    let mesh = first_mesh(equations, solution, &any_size)?;
+    let mesh = first_mesh(&equations, solution, &any_size)?;
     let tableau = Arc::clone(&solution.tableau);
-    let mut collocation = Collocation::new(Held::none(equations), tableau, mesh);
+    let mut collocation = Collocation::new(equations, tableau, mesh);
     let mut residual = collocation.residual_buffer();
     collocation
         .linearise(&solution.x, &mut residual, &mut Stats::default())

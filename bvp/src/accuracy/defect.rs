@@ -7,6 +7,7 @@ use crate::kernels::dense::max_or_nan;
 use crate::kernels::parallel::{Buffers, for_each_run};
 use crate::kernels::specialise::specialise;
 use crate::problem::equations::Equations;
+use crate::problem::held::Held;
 use crate::result::stats::Stats;
 use std::ops::Range;
 
@@ -49,7 +50,7 @@ pub(crate) type Samples = Vec<Vec<f64>>;
 /// solver based on residual control and the MATLAB PSE", ACM Trans. Math. Softw. 27 (2001)
 /// 299-316. The values behind it are written to `samples`.
 pub(crate) fn defects(
-    equations: &dyn Equations,
+    equations: &Held<'_>,
     t: &Tableau,
     mesh: &Mesh,
     x: &Iterate,
@@ -91,7 +92,7 @@ impl Buffers for Vec<f64> {}
 
 /// A continuous solution on one segment.
 struct Along<'a> {
-    equations: &'a dyn Equations,
+    equations: &'a Held<'a>,
     tableau: &'a Tableau,
     /// Which segment it is.
     index: usize,
@@ -125,7 +126,7 @@ impl Along<'_> {
                 interval.state(&t.defect_value[q * m..][..m], y);
                 interval.slope(&t.defect_slope[q * m..][..m], slope);
                 f.fill(f64::NAN);
-                self.equations.rhs(self.index, s, y, &x.p, f);
+                self.equations.evaluate_rhs(self.index, s, y, &x.p, f);
                 if let Some(component) = f.iter().position(|f| !f.is_finite()) {
                     let segment = self.index;
                     return Err(NonFinite::Rhs {

@@ -22,7 +22,6 @@ use crate::discretisation::iterate::{Interval, Iterate, Residual, SegmentIterate
 use crate::kernels::dense::{add_scaled, dot, max_or_nan};
 use crate::kernels::specialise::specialise;
 use crate::newton::collocation::Collocation;
-use crate::problem::equations::Equations as _;
 
 /// Estimated global errors, relative to 1 + |value|.
 #[derive(Clone, Debug, Default)]

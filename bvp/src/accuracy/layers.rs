@@ -7,7 +7,6 @@
 
 use crate::discretisation::mesh::Mesh;
 use crate::newton::collocation::Collocation;
-use crate::problem::equations::Equations;
 use crate::problem::problem::Segment;
 use faer::MatRef;
 

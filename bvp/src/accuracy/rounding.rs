@@ -30,7 +30,6 @@ use crate::kernels::dense::dot;
 use crate::kernels::random::Signs;
 use crate::newton::collocation::{Collocation, gather_ends};
 use crate::newton::newton::norm;
-use crate::problem::equations::Equations;
 
 /// The unit roundoff u of double precision.
 pub(crate) const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;

@@ -76,7 +76,8 @@ impl<'a> Family<'a> {
         guess: &dyn Guess,
         options: &Options,
     ) -> Result<(Self, Vec<f64>), Error> {
-        let k = equations.parameters();
+        let problem = Held::none(equations);
+        let k = problem.parameters();
         let fixed = [&[parameter], held].concat();
         for (i, &parameter) in fixed.iter().enumerate() {
             if parameter >= k || fixed[..i].contains(&parameter) {
@@ -86,8 +87,8 @@ impl<'a> Family<'a> {
                 });
             }
         }
-        check_statement(equations, fixed.len())?;
-        guess.check_shape(equations.segments(), k)?;
+        check_statement(&problem, fixed.len())?;
+        guess.check_shape(problem.segments(), k)?;
         let mut p = vec![0.0; k];
         guess.parameters(&mut p);
         let first = solve(&Held::new(equations, &fixed, &p), guess, options)?;
@@ -241,7 +242,7 @@ impl<'a> Family<'a> {
         let mut ends = vec![0.0; segments.iter().map(|segment| 2 * segment.states).sum()];
         gather_ends(segments, &x, &mut ends);
         let mut conditions = vec![f64::NAN; equations.condition_count()];
-        equations.conditions(Ends::new(segments, &ends), &x.p, &mut conditions);
+        equations.evaluate_conditions(Ends::new(segments, &ends), &x.p, &mut conditions);
         let unknown = Quality::unknown(mesh);
         let quality = Quality {
             defects: defects(
@@ -321,8 +322,9 @@ impl<'a> Family<'a> {
     /// If the segments differ.
     pub fn exchanged(&self, equations: &'a dyn Equations) -> Result<Self, Error> {
         let own = &self.collocation.equations;
-        assert_eq!(own.segments(), equations.segments(), "the same segments");
-        check_statement(equations, own.held_count() + 1)?;
+        let problem = Held::none(equations);
+        assert_eq!(own.segments(), problem.segments(), "the same segments");
+        check_statement(&problem, own.held_count() + 1)?;
         let mut family = self.clone();
         family.collocation.equations = own.exchanged(equations);
         Ok(family)

@@ -8,7 +8,6 @@ use crate::discretisation::restriction::restrict;
 use crate::kernels::dense::max_or_nan;
 use crate::newton::collocation::Collocation;
 use crate::newton::newton::Failure;
-use crate::problem::equations::Equations;
 use crate::result::error::Error;
 use crate::result::solution::Quality;
 use crate::solver::failure::{check_mesh, numerical};

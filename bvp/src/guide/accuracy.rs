@@ -36,8 +36,8 @@
 //! use bvp::{GlobalError, Options, solve};
 //! # struct Runge;
 //! # impl Problem for Runge {
-//! #     fn segments(&self) -> &[Segment] {
-//! #         const { &[Segment::on(2, -1.0, 1.0)] }
+//! #     fn segments(&self) -> Vec<Segment> {
+//! #         vec![Segment::on(2, -1.0, 1.0)]
 //! #     }
 //! #     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {
 //! #         // The second derivative of 1/(1 + 25 s²).
@@ -115,8 +115,8 @@
 //! #     lambda: f64,
 //! # }
 //! # impl Problem for Bratu {
-//! #     fn segments(&self) -> &[Segment] {
-//! #         const { &[Segment::new(2)] }
+//! #     fn segments(&self) -> Vec<Segment> {
+//! #         vec![Segment::new(2)]
 //! #     }
 //! #     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
 //! #         dy[0] = y[1];

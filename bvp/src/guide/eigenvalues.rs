@@ -29,8 +29,8 @@
 //! struct Column;
 //!
 //! impl Problem for Column {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::new(2)] }
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::new(2)]
 //!     }
 //!
 //!     fn parameters(&self) -> usize {
@@ -98,8 +98,8 @@
 //! }
 //!
 //! impl Problem for Angle {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::new(1)] }
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::new(1)]
 //!     }
 //!
 //!     fn parameters(&self) -> usize {

@@ -35,8 +35,8 @@
 //! use bvp::{Error, Options, solve};
 //! # struct Layer;
 //! # impl Problem for Layer {
-//! #     fn segments(&self) -> &[Segment] {
-//! #         const { &[Segment::on(2, -1.0, 1.0)] }
+//! #     fn segments(&self) -> Vec<Segment> {
+//! #         vec![Segment::on(2, -1.0, 1.0)]
 //! #     }
 //! #     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {
 //! #         dy[0] = y[1];
@@ -77,8 +77,8 @@
 //! use bvp::{Differenced, check_jacobians};
 //! # struct Pendulum;
 //! # impl Problem for Pendulum {
-//! #     fn segments(&self) -> &[Segment] {
-//! #         const { &[Segment::new(2)] }
+//! #     fn segments(&self) -> Vec<Segment> {
+//! #         vec![Segment::new(2)]
 //! #     }
 //! #     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
 //! #         dy[0] = y[1];
@@ -123,8 +123,8 @@
 //!     epsilon: f64,
 //! }
 //! # impl Problem for TwoLayers {
-//! #     fn segments(&self) -> &[Segment] {
-//! #         const { &[Segment::on(2, -1.0, 1.0)] }
+//! #     fn segments(&self) -> Vec<Segment> {
+//! #         vec![Segment::on(2, -1.0, 1.0)]
 //! #     }
 //! #     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {
 //! #         dy[0] = y[1];

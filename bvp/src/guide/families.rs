@@ -16,8 +16,8 @@
 //! use bvp::{Embedding, Error, Options, solve_embedded};
 //! # struct Bratu;
 //! # impl Problem for Bratu {
-//! #     fn segments(&self) -> &[Segment] {
-//! #         const { &[Segment::new(2)] }
+//! #     fn segments(&self) -> Vec<Segment> {
+//! #         vec![Segment::new(2)]
 //! #     }
 //! #     fn parameters(&self) -> usize {
 //! #         1
@@ -59,8 +59,8 @@
 //! struct Bratu;
 //!
 //! impl Problem for Bratu {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::new(2)] }
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::new(2)]
 //!     }
 //!
 //!     fn parameters(&self) -> usize {

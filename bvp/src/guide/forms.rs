@@ -21,8 +21,8 @@
 //! struct Wall;
 //!
 //! impl Problem for Wall {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::on(2, 0.0, 0.3), Segment::on(2, 0.3, 1.0)] }
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::on(2, 0.0, 0.3), Segment::on(2, 0.3, 1.0)]
 //!     }
 //!
 //!     fn rhs<T: Real>(&self, segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
@@ -74,8 +74,8 @@
 //! struct Chain;
 //!
 //! impl Problem for Chain {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::new(3)] }
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::new(3)]
 //!     }
 //!
 //!     fn parameters(&self) -> usize {
@@ -124,8 +124,8 @@
 //! struct Sphere;
 //!
 //! impl Problem for Sphere {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::new(2)] }
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::new(2)]
 //!     }
 //!
 //!     fn rhs<T: Real>(&self, _segment: usize, r: T, y: &[T], _p: &[T], dy: &mut [T]) {
@@ -172,8 +172,8 @@
 //! struct Stokes;
 //!
 //! impl Problem for Stokes {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::on(4, 0.0, 10.0)] } // w and w′
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::on(4, 0.0, 10.0)] // w and w′
 //!     }
 //!
 //!     fn rhs<T: Real>(&self, _segment: usize, _z: T, y: &[T], _p: &[T], dy: &mut [T]) {

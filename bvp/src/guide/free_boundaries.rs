@@ -27,8 +27,8 @@
 //! }
 //!
 //! impl Problem for Oxygen {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::new(2)] }
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::new(2)]
 //!     }
 //!
 //!     fn parameters(&self) -> usize {
@@ -86,8 +86,8 @@
 //! struct Oscillator;
 //!
 //! impl Problem for Oscillator {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::new(2)] }
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::new(2)]
 //!     }
 //!
 //!     fn parameters(&self) -> usize {

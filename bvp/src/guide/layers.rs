@@ -24,8 +24,8 @@
 //! }
 //!
 //! impl Problem for Shock {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::new(2)] }
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::new(2)]
 //!     }
 //!
 //!     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
@@ -87,8 +87,8 @@
 //! struct Shock;
 //!
 //! impl Problem for Shock {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::new(2)] }
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::new(2)]
 //!     }
 //!
 //!     fn parameters(&self) -> usize {

@@ -38,8 +38,8 @@
 //! }
 //!
 //! impl Problem for Bratu {
-//!     fn segments(&self) -> &[Segment] {
-//!         const { &[Segment::on(2, 0.0, 1.0)] } // two states on 0 ≤ s ≤ 1
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::on(2, 0.0, 1.0)] // two states on 0 ≤ s ≤ 1
 //!     }
 //!
 //!     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
@@ -149,8 +149,8 @@
 //! # use bvp::{Constant, Ends, Options, Problem, Real, Segment, solve};
 //! # struct Decay;
 //! # impl Problem for Decay {
-//! #     fn segments(&self) -> &[Segment] {
-//! #         const { &[Segment::on(2, 0.0, 1.0)] }
+//! #     fn segments(&self) -> Vec<Segment> {
+//! #         vec![Segment::on(2, 0.0, 1.0)]
 //! #     }
 //! #     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
 //! #         dy[0] = y[1];

@@ -190,7 +190,7 @@ impl<'a> Collocation<'a> {
         gather_ends(self.equations.segments(), x, &mut self.ends);
         r.fill(f64::NAN);
         let at = Ends::new(self.equations.segments(), &self.ends);
-        self.equations.conditions(at, &x.p, r);
+        self.equations.evaluate_conditions(at, &x.p, r);
         finite_conditions(r, 1)
     }
 
@@ -234,8 +234,9 @@ impl<'a> Collocation<'a> {
         gather_ends(self.equations.segments(), x, &mut self.ends);
         residual.conditions.fill(f64::NAN);
         self.conditions_jacobian.fill(f64::NAN);
+        let at = Ends::new(self.equations.segments(), &self.ends);
         self.equations.conditions_jacobian(
-            &self.ends,
+            at,
             &x.p,
             &mut residual.conditions,
             &mut self.conditions_jacobian,
@@ -340,8 +341,8 @@ mod tests {
     struct ThirdOrder;
 
     impl Problem for ThirdOrder {
-        fn segments(&self) -> &[Segment] {
-            const { &[Segment::new(4)] }
+        fn segments(&self) -> Vec<Segment> {
+            vec![Segment::new(4)]
         }
 
         fn parameters(&self) -> usize {

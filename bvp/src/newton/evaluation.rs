@@ -93,7 +93,7 @@ impl<'a> SegmentAt<'a> {
             r.fill(f64::NAN);
             for (j, f) in r.chunks_exact_mut(n).enumerate() {
                 let s = interval.stage_state(t, j, y);
-                self.equations.rhs(self.index, s, y, self.p, f);
+                self.equations.evaluate_rhs(self.index, s, y, self.p, f);
                 interval.stage_residual(j, f, self.index, s)?;
             }
             interval.continuity(t, c);

@@ -2,28 +2,24 @@
 
 use crate::kernels::specialise::specialise;
 use crate::problem::dual::Dual;
-use crate::problem::equations::Equations;
-use crate::problem::problem::{Ends, Problem, Segment};
+use crate::problem::equations::{Equations, Shape};
+use crate::problem::problem::{Ends, Problem};
 use crate::problem::real::Real;
 
 /// The widest dual number: more directions are carried in several passes.
 const WIDEST: usize = 24;
 
 impl<P: Problem> Equations for P {
-    fn segments(&self) -> &[Segment] {
-        Problem::segments(self)
+    fn shape(&self) -> Shape {
+        Shape {
+            segments: self.segments(),
+            parameters: self.parameters(),
+            conditions: self.condition_count(),
+        }
     }
 
-    fn parameters(&self) -> usize {
-        Problem::parameters(self)
-    }
-
-    fn condition_count(&self) -> usize {
-        Problem::condition_count(self)
-    }
-
-    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
-        Problem::rhs(self, segment, s, y, p, dy);
+    fn evaluate_rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        self.rhs(segment, s, y, p, dy);
     }
 
     fn rhs_jacobian(
@@ -43,12 +39,19 @@ impl<P: Problem> Equations for P {
         differentiate(&rhs, y, p, dy, jacobian);
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
-        Problem::conditions(self, at, p, r);
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+        self.conditions(at, p, r);
     }
 
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
-        differentiate(&Conditions(self), ends, p, r, jacobian);
+    fn conditions_jacobian(
+        &self,
+        at: Ends<'_, f64>,
+        p: &[f64],
+        r: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        let conditions = Conditions { problem: self, at };
+        differentiate(&conditions, at.values(), p, r, jacobian);
     }
 }
 
@@ -71,13 +74,15 @@ impl<P: Problem> Differentiable for RhsAt<'_, P> {
     }
 }
 
-/// The conditions of a problem.
-struct Conditions<'a, P>(&'a P);
+/// The conditions of a problem, with the ends that they are asked at.
+struct Conditions<'a, P> {
+    problem: &'a P,
+    at: Ends<'a, f64>,
+}
 
 impl<P: Problem> Differentiable for Conditions<'_, P> {
     fn evaluate<T: Real>(&self, ends: &[T], p: &[T], r: &mut [T]) {
-        let at = Ends::new(Problem::segments(self.0), ends);
-        Problem::conditions(self.0, at, p, r);
+        self.problem.conditions(self.at.with(ends), p, r);
     }
 }
 

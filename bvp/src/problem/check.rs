@@ -1,7 +1,7 @@
 //! Comparison of two sources of derivatives.
 
 use crate::problem::difference::difference;
-use crate::problem::equations::Equations;
+use crate::problem::equations::{Equations, Shape};
 use crate::problem::guess::Guess;
 use crate::problem::problem::Ends;
 
@@ -44,13 +44,8 @@ pub enum Place {
 /// # Panics
 /// If the two do not have the same segments, parameters and number of conditions.
 pub fn check_jacobians(a: &dyn Equations, b: &dyn Equations, along: &dyn Guess) -> JacobianCheck {
-    assert_eq!(a.segments(), b.segments(), "the same segments");
-    assert_eq!(a.parameters(), b.parameters(), "as many parameters");
-    assert_eq!(
-        a.condition_count(),
-        b.condition_count(),
-        "as many conditions"
-    );
+    let shape = a.shape();
+    assert_eq!(shape, b.shape(), "the same segments and counts");
     let mut worst = JacobianCheck {
         difference: 0.0,
         place: Place::Condition {
@@ -65,11 +60,11 @@ pub fn check_jacobians(a: &dyn Equations, b: &dyn Equations, along: &dyn Guess) 
             worst = JacobianCheck { difference, place };
         }
     };
-    let k = a.parameters();
+    let k = shape.parameters;
     let mut p = vec![0.0; k];
     along.parameters(&mut p);
     let mut ends = Vec::new();
-    for (index, segment) in a.segments().iter().enumerate() {
+    for (index, segment) in shape.segments.iter().enumerate() {
         let n = segment.states;
         let mut y = vec![0.0; n];
         let at = |theta: f64| segment.from + theta * (segment.to - segment.from);
@@ -99,10 +94,11 @@ pub fn check_jacobians(a: &dyn Equations, b: &dyn Equations, along: &dyn Guess) 
             ends.extend_from_slice(&y);
         }
     }
-    let (rows, columns) = (a.condition_count(), ends.len() + k);
+    let at = Ends::new(&shape.segments, &ends);
+    let (rows, columns) = (shape.conditions, ends.len() + k);
     let evaluate = |equations: &dyn Equations| {
         let (mut r, mut jacobian) = (vec![f64::NAN; rows], vec![f64::NAN; rows * columns]);
-        equations.conditions_jacobian(&ends, &p, &mut r, &mut jacobian);
+        equations.conditions_jacobian(at, &p, &mut r, &mut jacobian);
         (r, jacobian)
     };
     let ((r_a, j_a), (r_b, j_b)) = (evaluate(a), evaluate(b));
@@ -122,20 +118,12 @@ pub fn check_jacobians(a: &dyn Equations, b: &dyn Equations, along: &dyn Guess) 
 pub struct Differenced<'a>(pub &'a dyn Equations);
 
 impl Equations for Differenced<'_> {
-    fn segments(&self) -> &[crate::Segment] {
-        self.0.segments()
+    fn shape(&self) -> Shape {
+        self.0.shape()
     }
 
-    fn parameters(&self) -> usize {
-        self.0.parameters()
-    }
-
-    fn condition_count(&self) -> usize {
-        self.0.condition_count()
-    }
-
-    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
-        self.0.rhs(segment, s, y, p, dy);
+    fn evaluate_rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        self.0.evaluate_rhs(segment, s, y, p, dy);
     }
 
     fn rhs_jacobian(
@@ -147,20 +135,26 @@ impl Equations for Differenced<'_> {
         dy: &mut [f64],
         jacobian: &mut [f64],
     ) {
-        self.rhs(segment, s, y, p, dy);
-        let rhs = |y: &[f64], p: &[f64], dy: &mut [f64]| self.rhs(segment, s, y, p, dy);
+        let rhs = |y: &[f64], p: &[f64], dy: &mut [f64]| self.evaluate_rhs(segment, s, y, p, dy);
+        rhs(y, p, dy);
         difference(rhs, y, p, dy.len(), jacobian);
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
-        self.0.conditions(at, p, r);
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+        self.0.evaluate_conditions(at, p, r);
     }
 
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
+    fn conditions_jacobian(
+        &self,
+        at: Ends<'_, f64>,
+        p: &[f64],
+        r: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
         let conditions = |ends: &[f64], p: &[f64], r: &mut [f64]| {
-            self.conditions(Ends::new(self.segments(), ends), p, r);
+            self.evaluate_conditions(at.with(ends), p, r);
         };
-        conditions(ends, p, r);
-        difference(conditions, ends, p, r.len(), jacobian);
+        self.evaluate_conditions(at, p, r);
+        difference(conditions, at.values(), p, r.len(), jacobian);
     }
 }

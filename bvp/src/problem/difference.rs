@@ -1,6 +1,6 @@
 //! Jacobians by central differences.
 
-use crate::problem::equations::Equations;
+use crate::problem::equations::{Equations, Shape};
 use crate::problem::problem::{Ends, Segment};
 
 /// Step of a central difference relative to 1 + |z|: the cube root of the rounding unit balances
@@ -53,19 +53,15 @@ where
     F: Fn(usize, f64, &[f64], &[f64], &mut [f64]) + Sync,
     G: Fn(Ends<'_, f64>, &[f64], &mut [f64]) + Sync,
 {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
+    fn shape(&self) -> Shape {
+        Shape {
+            segments: self.segments.clone(),
+            parameters: self.parameters,
+            conditions: self.condition_count,
+        }
     }
 
-    fn parameters(&self) -> usize {
-        self.parameters
-    }
-
-    fn condition_count(&self) -> usize {
-        self.condition_count
-    }
-
-    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+    fn evaluate_rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
         (self.rhs)(segment, s, y, p, dy);
     }
 
@@ -88,15 +84,21 @@ where
         );
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
         (self.conditions)(at, p, r);
     }
 
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
-        (self.conditions)(Ends::new(&self.segments, ends), p, r);
+    fn conditions_jacobian(
+        &self,
+        at: Ends<'_, f64>,
+        p: &[f64],
+        r: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        (self.conditions)(at, p, r);
         difference(
-            |ends, p, r| (self.conditions)(Ends::new(&self.segments, ends), p, r),
-            ends,
+            |ends, p, r| (self.conditions)(at.with(ends), p, r),
+            at.values(),
             p,
             r.len(),
             jacobian,

@@ -1,12 +1,15 @@
 //! Equations with some of their parameters held.
 
-use crate::problem::equations::Equations;
+use crate::problem::equations::{Equations, Shape};
 use crate::problem::problem::{Ends, Segment};
 
 /// Equations with one more condition pᵢ − value = 0 for each of some parameters, after their own.
+/// Their shape is asked for once, so that no evaluation allocates.
 #[derive(Clone)]
 pub(crate) struct Held<'a> {
     equations: &'a dyn Equations,
+    /// With the conditions of the held parameters.
+    shape: Shape,
     /// Index and value of each held parameter.
     values: Vec<(usize, f64)>,
 }
@@ -20,13 +23,37 @@ impl<'a> Held<'a> {
     /// The equations with the parameters of these indices held at their values in `p`.
     pub(crate) fn new(equations: &'a dyn Equations, indices: &[usize], p: &[f64]) -> Self {
         let values = indices.iter().map(|&index| (index, p[index])).collect();
-        Self { equations, values }
+        Self::with_values(equations, values)
+    }
+
+    fn with_values(equations: &'a dyn Equations, values: Vec<(usize, f64)>) -> Self {
+        let mut shape = equations.shape();
+        shape.conditions += values.len();
+        Self {
+            equations,
+            shape,
+            values,
+        }
     }
 
     /// Other equations with the same parameters held at the same values.
     pub(crate) fn exchanged<'b>(&self, equations: &'b dyn Equations) -> Held<'b> {
-        let values = self.values.clone();
-        Held { equations, values }
+        Held::with_values(equations, self.values.clone())
+    }
+
+    /// The segments.
+    pub(crate) fn segments(&self) -> &[Segment] {
+        &self.shape.segments
+    }
+
+    /// Number of parameters, held or not.
+    pub(crate) fn parameters(&self) -> usize {
+        self.shape.parameters
+    }
+
+    /// Number of conditions, with those of the held parameters.
+    pub(crate) fn condition_count(&self) -> usize {
+        self.shape.conditions
     }
 
     /// Number of parameters held.
@@ -55,20 +82,12 @@ impl<'a> Held<'a> {
 }
 
 impl Equations for Held<'_> {
-    fn segments(&self) -> &[Segment] {
-        self.equations.segments()
+    fn shape(&self) -> Shape {
+        self.shape.clone()
     }
 
-    fn parameters(&self) -> usize {
-        self.equations.parameters()
-    }
-
-    fn condition_count(&self) -> usize {
-        self.equations.condition_count() + self.values.len()
-    }
-
-    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
-        self.equations.rhs(segment, s, y, p, dy);
+    fn evaluate_rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        self.equations.evaluate_rhs(segment, s, y, p, dy);
     }
 
     fn rhs_jacobian(
@@ -83,24 +102,31 @@ impl Equations for Held<'_> {
         self.equations.rhs_jacobian(segment, s, y, p, dy, jacobian);
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
         let (own, held) = r.split_at_mut(r.len() - self.values.len());
-        self.equations.conditions(at, p, own);
+        self.equations.evaluate_conditions(at, p, own);
         for (r, (index, value)) in held.iter_mut().zip(&self.values) {
             *r = p[*index] - value;
         }
     }
 
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
+    fn conditions_jacobian(
+        &self,
+        at: Ends<'_, f64>,
+        p: &[f64],
+        r: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
         let (own, held) = r.split_at_mut(r.len() - self.values.len());
-        let columns = ends.len() + p.len();
+        let ends = at.values().len();
+        let columns = ends + p.len();
         let (own_rows, held_rows) = jacobian.split_at_mut(own.len() * columns);
-        self.equations.conditions_jacobian(ends, p, own, own_rows);
+        self.equations.conditions_jacobian(at, p, own, own_rows);
         let rows = held.iter_mut().zip(held_rows.chunks_exact_mut(columns));
         for ((r, row), (index, value)) in rows.zip(&self.values) {
             *r = p[*index] - value;
             row.fill(0.0);
-            row[ends.len() + index] = 1.0;
+            row[ends + index] = 1.0;
         }
     }
 }

@@ -68,6 +68,19 @@ impl<'a, T> Ends<'a, T> {
         &self.values[first..first + states]
     }
 
+    /// All values: start of segment 0, end of segment 0, start of segment 1, …
+    pub fn values(&self) -> &'a [T] {
+        self.values
+    }
+
+    /// Other values at the same ends.
+    pub(crate) fn with<'b, U>(&self, values: &'b [U]) -> Ends<'b, U>
+    where
+        'a: 'b,
+    {
+        Ends::new(self.segments, values)
+    }
+
     fn offset(&self, segment: usize) -> usize {
         self.segments[..segment].iter().map(|s| 2 * s.states).sum()
     }
@@ -85,7 +98,7 @@ impl<'a, T> Ends<'a, T> {
 /// evaluate them at once.
 pub trait Problem: Sync {
     /// The smooth segments, in the order in which they are numbered.
-    fn segments(&self) -> &[Segment];
+    fn segments(&self) -> Vec<Segment>;
 
     /// Number k of unknown scalar parameters.
     fn parameters(&self) -> usize {

@@ -51,8 +51,8 @@ pub struct Embedding {
 /// struct Corner;
 ///
 /// impl Problem for Corner {
-///     fn segments(&self) -> &[Segment] {
-///         const { &[Segment::on(2, -1.0, 1.0)] }
+///     fn segments(&self) -> Vec<Segment> {
+///         vec![Segment::on(2, -1.0, 1.0)]
 ///     }
 ///
 ///     fn parameters(&self) -> usize {
@@ -100,7 +100,8 @@ pub fn solve_embedded(
         from,
         to,
     } = *embedding;
-    let parameters = equations.parameters();
+    let problem = Held::none(equations);
+    let parameters = problem.parameters();
     if parameter >= parameters || !from.is_finite() || !to.is_finite() {
         return Err(Error::Embedding {
             parameter,
@@ -109,7 +110,7 @@ pub fn solve_embedded(
             to,
         });
     }
-    check_statement(equations, 1)?;
+    check_statement(&problem, 1)?;
     let solve_at = |value: f64, guess: &dyn Guess, options: &Options| {
         let mut p = vec![0.0; parameters];
         p[parameter] = value;

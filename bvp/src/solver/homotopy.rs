@@ -11,9 +11,10 @@
 //! (1.3). Damped Newton iteration follows the same path on one mesh; here the mesh follows the solution
 //! along it. G is not the guess that failed but [`Straight`], which has no wrong detail.
 
-use crate::problem::equations::Equations;
+use crate::problem::equations::{Equations, Shape};
 use crate::problem::guess::Guess;
-use crate::problem::problem::{Ends, Segment};
+use crate::problem::held::Held;
+use crate::problem::problem::Ends;
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
 use crate::solver::options::Options;
@@ -24,7 +25,7 @@ use crate::solver::straight::Straight;
 /// A rough solution of the problem, of which only the parameters and the mesh of the guess are
 /// used; `None` if the path ends before it. All cost is added to `stats`.
 pub(crate) fn rough_solution(
-    equations: &dyn Equations,
+    equations: &Held<'_>,
     guess: &dyn Guess,
     options: &Options,
     stats: &mut Stats,
@@ -45,7 +46,7 @@ pub(crate) fn rough_solution(
 
 /// The problem of one λ.
 struct Homotopy<'a> {
-    equations: &'a dyn Equations,
+    equations: &'a Held<'a>,
     line: &'a Straight<'a>,
     /// 1 − λ.
     rest: f64,
@@ -54,11 +55,11 @@ struct Homotopy<'a> {
 }
 
 impl<'a> Homotopy<'a> {
-    fn new(equations: &'a dyn Equations, line: &'a Straight<'a>, lambda: f64) -> Self {
+    fn new(equations: &'a Held<'a>, line: &'a Straight<'a>, lambda: f64) -> Self {
         let rest = 1.0 - lambda;
         let at = Ends::new(equations.segments(), &line.ends);
         let mut conditions = vec![0.0; equations.condition_count()];
-        equations.conditions(at, &line.parameters, &mut conditions);
+        equations.evaluate_conditions(at, &line.parameters, &mut conditions);
         conditions.iter_mut().for_each(|g| *g *= rest);
         Self {
             equations,
@@ -73,7 +74,7 @@ impl<'a> Homotopy<'a> {
         let (mut y, mut f) = (vec![0.0; dy.len()], vec![0.0; dy.len()]);
         self.line.state(segment, s, &mut y);
         self.equations
-            .rhs(segment, s, &y, &self.line.parameters, &mut f);
+            .evaluate_rhs(segment, s, &y, &self.line.parameters, &mut f);
         self.line.slope(segment, &mut y);
         for (dy, (f, slope)) in dy.iter_mut().zip(f.iter().zip(&y)) {
             *dy -= self.rest * (f - slope);
@@ -88,20 +89,12 @@ impl<'a> Homotopy<'a> {
 }
 
 impl Equations for Homotopy<'_> {
-    fn segments(&self) -> &[Segment] {
-        self.equations.segments()
+    fn shape(&self) -> Shape {
+        self.equations.shape()
     }
 
-    fn parameters(&self) -> usize {
-        self.equations.parameters()
-    }
-
-    fn condition_count(&self) -> usize {
-        self.equations.condition_count()
-    }
-
-    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
-        self.equations.rhs(segment, s, y, p, dy);
+    fn evaluate_rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        self.equations.evaluate_rhs(segment, s, y, p, dy);
         self.deform_rhs(segment, s, dy);
     }
 
@@ -118,13 +111,19 @@ impl Equations for Homotopy<'_> {
         self.deform_rhs(segment, s, dy);
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
-        self.equations.conditions(at, p, r);
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+        self.equations.evaluate_conditions(at, p, r);
         self.deform_conditions(r);
     }
 
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
-        self.equations.conditions_jacobian(ends, p, r, jacobian);
+    fn conditions_jacobian(
+        &self,
+        at: Ends<'_, f64>,
+        p: &[f64],
+        r: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        self.equations.conditions_jacobian(at, p, r, jacobian);
         self.deform_conditions(r);
     }
 }

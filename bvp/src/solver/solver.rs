@@ -56,6 +56,7 @@ pub fn solve(
 ) -> Result<Solution, Error> {
     let start = Instant::now();
     options.validate()?;
+    let equations = &Held::none(equations);
     check_statement(equations, 0)?;
     let mesh = first_mesh(equations, guess, options)?;
     let first = match options.global_error {
@@ -63,7 +64,7 @@ pub fn solve(
         GlobalError::BesideDefect | GlobalError::Skip => mesh,
     };
     let tableau = Tableau::of(options.scheme());
-    let collocation = Collocation::new(Held::none(equations), tableau, first.clone());
+    let collocation = Collocation::new(equations.clone(), tableau, first.clone());
     let run = Run {
         equations,
         options,
@@ -94,7 +95,7 @@ struct Violation {
 
 /// One call of [`solve`].
 struct Run<'a> {
-    equations: &'a dyn Equations,
+    equations: &'a Held<'a>,
     options: &'a Options,
     start: Instant,
     stats: Stats,

@@ -2,14 +2,14 @@
 
 use crate::discretisation::iterate::Iterate;
 use crate::discretisation::mesh::{Mesh, intervals, uniform};
-use crate::problem::equations::Equations;
 use crate::problem::guess::Guess;
+use crate::problem::held::Held;
 use crate::result::error::Error;
 use crate::solver::options::Options;
 
 /// Checks that the problem is stated completely, with a condition for every state and parameter
 /// but so many `free` parameters.
-pub(crate) fn check_statement(equations: &dyn Equations, free: usize) -> Result<(), Error> {
+pub(crate) fn check_statement(equations: &Held<'_>, free: usize) -> Result<(), Error> {
     let segments = equations.segments();
     if segments.is_empty() {
         return Err(Error::NoSegments);
@@ -44,7 +44,7 @@ pub(crate) fn check_statement(equations: &dyn Equations, free: usize) -> Result<
 
 /// The mesh to start on: that of the guess or equal intervals, if the guess fits the problem.
 pub(crate) fn first_mesh(
-    equations: &dyn Equations,
+    equations: &Held<'_>,
     guess: &dyn Guess,
     options: &Options,
 ) -> Result<Mesh, Error> {

@@ -4,6 +4,7 @@ use crate::discretisation::mesh::Mesh;
 use crate::kernels::dense::{add_scaled, all_finite, dot, lu_factor, lu_solve};
 use crate::problem::equations::Equations;
 use crate::problem::guess::Guess;
+use crate::problem::held::Held;
 use crate::problem::problem::{Ends, Segment};
 
 /// Iterations of Gauss and Newton: linear conditions take one.
@@ -29,7 +30,7 @@ pub(crate) struct Straight<'a> {
 
 impl<'a> Straight<'a> {
     /// With the parameters and the mesh of `guess`; `None` where a condition is not finite.
-    pub(crate) fn new(equations: &'a dyn Equations, guess: &dyn Guess) -> Option<Self> {
+    pub(crate) fn new(equations: &'a Held<'a>, guess: &dyn Guess) -> Option<Self> {
         let segments = equations.segments();
         let mut parameters = vec![0.0; equations.parameters()];
         guess.parameters(&mut parameters);
@@ -47,7 +48,7 @@ impl<'a> Straight<'a> {
 
     /// The constant slopes of the lines of a segment, into `slope`.
     pub(crate) fn slope(&self, segment: usize, slope: &mut [f64]) {
-        let (at, Segment { from, to, .. }) = (self.at(), self.segments[segment]);
+        let (at, &Segment { from, to, .. }) = (self.at(), &self.segments[segment]);
         let ends = at.start(segment).iter().zip(at.end(segment));
         for (slope, (start, end)) in slope.iter_mut().zip(ends) {
             *slope = (end - start) / (to - from);
@@ -78,10 +79,11 @@ impl Guess for Straight<'_> {
 }
 
 /// One iteration of Gauss's and Newton's method; `None` where its result is not finite.
-fn shortest_change(equations: &dyn Equations, ends: &mut [f64], p: &[f64]) -> Option<()> {
+fn shortest_change(equations: &Held<'_>, ends: &mut [f64], p: &[f64]) -> Option<()> {
     let (count, columns) = (equations.condition_count(), ends.len() + p.len());
     let (mut g, mut jacobian) = (vec![0.0; count], vec![0.0; count * columns]);
-    equations.conditions_jacobian(ends, p, &mut g, &mut jacobian);
+    let at = Ends::new(equations.segments(), ends);
+    equations.conditions_jacobian(at, p, &mut g, &mut jacobian);
     let rows = || jacobian.chunks_exact(columns).map(|row| &row[..ends.len()]);
     let mut normal: Vec<f64> = rows()
         .flat_map(|a| rows().map(move |b| dot(a, b)))
@@ -114,8 +116,8 @@ mod tests {
     struct Conditions;
 
     impl Problem for Conditions {
-        fn segments(&self) -> &[Segment] {
-            const { &[Segment::on(2, 1.0, 3.0)] }
+        fn segments(&self) -> Vec<Segment> {
+            vec![Segment::on(2, 1.0, 3.0)]
         }
 
         fn parameters(&self) -> usize {
@@ -139,7 +141,8 @@ mod tests {
             states: vec![vec![7.0; 2]],
             parameters: vec![1.0],
         };
-        let line = Straight::new(&Conditions, &guess).unwrap();
+        let equations = Held::none(&Conditions);
+        let line = Straight::new(&equations, &guess).unwrap();
         let (mut y, mut slope) = ([0.0; 2], [0.0; 2]);
         for (s, exact) in [(1.0, [1.0, 1.0]), (2.0, [1.5, 0.5]), (3.0, [2.0, 0.0])] {
             line.state(0, s, &mut y);

@@ -89,8 +89,8 @@ struct Slab {
 }
 
 impl Problem for Slab {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(4)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(4)]
     }
 
     fn parameters(&self) -> usize {

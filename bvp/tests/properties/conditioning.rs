@@ -22,8 +22,8 @@ impl Linear {
 }
 
 impl Problem for Linear {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
+    fn segments(&self) -> Vec<Segment> {
+        self.segments.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
@@ -44,8 +44,8 @@ struct TwoLayers {
 }
 
 impl Problem for TwoLayers {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, -1.0, 1.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, -1.0, 1.0)]
     }
 
     fn rhs<T: Real>(&self, _: usize, x: T, y: &[T], _: &[T], dy: &mut [T]) {
@@ -68,9 +68,10 @@ fn on_a_fine_mesh(equations: &dyn Equations) -> Conditioning {
         global_error: GlobalError::Skip,
         ..Options::default()
     };
+    let shape = equations.shape();
     let guess = Constant {
-        parameters: vec![0.0; equations.parameters()],
-        ..states(&vec![0.0; equations.segments()[0].states])
+        parameters: vec![0.0; shape.parameters],
+        ..states(&vec![0.0; shape.segments[0].states])
     };
     let solution = solve(equations, &guess, &options).unwrap();
     conditioning(equations, &solution).unwrap()

@@ -1,7 +1,8 @@
 //! States whose derivative is another state are eliminated, which changes nothing but the cost.
 
 use bvp::{
-    Constant, Ends, Equations, Family, GlobalError, Options, Scheme, Segment, Solution, solve,
+    Constant, Ends, Equations, Family, GlobalError, Options, Scheme, Segment, Shape, Solution,
+    solve,
 };
 
 /// Numbers of derivative states: y₀' = y₁, y₁' = y₂, …
@@ -33,19 +34,15 @@ impl Oscillator {
 }
 
 impl Equations for Oscillator {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
+    fn shape(&self) -> Shape {
+        Shape {
+            segments: self.segments.to_vec(),
+            parameters: 1,
+            conditions: self.states() + usize::from(!self.free),
+        }
     }
 
-    fn parameters(&self) -> usize {
-        1
-    }
-
-    fn condition_count(&self) -> usize {
-        self.states() + usize::from(!self.free)
-    }
-
-    fn rhs(&self, _: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+    fn evaluate_rhs(&self, _: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
         dy[..self.derivatives].copy_from_slice(&y[1..=self.derivatives]);
         dy[self.derivatives] = 0.05 * p[0] * y[0] * y[0] - y[0] + s.cos();
         dy[self.derivatives + 1] = y[0] * y[1];
@@ -60,7 +57,7 @@ impl Equations for Oscillator {
         dy: &mut [f64],
         jacobian: &mut [f64],
     ) {
-        self.rhs(segment, s, y, p, dy);
+        self.evaluate_rhs(segment, s, y, p, dy);
         jacobian.fill(0.0);
         let (n, derivatives, columns) = (self.states(), self.derivatives, self.states() + 1);
         for state in 0..derivatives {
@@ -73,7 +70,7 @@ impl Equations for Oscillator {
         jacobian[(derivatives + 1) * columns + 1] = y[0];
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
         let n = self.states();
         // One at the right end, the others at the left one.
         for (r, y) in r.iter_mut().zip(&at.start(0)[..n]) {
@@ -85,8 +82,14 @@ impl Equations for Oscillator {
         }
     }
 
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
-        self.conditions(Ends::new(&self.segments, ends), p, r);
+    fn conditions_jacobian(
+        &self,
+        at: Ends<'_, f64>,
+        p: &[f64],
+        r: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        self.evaluate_conditions(at, p, r);
         let (n, columns) = (self.states(), 2 * self.states() + 1);
         jacobian.fill(0.0);
         jacobian[n] = 1.0;

@@ -25,10 +25,10 @@ struct Given {
 }
 
 impl Problem for Given {
-    fn segments(&self) -> &[Segment] {
+    fn segments(&self) -> Vec<Segment> {
         match self.equation {
-            Equation::Corner | Equation::Bratu => const { &[Segment::on(2, -1.0, 1.0)] },
-            Equation::Troesch => const { &[Segment::new(2)] },
+            Equation::Corner | Equation::Bratu => vec![Segment::on(2, -1.0, 1.0)],
+            Equation::Troesch => vec![Segment::new(2)],
         }
     }
 

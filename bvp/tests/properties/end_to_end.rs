@@ -21,8 +21,8 @@ impl Mathieu {
 }
 
 impl Problem for Mathieu {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, 0.0, PI)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, PI)]
     }
 
     fn parameters(&self) -> usize {
@@ -73,8 +73,8 @@ impl FitzHughNagumo {
 }
 
 impl Problem for FitzHughNagumo {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
     }
 
     fn parameters(&self) -> usize {
@@ -105,8 +105,8 @@ fn the_period_of_the_fitzhugh_nagumo_impulse() {
 struct Cubic;
 
 impl Problem for Cubic {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(3, -1.0, 0.0), Segment::on(3, 0.0, 2.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(3, -1.0, 0.0), Segment::on(3, 0.0, 2.0)]
     }
 
     fn rhs<T: Real>(&self, _: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
@@ -146,8 +146,8 @@ fn a_polynomial_through_three_points_is_exact() {
 pub(crate) struct MinimalTime;
 
 impl Problem for MinimalTime {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2), Segment::new(2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2), Segment::new(2)]
     }
 
     fn parameters(&self) -> usize {
@@ -188,8 +188,8 @@ struct Spike;
 const SPIKE: f64 = 1e-4;
 
 impl Problem for Spike {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, -1.0, 1.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, -1.0, 1.0)]
     }
 
     fn rhs<T: Real>(&self, _: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {

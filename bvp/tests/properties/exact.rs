@@ -31,8 +31,8 @@ struct Exponential {
 }
 
 impl Problem for Exponential {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
     }
 
     fn rhs<T: Real>(&self, _: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
@@ -63,8 +63,8 @@ pub(crate) fn exponential(w: f64) -> Exact {
 struct Bratu;
 
 impl Problem for Bratu {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
     }
 
     fn rhs<T: Real>(&self, _: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
@@ -111,8 +111,8 @@ fn chirp_states<T: Real>(w: f64, s: T) -> [T; 3] {
 }
 
 impl Problem for Chirp {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(3)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(3)]
     }
 
     fn rhs<T: Real>(&self, _: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {
@@ -144,8 +144,8 @@ pub(crate) fn chirp(w: f64) -> Exact {
 struct Wavenumber;
 
 impl Problem for Wavenumber {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
     }
 
     fn parameters(&self) -> usize {
@@ -182,8 +182,8 @@ pub(crate) fn wavenumber(half_waves: f64) -> Exact {
 struct LimitCycle;
 
 impl Problem for LimitCycle {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
     }
 
     fn parameters(&self) -> usize {
@@ -222,8 +222,8 @@ struct ThreePoint {
 }
 
 impl Problem for ThreePoint {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, 0.0, 0.5), Segment::on(2, 0.5, 1.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, 0.5), Segment::on(2, 0.5, 1.0)]
     }
 
     fn parameters(&self) -> usize {
@@ -262,8 +262,8 @@ pub(crate) fn three_point(w: f64) -> Exact {
 struct Swing;
 
 impl Problem for Swing {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
     }
 
     fn parameters(&self) -> usize {

@@ -3,7 +3,7 @@
 use crate::exact::exponential;
 use bvp::{
     Constant, Ends, Equations, Error, FiniteDifferences, GlobalError, Guess, Options, Scheme,
-    Segment, solve,
+    Segment, Shape, solve,
 };
 
 pub(crate) type Rhs = fn(usize, f64, &[f64], &[f64], &mut [f64]);
@@ -32,7 +32,7 @@ pub(crate) fn states(states: &[f64]) -> Constant {
 pub(crate) fn numerical(equations: &dyn Equations, guess: &dyn Guess, options: &Options) -> Error {
     let error = solve(equations, guess, options).unwrap_err();
     let best = error.best().expect("an iterate");
-    for (segment, shape) in equations.segments().iter().enumerate() {
+    for (segment, shape) in equations.shape().segments.iter().enumerate() {
         let mut y = vec![0.0; shape.states];
         best.state(segment, 0.5 * (shape.from + shape.to), &mut y);
         assert!(y.iter().all(|y| y.is_finite()));
@@ -257,19 +257,11 @@ fn a_jump_inside_a_segment_is_located_where_the_defect_is_to_be_small() {
 pub(crate) struct WrongJacobian;
 
 impl Equations for WrongJacobian {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(1)] }
+    fn shape(&self) -> Shape {
+        Shape::new(vec![Segment::new(1)], 0)
     }
 
-    fn parameters(&self) -> usize {
-        0
-    }
-
-    fn condition_count(&self) -> usize {
-        1
-    }
-
-    fn rhs(&self, _: usize, _s: f64, y: &[f64], _p: &[f64], dy: &mut [f64]) {
+    fn evaluate_rhs(&self, _: usize, _s: f64, y: &[f64], _p: &[f64], dy: &mut [f64]) {
         dy[0] = y[0];
     }
 
@@ -286,12 +278,18 @@ impl Equations for WrongJacobian {
         jacobian[0] = 1.0;
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, _p: &[f64], r: &mut [f64]) {
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, _p: &[f64], r: &mut [f64]) {
         r[0] = at.start(0)[0] - 1.0;
     }
 
-    fn conditions_jacobian(&self, ends: &[f64], _p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
-        r[0] = ends[0] - 1.0;
+    fn conditions_jacobian(
+        &self,
+        at: Ends<'_, f64>,
+        _p: &[f64],
+        r: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        r[0] = at.start(0)[0] - 1.0;
         jacobian.copy_from_slice(&[1e12, 0.0]);
     }
 }

@@ -21,8 +21,8 @@ impl Bratu {
 }
 
 impl Problem for Bratu {
-    fn segments(&self) -> &[Segment] {
-        &self.0
+    fn segments(&self) -> Vec<Segment> {
+        self.0.clone()
     }
 
     fn parameters(&self) -> usize {
@@ -53,8 +53,8 @@ impl Problem for Bratu {
 struct Loaded;
 
 impl Problem for Loaded {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(3)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(3)]
     }
 
     fn parameters(&self) -> usize {
@@ -83,8 +83,8 @@ impl Problem for Loaded {
 struct Neumann;
 
 impl Problem for Neumann {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
     }
 
     fn parameters(&self) -> usize {

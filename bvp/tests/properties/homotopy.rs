@@ -4,7 +4,7 @@ use crate::exact::bratu;
 use crate::failures::{growth, states};
 use bvp::{
     Constant, Ends, Equations, Error, FiniteDifferences, Guess, Options, Problem, Real, Segment,
-    Solution, solve,
+    Shape, Solution, solve,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -23,8 +23,8 @@ struct Joined;
 const MIDDLE: f64 = 0.140_539_214_400_472;
 
 impl Problem for Joined {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, 0.0, 0.5), Segment::on(2, 0.5, 1.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, 0.5), Segment::on(2, 0.5, 1.0)]
     }
 
     fn parameters(&self) -> usize {
@@ -121,21 +121,13 @@ struct Counted<'a> {
 }
 
 impl Equations for Counted<'_> {
-    fn segments(&self) -> &[Segment] {
-        self.equations.segments()
+    fn shape(&self) -> Shape {
+        self.equations.shape()
     }
 
-    fn parameters(&self) -> usize {
-        self.equations.parameters()
-    }
-
-    fn condition_count(&self) -> usize {
-        self.equations.condition_count()
-    }
-
-    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+    fn evaluate_rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
         self.count.fetch_add(1, Ordering::Relaxed);
-        self.equations.rhs(segment, s, y, p, dy);
+        self.equations.evaluate_rhs(segment, s, y, p, dy);
     }
 
     fn rhs_jacobian(
@@ -151,11 +143,17 @@ impl Equations for Counted<'_> {
         self.equations.rhs_jacobian(segment, s, y, p, dy, jacobian);
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
-        self.equations.conditions(at, p, r);
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+        self.equations.evaluate_conditions(at, p, r);
     }
 
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
-        self.equations.conditions_jacobian(ends, p, r, jacobian);
+    fn conditions_jacobian(
+        &self,
+        at: Ends<'_, f64>,
+        p: &[f64],
+        r: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        self.equations.conditions_jacobian(at, p, r, jacobian);
     }
 }

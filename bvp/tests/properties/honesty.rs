@@ -77,8 +77,8 @@ struct Arbitrary<'a> {
 }
 
 impl Problem for Arbitrary<'_> {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, -1.0, 2.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, -1.0, 2.0)]
     }
 
     fn parameters(&self) -> usize {
@@ -130,7 +130,7 @@ proptest! {
         }
         let p = solution.parameters();
         let mut r = [f64::NAN; 3];
-        problem.conditions(Ends::new(Problem::segments(&problem), &ends), p, &mut r);
+        problem.conditions(Ends::new(&problem.segments(), &ends), p, &mut r);
         ends.extend(p);
         let scale = 20.0 * (1.0 + ends.iter().map(|y| y.abs()).sum::<f64>());
         prop_assert!(r.iter().all(|r| r.abs() <= scale * options.tolerance), "{r:?}");

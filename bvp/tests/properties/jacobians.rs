@@ -2,15 +2,15 @@
 
 use bvp::{
     Constant, Differenced, Ends, Equations, FiniteDifferences, Function, Options, Place, Problem,
-    Real, Segment, check_jacobians, solve,
+    Real, Segment, Shape, check_jacobians, solve,
 };
 
 /// A forced pendulum with unknown duration p₀ and damping p₁, and nonlinear conditions.
 struct Pendulum;
 
 impl Problem for Pendulum {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
     }
 
     fn parameters(&self) -> usize {
@@ -35,19 +35,11 @@ impl Problem for Pendulum {
 struct ByHand;
 
 impl Equations for ByHand {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2)] }
+    fn shape(&self) -> Shape {
+        Shape::new(vec![Segment::new(2)], 2)
     }
 
-    fn parameters(&self) -> usize {
-        2
-    }
-
-    fn condition_count(&self) -> usize {
-        4
-    }
-
-    fn rhs(&self, _: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+    fn evaluate_rhs(&self, _: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
         dy[0] = p[0] * y[1];
         dy[1] = p[0] * (0.1 * s - y[0].sin() - p[1] * y[1] * y[1].abs());
     }
@@ -61,7 +53,7 @@ impl Equations for ByHand {
         dy: &mut [f64],
         jacobian: &mut [f64],
     ) {
-        self.rhs(segment, s, y, p, dy);
+        self.evaluate_rhs(segment, s, y, p, dy);
         let drag = y[1] * y[1].abs();
         jacobian.copy_from_slice(&[
             0.0,
@@ -75,7 +67,7 @@ impl Equations for ByHand {
         ]);
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
         let (start, end) = (at.start(0), at.end(0));
         r[0] = start[0] - 1.0;
         r[1] = start[1] * p[0];
@@ -84,13 +76,14 @@ impl Equations for ByHand {
     }
 
     #[rustfmt::skip]
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
-        self.conditions(Ends::new(self.segments(), ends), p, r);
+    fn conditions_jacobian(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
+        self.evaluate_conditions(at, p, r);
+        let (start, end) = (at.start(0), at.end(0));
         jacobian.copy_from_slice(&[
-            1.0, 0.0,  0.0,           0.0,  0.0,     0.0,
-            0.0, p[0], 0.0,           0.0,  ends[1], 0.0,
-            0.0, 0.0,  0.0,           p[0], ends[3], 0.0,
-            0.0, 0.0,  2.0 * ends[2], 0.0,  0.0,     0.1,
+            1.0, 0.0,  0.0,          0.0,  0.0,      0.0,
+            0.0, p[0], 0.0,          0.0,  start[1], 0.0,
+            0.0, 0.0,  0.0,          p[0], end[1],   0.0,
+            0.0, 0.0,  2.0 * end[0], 0.0,  0.0,      0.1,
         ]);
     }
 }
@@ -101,9 +94,11 @@ fn by_differences() -> impl Equations {
         parameters: 2,
         condition_count: 4,
         rhs: |segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]| {
-            ByHand.rhs(segment, s, y, p, dy);
+            ByHand.evaluate_rhs(segment, s, y, p, dy);
         },
-        conditions: |at: Ends<'_, f64>, p: &[f64], r: &mut [f64]| ByHand.conditions(at, p, r),
+        conditions: |at: Ends<'_, f64>, p: &[f64], r: &mut [f64]| {
+            ByHand.evaluate_conditions(at, p, r)
+        },
     }
 }
 
@@ -152,20 +147,12 @@ fn three_sources_of_derivatives_give_one_solution() {
 struct Mistaken;
 
 impl Equations for Mistaken {
-    fn segments(&self) -> &[Segment] {
-        Equations::segments(&ByHand)
+    fn shape(&self) -> Shape {
+        ByHand.shape()
     }
 
-    fn parameters(&self) -> usize {
-        2
-    }
-
-    fn condition_count(&self) -> usize {
-        4
-    }
-
-    fn rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
-        ByHand.rhs(segment, s, y, p, dy);
+    fn evaluate_rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        ByHand.evaluate_rhs(segment, s, y, p, dy);
     }
 
     fn rhs_jacobian(
@@ -181,12 +168,18 @@ impl Equations for Mistaken {
         jacobian[4] *= 2.0;
     }
 
-    fn conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
-        ByHand.conditions(at, p, r);
+    fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
+        ByHand.evaluate_conditions(at, p, r);
     }
 
-    fn conditions_jacobian(&self, ends: &[f64], p: &[f64], r: &mut [f64], jacobian: &mut [f64]) {
-        ByHand.conditions_jacobian(ends, p, r, jacobian);
+    fn conditions_jacobian(
+        &self,
+        at: Ends<'_, f64>,
+        p: &[f64],
+        r: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        ByHand.conditions_jacobian(at, p, r, jacobian);
     }
 }
 
@@ -209,8 +202,8 @@ fn a_mistake_is_found_where_it_is() {
 struct Ring(Vec<Segment>);
 
 impl Problem for Ring {
-    fn segments(&self) -> &[Segment] {
-        &self.0
+    fn segments(&self) -> Vec<Segment> {
+        self.0.clone()
     }
 
     fn parameters(&self) -> usize {

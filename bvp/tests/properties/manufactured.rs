@@ -4,7 +4,7 @@ mod drawn;
 mod modes;
 mod shapes;
 
-use bvp::{Equations, Guess, Options, Problem, Solution, solve};
+use bvp::{Ends, Equations, Guess, Options, Problem, Solution, solve};
 use drawn::Drawn;
 use proptest::prelude::Rng;
 use proptest::test_runner::{RngAlgorithm, TestRng};
@@ -138,12 +138,14 @@ fn check_conditions(problem: &Drawn, solution: &Solution, tolerance: f64) {
     let segments = 0..solution.segments().len();
     let ends = segments.flat_map(|i| [solution.start(i), solution.end(i)].concat());
     let (mut all, p): (Vec<f64>, _) = (ends.collect(), solution.parameters());
-    let count = Equations::condition_count(problem);
+    let shape = problem.shape();
+    let count = shape.conditions;
     let (mut r, mut jacobian) = (
         vec![f64::NAN; count],
         vec![f64::NAN; count * (all.len() + p.len())],
     );
-    problem.conditions_jacobian(&all, p, &mut r, &mut jacobian);
+    let at = Ends::new(&shape.segments, &all);
+    problem.conditions_jacobian(at, p, &mut r, &mut jacobian);
     all.extend(p);
     for (r, row) in r.iter().zip(jacobian.chunks_exact(all.len())) {
         let scale: f64 = row.iter().zip(&all).map(|(a, z)| (a * z).abs()).sum();

@@ -27,7 +27,7 @@ pub(crate) fn on_uniform_mesh(
         tolerance: 1e-1,
         scheme: Some(scheme),
         initial_intervals: intervals,
-        max_intervals: intervals * problem.equations.segments().len(),
+        max_intervals: intervals * problem.equations.shape().segments.len(),
         global_error: GlobalError::Skip,
         ..Options::default()
     };

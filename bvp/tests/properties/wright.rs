@@ -9,8 +9,8 @@ use bvp::{Constant, Ends, Options, Problem, Real, Segment, solve};
 struct Wright;
 
 impl Problem for Wright {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, 0.0, 60.0)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, 60.0)]
     }
 
     fn rhs<T: Real>(&self, _: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {

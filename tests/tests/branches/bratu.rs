@@ -7,12 +7,8 @@ use continuation::{Branch, Direction, Kind, Options, Point, Stop};
 struct Bratu;
 
 impl Problem for Bratu {
-    fn segments(&self) -> &[Segment] {
-        &[Segment {
-            states: 2,
-            from: 0.0,
-            to: 1.0,
-        }]
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, 1.0)]
     }
 
     fn parameters(&self) -> usize {

@@ -10,12 +10,8 @@ use std::f64::consts::PI;
 struct Eigenproblem;
 
 impl Problem for Eigenproblem {
-    fn segments(&self) -> &[Segment] {
-        &[Segment {
-            states: 3,
-            from: 0.0,
-            to: 1.0,
-        }]
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(3, 0.0, 1.0)]
     }
 
     fn parameters(&self) -> usize {

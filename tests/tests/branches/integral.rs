@@ -8,12 +8,8 @@ use reference_problems::Curve;
 struct Integral;
 
 impl Problem for Integral {
-    fn segments(&self) -> &[Segment] {
-        &[Segment {
-            states: 3,
-            from: 0.0,
-            to: 1.0,
-        }]
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(3, 0.0, 1.0)]
     }
 
     fn parameters(&self) -> usize {

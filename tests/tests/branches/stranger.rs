@@ -9,12 +9,8 @@ use reference_problems::Curve;
 struct Slab;
 
 impl Problem for Slab {
-    fn segments(&self) -> &[Segment] {
-        &[Segment {
-            states: 2,
-            from: 0.0,
-            to: 1.0,
-        }]
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, 1.0)]
     }
 
     fn parameters(&self) -> usize {

@@ -306,8 +306,8 @@ impl Formulation {
 }
 
 impl Problem for Formulation {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
+    fn segments(&self) -> Vec<Segment> {
+        self.segments.clone()
     }
 
     fn parameters(&self) -> usize {

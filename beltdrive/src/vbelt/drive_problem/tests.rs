@@ -33,13 +33,13 @@ fn every_condition_is_written_and_none_is_missing() {
         5 * 5 + 7,
         5 * 5 + 8,
     ]) {
-        assert_eq!(Problem::condition_count(&problem), unknowns);
-        let segments = Problem::segments(&problem);
+        assert_eq!(problem.condition_count(), unknowns);
+        let segments = problem.segments();
         let values = vec![0.1; segments.iter().map(|s| 2 * s.states).sum()];
-        let p = vec![1.0; Problem::parameters(&problem)];
+        let p = vec![1.0; problem.parameters()];
         // One entry more than there are conditions must stay untouched.
         let mut r = vec![f64::NAN; unknowns + 1];
-        Problem::conditions(&problem, Ends::new(segments, &values), &p, &mut r);
+        problem.conditions(Ends::new(&segments, &values), &p, &mut r);
         assert!(r[..unknowns].iter().all(|r| r.is_finite()));
         assert!(r[unknowns].is_nan());
     }

@@ -16,8 +16,8 @@ fn potential<T: Real>(c: [f64; 2], s: T) -> T {
 }
 
 impl Problem for Pruefer {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(1, 0.0, PI)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(1, 0.0, PI)]
     }
 
     fn parameters(&self) -> usize {
@@ -50,8 +50,8 @@ struct SturmLiouville {
 }
 
 impl Problem for SturmLiouville {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::on(2, 0.0, PI)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, PI)]
     }
 
     fn parameters(&self) -> usize {

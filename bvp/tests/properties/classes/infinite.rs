@@ -25,8 +25,8 @@ impl FalknerSkan {
 }
 
 impl Problem for FalknerSkan {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(3)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(3)]
     }
 
     fn rhs<T: Real>(&self, _: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {
@@ -77,8 +77,8 @@ struct Front {
 }
 
 impl Problem for Front {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
+    fn segments(&self) -> Vec<Segment> {
+        self.segments.to_vec()
     }
 
     fn parameters(&self) -> usize {

@@ -15,8 +15,8 @@ struct Pulled {
 const KINK: f64 = 1.0 / 3.0;
 
 impl Problem for Pulled {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
+    fn segments(&self) -> Vec<Segment> {
+        self.segments.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {
@@ -71,7 +71,7 @@ fn a_junction_at_a_kink_keeps_the_order_and_the_mesh() {
 
     let solved = |problem: Exact| {
         let guess = Constant {
-            states: vec![vec![0.0; 2]; problem.equations.segments().len()],
+            states: vec![vec![0.0; 2]; problem.equations.shape().segments.len()],
             parameters: vec![],
         };
         solve(&*problem.equations, &guess, &Options::to(1e-9)).unwrap()
@@ -89,8 +89,8 @@ struct Beam {
 }
 
 impl Problem for Beam {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
+    fn segments(&self) -> Vec<Segment> {
+        self.segments.to_vec()
     }
 
     fn rhs<T: Real>(&self, _: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {

@@ -14,8 +14,8 @@ struct Sphere {
 }
 
 impl Problem for Sphere {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(2)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
     }
 
     fn rhs<T: Real>(&self, _: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {
@@ -165,8 +165,8 @@ struct Root {
 }
 
 impl Problem for Root {
-    fn segments(&self) -> &[Segment] {
-        const { &[Segment::new(1)] }
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(1)]
     }
 
     fn rhs<T: Real>(&self, _: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {

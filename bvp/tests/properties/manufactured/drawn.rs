@@ -214,8 +214,8 @@ impl Drawn {
 }
 
 impl Problem for Drawn {
-    fn segments(&self) -> &[Segment] {
-        &self.segments
+    fn segments(&self) -> Vec<Segment> {
+        self.segments.clone()
     }
 
     fn parameters(&self) -> usize {
