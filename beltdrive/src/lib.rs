@@ -130,3 +130,8 @@ pub use verify::{Verification, verify};
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;
+
+/// The examples of the page on the crates are tests.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/solvers.md")]
+struct Solvers;
