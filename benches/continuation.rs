@@ -16,7 +16,6 @@ use continuation::{Branch, Cause, Direction, Kind, Options, System};
 use criterion::{BenchmarkId, Criterion, SamplingMode};
 use problems::{Bratu, Copies, Swirl};
 use processor_time::processor_time;
-use reference_problems::Curve;
 
 /// Limit points are met with this accuracy: those of Bratu's problem on ten intervals differ by
 /// 1.9e-10 from the exact ones, and AUTO's have eleven digits.
@@ -221,7 +220,7 @@ fn family<'a>(
     (state, parameter): (&[f64], f64),
     limit_point: f64,
     auto: Auto,
-) -> Task<Curve<'a>> {
+) -> Task<Family<'a>> {
     let guess = Constant {
         states: vec![state.to_vec()],
         parameters: vec![parameter],
@@ -240,7 +239,7 @@ fn family<'a>(
         values + 1,
         "{name}: as many intervals as asked for"
     );
-    let task = Task::new(name, Curve { family, second: 0 }, limit_point, auto, 1.0);
+    let task = Task::new(name, family, limit_point, auto, 1.0);
     Task { start, ..task }
 }
 

@@ -101,31 +101,12 @@
 //! # Boundary value problems
 //!
 //! `bvp::Family` is a boundary value problem with one condition fewer than unknown constants,
-//! discretised on a mesh that follows the solution. It has the methods that a [`System`] needs under the
-//! same names; every labelled point then has an estimate of its discretisation error
-//! ([`Point::error`]).
+//! discretised on a mesh that follows the solution. With the feature `bvp` it is a [`System`], and every
+//! labelled point has an estimate of its discretisation error ([`Point::error`]).
 //!
 //! ```
 //! use bvp::{Constant, Ends, Family, Problem, Real, Segment};
-//! use continuation::{Branch, Cause, Direction, Kind, Options, System};
-//!
-//! struct Curve<'a>(Family<'a>);
-//!
-//! impl System for Curve<'_> {
-//!     fn unknowns(&self) -> usize { self.0.unknowns() }
-//!     fn residual(&mut self, z: &[f64], g: &mut [f64]) { self.0.residual(z, g); }
-//!     fn linearise(&mut self, z: &[f64]) -> Result<(), Cause> { Ok(self.0.linearise(z)?) }
-//!     fn particular(&mut self, r: &[f64], v: &mut [f64]) { self.0.particular(r, v); }
-//!     fn null_vector(&mut self, t: &mut [f64]) { self.0.null_vector(t); }
-//!     fn groups(&self, group: &mut [usize], share: &mut [f64]) { self.0.groups(group, share); }
-//!     fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Cause> {
-//!         Ok(self.0.adapt(z, vectors)?)
-//!     }
-//!     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self> {
-//!         self.0.refined(vectors).map(Self)
-//!     }
-//!     fn tolerance(&self) -> f64 { self.0.tolerance() }
-//! }
+//! use continuation::{Branch, Direction, Kind, Options};
 //!
 //! /// u'' + λ eᵘ = 0, u(0) = u(1) = 0
 //! struct Bratu;
@@ -147,10 +128,9 @@
 //! }
 //!
 //! let guess = Constant { states: vec![vec![0.0, 0.0]], parameters: vec![0.0] };
-//! let (family, start) = Family::new(&Bratu, 0, &[], &guess, &bvp::Options::default())?;
-//! let mut system = Curve(family);
+//! let (mut family, start) = Family::new(&Bratu, 0, &[], &guess, &bvp::Options::default())?;
 //! let options = Options::within(0.0, 4.0);
-//! let branch = Branch::new(&mut system, &start, Direction::Increasing, &options)?;
+//! let branch = Branch::new(&mut family, &start, Direction::Increasing, &options)?;
 //! let mut limits = branch.filter(|point| point.kind == Kind::LimitPoint);
 //! let limit = limits.next().expect("a limit point");
 //! let error = limit.error.expect("an estimate");
@@ -158,9 +138,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Further parameters are held by the family and may be the second one ([`TwoParameter`]). A clone of
-//! [`Branch::system`] belongs to the point yielded last: keep it with a branch point to switch there
-//! later.
+//! Further parameters are held by the family, and the first of these is the second parameter μ of
+//! [`TwoParameter`]. A clone of [`Branch::system`] belongs to the point yielded last: keep it with a
+//! branch point to switch there later.
 //!
 //! # From AUTO-07p, `BifurcationKit` and MATCONT
 //!

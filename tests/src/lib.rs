@@ -44,12 +44,10 @@ mod systems;
 mod turning_points;
 
 mod attempt;
-mod curve;
 mod statistics;
 
 pub use attempt::{Attempt, FALSE_FROM, Outcome, max_or_nan, true_error};
 use bvp::{Ends, Equations, Real, Segment};
-pub use curve::Curve;
 pub use exact::{ExactProblem, exact_problems};
 pub use reference::Reference;
 pub use statistics::{geometric_mean, quantile};

@@ -1,4 +1,4 @@
-//! A family of drives as a system for continuation.
+//! A family of drives whose estimated error is also that of its regularisation.
 
 use super::family::DriveFamily;
 use bvp::Family;
@@ -13,8 +13,6 @@ pub(super) struct Curve<'a> {
     pub(super) finer: Option<&'a DriveFamily>,
     /// Number of constants of a drive.
     pub(super) constants: usize,
-    /// Index of the second entry among the parameters.
-    pub(super) second: usize,
 }
 
 impl Curve<'_> {
@@ -46,51 +44,57 @@ impl Curve<'_> {
     }
 }
 
+/// The system of the family but for its refined one, which has the smaller ε, and for the tolerance:
+/// the effect of ε is reported and is no reason to refine the mesh.
 impl System for Curve<'_> {
     fn unknowns(&self) -> usize {
-        self.family.unknowns()
+        System::unknowns(&self.family)
     }
 
     fn residual(&mut self, z: &[f64], g: &mut [f64]) {
-        self.family.residual(z, g);
+        System::residual(&mut self.family, z, g);
     }
 
     fn linearise(&mut self, z: &[f64]) -> Result<(), Cause> {
-        Ok(self.family.linearise(z)?)
+        System::linearise(&mut self.family, z)
     }
 
     fn particular(&mut self, r: &[f64], v: &mut [f64]) {
-        self.family.particular(r, v);
+        System::particular(&mut self.family, r, v);
     }
 
     fn null_vector(&mut self, t: &mut [f64]) {
-        self.family.null_vector(t);
+        System::null_vector(&mut self.family, t);
     }
 
     fn groups(&self, group: &mut [usize], share: &mut [f64]) {
-        self.family.groups(group, share);
+        System::groups(&self.family, group, share);
     }
 
     fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Cause> {
-        Ok(self.family.adapt(z, vectors)?)
+        System::adapt(&mut self.family, z, vectors)
     }
 
     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self> {
-        let halved = self.family.refined(vectors)?;
+        let halved = System::refined(&self.family, vectors)?;
         let family = match self.finer {
             Some(finer) => halved.exchanged(finer).ok()?,
             None => halved,
         };
         Some(Self { family, ..*self })
     }
+
+    fn tolerance(&self) -> f64 {
+        f64::INFINITY
+    }
 }
 
 impl TwoParameter for Curve<'_> {
     fn second(&self) -> f64 {
-        self.family.held(self.second)
+        self.family.second()
     }
 
     fn set_second(&mut self, value: f64) {
-        self.family.hold(self.second, value);
+        self.family.set_second(value);
     }
 }

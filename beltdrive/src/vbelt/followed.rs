@@ -182,7 +182,6 @@ impl<'a> Walk<'a, '_, '_> {
             family,
             finer,
             constants: self.family.first_entry(),
-            second,
         };
         Ok((curve, z))
     }

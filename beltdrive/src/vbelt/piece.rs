@@ -142,7 +142,6 @@ impl Tracer<'_> {
             family: discretised,
             finer: (epsilon > 0.0).then_some(&finer),
             constants: first,
-            second: first,
         };
         let options = Options {
             largest_step: LARGEST_STEP / REFINEMENT.powi(self.refinements),

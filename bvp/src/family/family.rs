@@ -294,6 +294,11 @@ impl<'a> Family<'a> {
         self.options.tolerance
     }
 
+    /// The indices in p of the parameters that are held, in the order in which they were named.
+    pub fn held_parameters(&self) -> impl Iterator<Item = usize> {
+        self.collocation.equations.indices()
+    }
+
     /// The value of the held parameter with this index in p.
     ///
     /// # Panics

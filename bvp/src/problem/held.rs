@@ -61,6 +61,11 @@ impl<'a> Held<'a> {
         self.values.len()
     }
 
+    /// The indices of the parameters held, in the order in which they were named.
+    pub(crate) fn indices(&self) -> impl Iterator<Item = usize> {
+        self.values.iter().map(|(index, _)| *index)
+    }
+
     /// The value of a parameter, if it is held.
     pub(crate) fn value(&self, index: usize) -> Option<f64> {
         let held = self.values.iter().find(|(held, _)| *held == index);

@@ -50,7 +50,7 @@ const TAIL: [(f64, f64); 2] = [
 const LIMIT: f64 = 3.513_830_719_125_161;
 
 fn trace(tolerance: f64) -> Vec<Labelled> {
-    let (mut system, z) = family(&Bratu, [0, 0], &[], &[0.0; 2], &[0.1], &to(tolerance));
+    let (mut system, z) = family(&Bratu, 0, &[], &[0.0; 2], &[0.1], &to(tolerance));
     let table = TABLE.iter().map(|row| row.0);
     let targets = table.chain(TAIL.iter().map(|row| row.0)).collect();
     let options = Options {
@@ -125,7 +125,7 @@ fn a_doubled_mesh_changes_neither_steps_nor_arclength() {
             initial_intervals: intervals,
             ..to(1e-6)
         };
-        let (mut system, z) = family(&Bratu, [0, 0], &[], &[0.0; 2], &[0.0], &options);
+        let (mut system, z) = family(&Bratu, 0, &[], &[0.0; 2], &[0.0], &options);
         let options = Options {
             targets: vec![1.0, 3.0],
             ..Options::within(-1.0, 4.0)

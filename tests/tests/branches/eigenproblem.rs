@@ -4,7 +4,6 @@
 use crate::{assert_close, family, first, labelled, of, to};
 use bvp::{Ends, Family, Problem, Real, Segment};
 use continuation::{Branch, Direction, Kind, Leg, Options};
-use reference_problems::Curve;
 use std::f64::consts::PI;
 
 struct Eigenproblem;
@@ -41,14 +40,7 @@ impl Problem for Eigenproblem {
 fn every_integer_is_a_branch_point_however_long_the_steps() {
     // The largest step passes two of them.
     let parameters = [0.5, 0.0, 0.0];
-    let (mut system, z) = family(
-        &Eigenproblem,
-        [0, 1],
-        &[1],
-        &[0.0; 3],
-        &parameters,
-        &to(1e-8),
-    );
+    let (mut system, z) = family(&Eigenproblem, 0, &[1], &[0.0; 3], &parameters, &to(1e-8));
     let options = Options::within(0.5, 10.5);
     let branch = Branch::new(&mut system, &z, Direction::Increasing, &options).unwrap();
     let (points, _) = labelled(branch);
@@ -66,26 +58,19 @@ fn every_integer_is_a_branch_point_however_long_the_steps() {
 #[test]
 fn a_vertical_branch_is_followed_and_left_with_its_norm_held() {
     let parameters = [0.5, 0.0, 0.0];
-    let (mut system, z) = family(
-        &Eigenproblem,
-        [0, 1],
-        &[1],
-        &[0.0; 3],
-        &parameters,
-        &to(1e-10),
-    );
+    let (mut system, z) = family(&Eigenproblem, 0, &[1], &[0.0; 3], &parameters, &to(1e-10));
     let options = Options::within(0.5, 3.5);
     let branch = Branch::new(&mut system, &z, Direction::Increasing, &options).unwrap();
     let (mut there, crossing) = first(branch, Kind::BranchPoint);
-    let norm = |_: &Curve<'_>, z: &[f64]| z[z.len() - 2] - 1.0;
+    let norm = |_: &Family<'_>, z: &[f64]| z[z.len() - 2] - 1.0;
     let branch = Branch::switch(&mut there, &crossing, Leg::Forward, &options).unwrap();
     let (system, normed) = first(branch.event(norm), Kind::Event(0));
     assert_close(normed.lambda(), 1.0, 1e-10);
 
     // p₂ against p₁ with p₃ = 1 held, from there.
-    let solution = system.family.solution(&normed.z);
-    let (family, z) = Family::new(&Eigenproblem, 0, &[2], &solution, &to(1e-10)).unwrap();
-    let mut system = Curve { family, second: 2 };
+    let solution = system.solution(&normed.z);
+    let held = Family::new(&Eigenproblem, 0, &[2], &solution, &to(1e-10));
+    let (mut system, z) = held.unwrap();
     let targets = vec![1.3, 1.5, 2.0, 2.75];
     let options = Options {
         targets: targets.clone(),

@@ -2,9 +2,8 @@
 //! λ = (2 n K(sin(a/2)))² for a = u(0).
 
 use crate::{assert_close, family, first, labelled, of, to};
-use bvp::{Ends, Problem, Real, Segment};
+use bvp::{Ends, Family, Problem, Real, Segment};
 use continuation::{Branch, Direction, Kind, Leg, Options, Stop};
-use reference_problems::Curve;
 use std::f64::consts::PI;
 
 struct Elastica;
@@ -46,7 +45,7 @@ const TABLE: [(f64, f64); 7] = [
 
 #[test]
 fn the_straight_state_has_all_its_pitchforks() {
-    let (mut system, z) = family(&Elastica, [0, 0], &[], &[0.0; 2], &[1.0], &to(1e-9));
+    let (mut system, z) = family(&Elastica, 0, &[], &[0.0; 2], &[1.0], &to(1e-9));
     let options = Options::within(1.0, 400.0);
     let branch = Branch::new(&mut system, &z, Direction::Increasing, &options).unwrap();
     let (points, stop) = labelled(branch);
@@ -64,7 +63,7 @@ fn the_straight_state_has_all_its_pitchforks() {
 
 #[test]
 fn the_upright_state_has_none() {
-    let (mut system, z) = family(&Elastica, [0, 0], &[], &[PI, 0.0], &[1.0], &to(1e-9));
+    let (mut system, z) = family(&Elastica, 0, &[], &[PI, 0.0], &[1.0], &to(1e-9));
     let options = Options::within(1.0, 400.0);
     let branch = Branch::new(&mut system, &z, Direction::Increasing, &options).unwrap();
     let (points, _) = labelled(branch);
@@ -74,7 +73,7 @@ fn the_upright_state_has_none() {
 
 #[test]
 fn both_legs_of_the_first_three_pitchforks_are_followed() {
-    let (mut system, z) = family(&Elastica, [0, 0], &[], &[0.0; 2], &[1.0], &to(1e-9));
+    let (mut system, z) = family(&Elastica, 0, &[], &[0.0; 2], &[1.0], &to(1e-9));
     let mut at = (system.clone(), z);
     for n in 1..=3 {
         let square = f64::from(n * n);
@@ -90,8 +89,8 @@ fn both_legs_of_the_first_three_pitchforks_are_followed() {
             };
             let mut branch = Branch::switch(&mut system, &crossing, leg, &options).unwrap();
             for (height, _) in TABLE {
-                branch = branch.event(move |system: &Curve<'_>, z| {
-                    system.family.solution(z).start(0)[0].abs() - height
+                branch = branch.event(move |system: &Family<'_>, z| {
+                    system.solution(z).start(0)[0].abs() - height
                 });
             }
             let (points, stop) = labelled(branch);
@@ -110,7 +109,7 @@ fn both_legs_of_the_first_three_pitchforks_are_followed() {
         assert_eq!(sides, 0.0);
         // On from behind the branch point.
         let lambda = crossing.lambda() * 1.2;
-        at = family(&Elastica, [0, 0], &[], &[0.0; 2], &[lambda], &to(1e-9));
+        at = family(&Elastica, 0, &[], &[0.0; 2], &[lambda], &to(1e-9));
         system = at.0.clone();
     }
 }

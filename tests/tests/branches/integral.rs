@@ -1,9 +1,8 @@
 //! u'' + λ eᵘ = 0, u(0) − u(1) = p₂, ∫ u = 0: a limit point for every p₂.
 
 use crate::{assert_close, family, first, to};
-use bvp::{Ends, Problem, Real, Segment};
+use bvp::{Ends, Family, Problem, Real, Segment};
 use continuation::{Branch, Direction, Kind, LimitPointCurve, Options, Stop};
-use reference_problems::Curve;
 
 struct Integral;
 
@@ -47,7 +46,7 @@ const TABLE: [(f64, f64); 8] = [
 
 #[test]
 fn the_limit_points_are_followed_in_two_parameters() {
-    let (mut system, z) = family(&Integral, [0, 1], &[1], &[0.0; 3], &[0.0; 2], &to(1e-10));
+    let (mut system, z) = family(&Integral, 0, &[1], &[0.0; 3], &[0.0; 2], &to(1e-10));
     let options = Options::within(0.0, 15.0);
     let branch = Branch::new(&mut system, &z, Direction::Increasing, &options).unwrap();
     let (system, limit) = first(branch, Kind::LimitPoint);
@@ -62,7 +61,7 @@ fn the_limit_points_are_followed_in_two_parameters() {
     };
     let mut branch = Branch::new(&mut curve, &start, Direction::Increasing, &options)
         .unwrap()
-        .event(|_: &LimitPointCurve<Curve<'_>>, z| z[z.len() - 2] - 3.0);
+        .event(|_: &LimitPointCurve<Family<'_>>, z| z[z.len() - 2] - 3.0);
     let points: Vec<_> = branch.by_ref().collect();
     assert!(matches!(
         branch.into_stop(),

@@ -8,7 +8,6 @@ mod stranger;
 
 use bvp::{Constant, Equations, Family, Options, Scheme};
 use continuation::{Branch, Kind, Point, Stop, System};
-use reference_problems::Curve;
 
 /// Options with a tolerance and a scheme that suits it.
 fn to(tolerance: f64) -> Options {
@@ -20,20 +19,18 @@ fn to(tolerance: f64) -> Options {
     }
 }
 
-/// The family through a constant solution, one segment, and its first point. The first of the `held`
-/// parameters is the second one.
+/// The family through a constant solution, one segment, and its first point.
 fn family<'a>(
     equations: &'a dyn Equations,
-    [parameter, second]: [usize; 2],
+    parameter: usize,
     held: &[usize],
     states: &[f64],
     parameters: &[f64],
     options: &Options,
-) -> (Curve<'a>, Vec<f64>) {
+) -> (Family<'a>, Vec<f64>) {
     let (states, parameters) = (vec![states.to_vec()], parameters.to_vec());
     let guess = Constant { states, parameters };
-    let (family, z) = Family::new(equations, parameter, held, &guess, options).unwrap();
-    (Curve { family, second }, z)
+    Family::new(equations, parameter, held, &guess, options).unwrap()
 }
 
 /// A labelled point and its solution at the left end.
@@ -50,11 +47,11 @@ impl Labelled {
 }
 
 /// The labelled points of a branch, and why it ended.
-fn labelled(mut branch: Branch<'_, Curve<'_>>) -> (Vec<Labelled>, Stop) {
+fn labelled(mut branch: Branch<'_, Family<'_>>) -> (Vec<Labelled>, Stop) {
     let mut found = Vec::new();
     while let Some(point) = branch.next() {
         if point.kind != Kind::Regular {
-            let start = branch.system().family.solution(&point.z).start(0).to_vec();
+            let start = branch.system().solution(&point.z).start(0).to_vec();
             found.push(Labelled { point, start });
         }
     }

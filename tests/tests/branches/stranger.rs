@@ -2,7 +2,6 @@
 
 use bvp::{Constant, Ends, Family, Problem, Real, Segment};
 use continuation::{Branch, Direction, Kind, Options};
-use reference_problems::Curve;
 
 /// A first-order reaction with heat release in a slab (Aris): y'' = φ² y exp(20 · 0.4 (1 − y) /
 /// (1 + 0.4 (1 − y))), y'(0) = 0, y(1) = 1, with λ = φ.
@@ -39,16 +38,15 @@ fn a_branch_of_a_new_problem_takes_ten_lines() {
         states: vec![vec![1.0, 0.0]],
         parameters: vec![0.0],
     };
-    let (family, z) = Family::new(&Slab, 0, &[], &guess, &bvp::Options::default()).unwrap();
-    let mut system = Curve { family, second: 0 };
+    let (mut family, z) = Family::new(&Slab, 0, &[], &guess, &bvp::Options::default()).unwrap();
     let options = Options {
         targets: vec![0.3],
         ..Options::within(0.0, 1.0)
     };
-    let mut branch = Branch::new(&mut system, &z, Direction::Increasing, &options).unwrap();
+    let mut branch = Branch::new(&mut family, &z, Direction::Increasing, &options).unwrap();
     let mut found = Vec::new();
     while let Some(point) = branch.next() {
-        let solution = branch.system().family.solution(&point.z);
+        let solution = branch.system().solution(&point.z);
         found.push((
             point.kind,
             point.lambda(),
