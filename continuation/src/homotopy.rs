@@ -28,7 +28,7 @@ pub fn homotopy<S: System>(
         ..options.clone()
     };
     let mut branch = Branch::new(system, start, direction, &options)?;
-    let mut last = branch.point(&branch.node, Kind::Start);
+    let mut last = branch.node.point(Kind::Start);
     for point in branch.by_ref() {
         last = point;
         if last.lambda() == goal {

@@ -227,9 +227,11 @@ impl<'a> Walk<'a, '_, '_> {
         let constants = self.family.first_entry();
         let branch = Branch::new(&mut curve, &start, self.direction(), &options)
             .ok()?
-            .event(move |_, z: &[f64]| z[z.len() - 2 - constants + DriveProblem::DRIVEN_SPEED])
-            .event(move |curve: &LimitPointCurve<Curve<'_>>, z: &[f64]| {
-                curve.family().end(z, exit)[INCLINATION] - FRAC_PI_2
+            .event(move |_, point| {
+                point.z[point.z.len() - 2 - constants + DriveProblem::DRIVEN_SPEED]
+            })
+            .event(move |curve: &LimitPointCurve<Curve<'_>>, point| {
+                curve.family().end(&point.z, exit)[INCLINATION] - FRAC_PI_2
             });
         self.walk(branch, LIMIT_POINT_EVENTS);
         Some(())
@@ -241,7 +243,7 @@ impl<'a> Walk<'a, '_, '_> {
         if split {
             let zones = self.solved.problem.zones(DRIVER).end;
             for segment in 0..zones {
-                branch = branch.event(move |_, z| z[z.len() - 2 - zones + segment]);
+                branch = branch.event(move |_, point| point.z[point.z.len() - 2 - zones + segment]);
             }
         }
         let mut stats = bvp::Stats::default();

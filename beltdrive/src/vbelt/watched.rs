@@ -28,16 +28,18 @@ impl Tracer<'_> {
     ) -> Branch<'a, Curve<'a>> {
         let problem = &solved.problem;
         let exits = [DRIVEN, DRIVER].map(|pulley| problem.zones(pulley).end - 1);
-        let parameter = move |curve: &Curve<'_>, z: &[f64], index: usize| {
-            z[curve.unknowns() - 1 - constants + index]
+        let parameter = move |curve: &Curve<'_>, point: &Point, index: usize| {
+            point.z[curve.unknowns() - 1 - constants + index]
         };
         let overhang = |exit: usize| {
-            move |curve: &Curve<'_>, z: &[f64]| curve.family.end(z, exit)[INCLINATION] - FRAC_PI_2
+            move |curve: &Curve<'_>, point: &Point| {
+                curve.family.end(&point.z, exit)[INCLINATION] - FRAC_PI_2
+            }
         };
         let (drive, key, unit) = (self.drive.clone(), self.key, self.unit());
-        let ratio = move |_: &Curve<'_>, z: &[f64]| {
+        let ratio = move |_: &Curve<'_>, point: &Point| {
             let mut drive = drive.clone();
-            key.set(&mut drive, z[z.len() - 1] * unit);
+            key.set(&mut drive, point.lambda() * unit);
             match drive.law {
                 FrictionLaw::Bristle { .. } => 1.0,
                 _ => {
@@ -50,11 +52,11 @@ impl Tracer<'_> {
         let radius = problem.scales().radius;
         let sunk = |pulley: usize| {
             let zones = problem.zones(pulley);
-            move |curve: &Curve<'_>, z: &[f64]| {
+            move |curve: &Curve<'_>, point: &Point| {
                 let Some(height) = height else {
                     return -1.0;
                 };
-                let solution = curve.family.solution(z);
+                let solution = curve.family.solution(&point.z);
                 let depths = zones.clone().flat_map(|segment| {
                     let nodes = 0..solution.mesh(segment).len();
                     let depth = |node| solution.node(segment, node)[PENETRATION];
@@ -66,14 +68,14 @@ impl Tracer<'_> {
         let mut branch = branch
             .event(overhang(exits[DRIVEN]))
             .event(overhang(exits[DRIVER]))
-            .event(move |curve, z| parameter(curve, z, DriveProblem::DRIVEN_SPEED))
+            .event(move |curve, point| parameter(curve, point, DriveProblem::DRIVEN_SPEED))
             .event(ratio)
             .event(sunk(DRIVEN))
             .event(sunk(DRIVER));
         if problem.is_split() {
             for segment in 0..problem.zones(DRIVER).end {
                 let index = DriveProblem::length_index(segment);
-                branch = branch.event(move |curve, z| parameter(curve, z, index));
+                branch = branch.event(move |curve, point| parameter(curve, point, index));
             }
         }
         branch

@@ -16,7 +16,7 @@ fn main() -> Result<(), Error> {
     };
     let start = [0.0; POINTS + 1];
     let branch = Branch::new(&mut system, &start, Direction::Increasing, &options)?
-        .event(|_, z| z[POINTS / 2] - 6.0);
+        .event(|_, point| point.z[POINTS / 2] - 6.0);
 
     println!("{:>10} {:>18} {:>14}", "arclength", "lambda", "u(1/2)");
     let mut labelled = Vec::new();

@@ -7,6 +7,7 @@ use crate::curve::metric::Metric;
 use crate::error::Difficulty;
 use crate::point::{DiscretisationError, Kind, Point};
 use crate::special_points::branch_point::{branch_point, column};
+use crate::special_points::span::Node;
 use crate::stop::Stop;
 use crate::system::system::System;
 
@@ -52,12 +53,17 @@ impl<S: System> Branch<'_, S> {
             let z = vectors.pop().unwrap_or_default();
             let mut metric = self.metric.clone();
             metric.regroup(&fine);
-            let Ok(refined) = self.relocate(&mut fine, &metric, &z, &tangent, kind) else {
+            let near = Point {
+                arclength: point.arclength,
+                ..Node::new(z, tangent).point(kind)
+            };
+            let Ok(refined) = self.relocate(&mut fine, &metric, &near) else {
                 self.put_vectors(coarse);
                 let (lambda, states) = (f64::INFINITY, f64::INFINITY);
                 point.error = Some(DiscretisationError { lambda, states });
                 break;
             };
+            let Point { z, tangent, .. } = near;
             let n = z.len() - 1;
             let error = DiscretisationError {
                 lambda: (refined[n] - z[n]).abs(),
@@ -105,15 +111,14 @@ impl<S: System> Branch<'_, S> {
         error.states.max(error.lambda / scale)
     }
 
-    /// The same labelled point on another system, from its place `z` and `tangent` there.
+    /// The same labelled point on another system, from what is known of it there.
     fn relocate(
         &mut self,
         system: &mut S,
         metric: &Metric,
-        z: &[f64],
-        tangent: &[f64],
-        kind: Kind,
+        point: &Point,
     ) -> Result<Vec<f64>, Difficulty> {
+        let (z, tangent, kind) = (&point.z[..], &point.tangent[..], point.kind);
         let n = z.len() - 1;
         let mut corrector = Corrector::within(self.options.bounds);
         let mut to = |system: &mut S, mut z: Vec<f64>, condition: &Condition| {
@@ -140,13 +145,15 @@ impl<S: System> Branch<'_, S> {
             }),
             Kind::LimitPoint | Kind::Cusp | Kind::Event(_) => {
                 let mut tangents = Corrector::anywhere();
-                let mut value = |system: &mut S, place: &[f64]| -> Result<f64, Difficulty> {
-                    if let Kind::Event(index) = kind {
-                        return Ok(events[index](system, place));
-                    }
+                let mut value = |system: &mut S, s: f64, place: &[f64]| {
                     let mut t = tangents.tangent(system, metric, place)?;
                     if metric.dot(&t, tangent) < 0.0 {
                         reverse(&mut t);
+                    }
+                    if let Kind::Event(index) = kind {
+                        let mut node = Node::new(place.to_vec(), t);
+                        node.arclength = point.arclength + s * metric.norm(tangent);
+                        return Ok(events[index](system, &node.point(Kind::Regular)));
                     }
                     let cusp = system.cusp_function().filter(|_| kind == Kind::Cusp);
                     Ok(cusp.unwrap_or(t[n]))
@@ -155,7 +162,7 @@ impl<S: System> Branch<'_, S> {
                     let near: Vec<f64> = z.iter().zip(tangent).map(|(z, t)| z + s * t).collect();
                     let plane = Condition::plane(metric, tangent, &near);
                     let found = to(system, near, &plane)?;
-                    let value = value(system, &found)?;
+                    let value = value(system, s, &found)?;
                     Ok((found, value))
                 };
                 secant(|s| at(system, s))

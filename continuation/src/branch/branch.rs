@@ -22,7 +22,7 @@ pub(crate) const TURNING: f64 = 1e-12;
 const CORRECTIONS: usize = 50;
 
 /// An event function of the system and a point.
-pub(crate) type EventFunction<'a, S> = Box<dyn FnMut(&S, &[f64]) -> f64 + 'a>;
+pub(crate) type EventFunction<'a, S> = Box<dyn FnMut(&S, &Point) -> f64 + 'a>;
 
 /// Where a trace sets out from the first point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -224,7 +224,7 @@ impl<'a, S: System> Branch<'a, S> {
         self.node.along = along;
         self.node.cusp = self.system.cusp_function();
         self.home = self.node.clone();
-        let start = self.point(&self.node, Kind::Start);
+        let start = self.node.point(Kind::Start);
         let turning = self.rate(&self.node.tangent).abs() < TURNING;
         if turning && !self.unoriented {
             self.queue.push_back(Point {
@@ -235,23 +235,30 @@ impl<'a, S: System> Branch<'a, S> {
         self.queue.push_front(start);
     }
 
-    pub(crate) fn point(&self, node: &Node, kind: Kind) -> Point {
-        Point {
-            z: node.z.clone(),
-            tangent: node.tangent.clone(),
-            arclength: node.arclength,
-            kind,
-            other: None,
-            error: None,
-        }
-    }
-
-    /// Adds a function whose zeros along the branch are located and yielded as
-    /// [`Kind::Event`] with the number of the function: 0 for the first one added. A zero at the
-    /// first point is not reported. Where the function is NaN it has no zeros.
+    /// Adds a function of the system and a point, whose zeros along the branch are located and yielded
+    /// as [`Kind::Event`] with the number of the function: 0 for the first one added. The point has its
+    /// unknowns, tangent and arclength, and is [`Kind::Regular`] wherever it lies. A zero at the first
+    /// point is not reported. Where the function is NaN it has no zeros.
+    ///
+    /// ```
+    /// use continuation::{Branch, DenseSystem, Direction, Kind, Options};
+    ///
+    /// // x (1 + λ²) = 1 has the slope −1/2 twice, at λ = 1 the second time.
+    /// let bell = |x: &[f64], p: &[f64], g: &mut [f64]| g[0] = x[0] * (1.0 + p[0] * p[0]) - 1.0;
+    /// let mut system = DenseSystem::new(1, &[0.0], 0, bell);
+    /// let options = Options::within(0.0, 3.0);
+    /// let branch = Branch::new(&mut system, &[1.0, 0.0], Direction::Increasing, &options)?
+    ///     .event(|_, point| point.tangent[0] / point.tangent[1] + 0.5);
+    /// let found: Vec<f64> = branch
+    ///     .filter(|point| point.kind == Kind::Event(0))
+    ///     .map(|point| point.lambda())
+    ///     .collect();
+    /// assert!(found.len() == 2 && (found[1] - 1.0).abs() < 1e-12);
+    /// # Ok::<(), continuation::Error>(())
+    /// ```
     #[must_use]
-    pub fn event(mut self, mut function: impl FnMut(&S, &[f64]) -> f64 + 'a) -> Self {
-        let value = function(self.system, &self.node.z);
+    pub fn event(mut self, mut function: impl FnMut(&S, &Point) -> f64 + 'a) -> Self {
+        let value = function(self.system, &self.node.point(Kind::Regular));
         self.node.events.push(value);
         self.events.push(Box::new(function));
         self

@@ -121,11 +121,16 @@ impl<S: System> Branch<'_, S> {
         }
         let mut events = std::mem::take(&mut self.events);
         let event = &mut events[index];
-        let mut value = |system: &mut S, z: &[f64], _: &[f64]| event(system, z);
+        let (from, metric) = (self.node.clone(), self.metric.clone());
+        let mut value = |system: &mut S, z: &[f64], tangent: &[f64]| {
+            let mut node = Node::new(z.to_vec(), tangent.to_vec());
+            node.arclength = from.arclength + from.length_to(&node, &metric);
+            event(system, &node.point(Kind::Regular))
+        };
         let outcome = self.span(to).zero(&mut value, values, RESOLVED);
         let least = outcome
             .as_ref()
-            .map_or(0.0, |at| event(self.system, &at.z).abs());
+            .map_or(0.0, |at| value(self.system, &at.z, &at.tangent).abs());
         self.events = events;
         let at = outcome?;
         let zero = least <= values[0].abs().max(values[1].abs());
@@ -193,14 +198,13 @@ impl<S: System> Branch<'_, S> {
     }
 
     /// A labelled point as it is yielded.
-    pub(crate) fn labelled(&mut self, found: Found) -> Point {
+    pub(crate) fn labelled(&self, found: Found) -> Point {
         let Found { at, kind, other } = found;
-        let node = Node::new(at.z, at.tangent);
-        let arclength = self.node.arclength + self.span(&node).length();
+        let mut node = Node::new(at.z, at.tangent);
+        node.arclength = self.node.arclength + self.node.length_to(&node, &self.metric);
         Point {
-            arclength,
             other,
-            ..self.point(&node, kind)
+            ..node.point(kind)
         }
     }
 }

@@ -137,20 +137,17 @@ impl<S: System> Branch<'_, S> {
         let rate = self.rate(&node.tangent).abs();
         let turned = node.tangent[n] * self.node.tangent[n] <= 0.0 || node.along != self.node.along;
         let doubtful = turned || self.unoriented || rate <= 3.0 * share * angle || share > DRIFTED;
-        if doubtful || self.node.cusp.is_some() {
-            node.tangent = self.corrector.tangent(self.system, &self.metric, &node.z)?;
-            self.orient(&mut node)?;
-            node.cusp = self.system.cusp_function();
+        let exact = doubtful || self.node.cusp.is_some();
+        if exact {
+            self.linearise_at(&mut node)?;
+        }
+        self.evaluate_events(&mut node);
+        if !exact && self.near_event(&node) {
+            self.linearise_at(&mut node)?;
+            self.evaluate_events(&mut node);
         }
         node.second = self.second_vector(&node.tangent)?;
         let second = self.second_angle(&node, h)?;
-        node.events = self
-            .events
-            .iter_mut()
-            .map(|event| event(self.system, &node.z))
-            .collect();
-        let span = self.span(&node);
-        node.arclength = span.from.arclength + span.length();
         let strict = h > CROSSING * self.options.largest_step;
         let found = self.specials(&node, strict)?;
         let turn = (angle / self.options.angle).max(second / SECOND);
@@ -160,6 +157,32 @@ impl<S: System> Branch<'_, S> {
             found,
             landed,
             growth,
+        })
+    }
+
+    /// Gives a node its exact tangent.
+    fn linearise_at(&mut self, node: &mut Node) -> Result<(), Difficulty> {
+        node.tangent = self.corrector.tangent(self.system, &self.metric, &node.z)?;
+        self.orient(node)?;
+        node.cusp = self.system.cusp_function();
+        Ok(())
+    }
+
+    /// Gives a node its arclength and the values of the event functions.
+    fn evaluate_events(&mut self, node: &mut Node) {
+        node.arclength = self.node.arclength + self.node.length_to(node, &self.metric);
+        let point = node.point(Kind::Regular);
+        let events = self.events.iter_mut();
+        node.events = events.map(|event| event(self.system, &point)).collect();
+    }
+
+    /// Whether an event function changes its sign on the way to a node, or might with the exact tangent
+    /// there: over the drift from the last linearisation it changes by about the same share as over the
+    /// step, twice that to be sure.
+    fn near_event(&self, node: &Node) -> bool {
+        let mut values = self.node.events.iter().zip(&node.events);
+        values.any(|(before, after)| {
+            before * after < 0.0 || after.abs() < 2.0 * DRIFTED * (after - before).abs()
         })
     }
 
@@ -329,7 +352,7 @@ impl<S: System> Branch<'_, S> {
                 self.stop = Some(Stop::Closed);
                 return Ok(());
             }
-            let point = self.point(&node, Kind::Bound);
+            let point = node.point(Kind::Bound);
             let lambda = point.lambda();
             self.queue.push_back(point);
             self.stop = Some(Stop::Bound { lambda });
@@ -360,7 +383,7 @@ impl<S: System> Branch<'_, S> {
         // Rates along a branch begin to mean something with the first step off a branch point.
         self.unoriented = false;
         self.step = (self.step * growth).min(self.options.largest_step);
-        let point = self.point(&self.node, Kind::Regular);
+        let point = self.node.point(Kind::Regular);
         self.queue.push_back(point);
         Ok(())
     }

@@ -4,6 +4,7 @@ use crate::curve::corrector::{Accuracy, Condition, Corrector};
 use crate::curve::metric::Metric;
 use crate::curve::root::root;
 use crate::error::Difficulty;
+use crate::point::{Kind, Point};
 use crate::special_points::branch_point::{Crossing, branch_point};
 use crate::special_points::null_space::NullSpace;
 use crate::system::system::System;
@@ -44,6 +45,50 @@ impl Node {
             cusp: None,
             second: Vec::new(),
         }
+    }
+
+    /// The point, of this kind, that a caller sees.
+    pub(crate) fn point(&self, kind: Kind) -> Point {
+        Point {
+            z: self.z.clone(),
+            tangent: self.tangent.clone(),
+            arclength: self.arclength,
+            kind,
+            other: None,
+            error: None,
+        }
+    }
+
+    /// Length of the cubic from this node to another one with their tangents, by the Gauss rule with
+    /// three points.
+    pub(crate) fn length_to(&self, to: &Self, metric: &Metric) -> f64 {
+        let ends = to.z.iter().zip(&self.z);
+        let secant: Vec<f64> = ends.map(|(b, a)| b - a).collect();
+        let chord = metric.norm(&secant);
+        let rule = [
+            (0.5 - 0.15f64.sqrt(), 5.0),
+            (0.5, 8.0),
+            (0.5 + 0.15f64.sqrt(), 5.0),
+        ];
+        let speed = |u: f64| {
+            // Derivatives of the Hermite basis.
+            let (d, a, b) = (
+                6.0 * u * (1.0 - u),
+                (1.0 - u) * (1.0 - 3.0 * u),
+                u * (3.0 * u - 2.0),
+            );
+            let tangents = self.tangent.iter().zip(&to.tangent);
+            let rate: Vec<f64> = secant
+                .iter()
+                .zip(tangents)
+                .map(|(s, (p, q))| d * s + chord * (a * p + b * q))
+                .collect();
+            metric.norm(&rate)
+        };
+        rule.iter()
+            .map(|&(u, weight)| weight * speed(u))
+            .sum::<f64>()
+            / 18.0
     }
 
     /// The height of the null space of \[J b\] above J, with a sign that changes at branch points.
@@ -270,37 +315,6 @@ impl<S: System> Span<'_, S> {
             tangent.iter_mut().for_each(|t| *t = -*t);
         }
         tangent
-    }
-
-    /// Length of the cubic through both nodes with their tangents, by the Gauss rule with three
-    /// points.
-    pub(crate) fn length(&self) -> f64 {
-        let secant = self.secant();
-        let chord = self.metric.norm(&secant);
-        let rule = [
-            (0.5 - 0.15f64.sqrt(), 5.0),
-            (0.5, 8.0),
-            (0.5 + 0.15f64.sqrt(), 5.0),
-        ];
-        let speed = |u: f64| {
-            // Derivatives of the Hermite basis.
-            let (d, a, b) = (
-                6.0 * u * (1.0 - u),
-                (1.0 - u) * (1.0 - 3.0 * u),
-                u * (3.0 * u - 2.0),
-            );
-            let tangents = self.from.tangent.iter().zip(&self.to.tangent);
-            let rate: Vec<f64> = secant
-                .iter()
-                .zip(tangents)
-                .map(|(s, (p, q))| d * s + chord * (a * p + b * q))
-                .collect();
-            self.metric.norm(&rate)
-        };
-        rule.iter()
-            .map(|&(u, weight)| weight * speed(u))
-            .sum::<f64>()
-            / 18.0
     }
 }
 

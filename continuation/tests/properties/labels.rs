@@ -3,7 +3,8 @@
 use crate::systems::{circle, cusp, tank};
 use crate::{assert_close, finish, of, trace};
 use continuation::Direction::{Decreasing, Increasing};
-use continuation::{Branch, DenseSystem, Kind, Options, Stop};
+use continuation::{Branch, DenseSystem, Kind, Options, Predictor, Stop};
+use std::f64::consts::PI;
 
 /// A parabola λ = 1 − x².
 fn parabola() -> DenseSystem {
@@ -126,12 +127,15 @@ fn events_are_zeros_of_their_functions_and_nothing_else() {
     let options = Options::within(-2.0, 2.0);
     let branch = Branch::new(&mut system, &[-1.0, -2.0], Increasing, &options)
         .unwrap()
-        .event(|_, z| z[0] - 0.3)
+        .event(|_, point| point.z[0] - 0.3)
         .event(|_, _| 0.0)
-        .event(|_, z| 1.0 / (z[0] - 0.1))
-        .event(|_, z| if z[0] < 0.2 { f64::NAN } else { z[0] - 0.5 })
-        .event(|_, z| (z[0] - 0.123).ln())
-        .event(|_, z| (z[0] + 0.4).signum());
+        .event(|_, point| 1.0 / (point.z[0] - 0.1))
+        .event(|_, point| match point.z[0] {
+            x if x < 0.2 => f64::NAN,
+            x => x - 0.5,
+        })
+        .event(|_, point| (point.z[0] - 0.123).ln())
+        .event(|_, point| (point.z[0] + 0.4).signum());
     let (points, stop) = finish(branch);
     assert!(matches!(stop, Stop::Bound { lambda: 2.0 }));
     let events: Vec<(Kind, f64)> = points
@@ -148,6 +152,36 @@ fn events_are_zeros_of_their_functions_and_nothing_else() {
 }
 
 #[test]
+fn events_of_the_tangent_and_the_arclength_are_met_to_rounding() {
+    // λ = 1 − x² has the slope −2x. Steps this short keep the linearisation of the predicted point, and
+    // wherever a node lies an event lies near it.
+    let places: Vec<f64> = (-180..=180).map(|i| f64::from(i) / 200.0).collect();
+    let options = Options {
+        weights: Some(vec![1.0; 2]),
+        largest_step: 0.04,
+        predictor: Predictor::Tangent,
+        ..Options::within(0.0, 2.0)
+    };
+    let mut system = parabola();
+    let mut branch = Branch::new(&mut system, &[-1.0, 0.0], Increasing, &options).unwrap();
+    for &x in &places {
+        branch = branch.event(move |_, point| point.tangent[1] + 2.0 * x * point.tangent[0]);
+    }
+    branch = branch.event(|_, point| point.arclength - 1.5);
+    let (points, _) = finish(branch);
+    for (index, &x) in places.iter().enumerate() {
+        let [event] = of(&points, Kind::Event(index))[..] else {
+            panic!("one place with this slope");
+        };
+        assert_close(&event.z, &[x, 1.0 - x * x], 1e-11);
+    }
+    let [event] = of(&points, Kind::Event(places.len()))[..] else {
+        panic!("one place at this arclength");
+    };
+    assert_close(&[event.arclength], &[1.5], 1e-12);
+}
+
+#[test]
 fn labelled_points_of_a_step_come_in_order() {
     let options = Options {
         targets: vec![0.3, 0.5, 0.7],
@@ -157,8 +191,8 @@ fn labelled_points_of_a_step_come_in_order() {
     let mut system = parabola();
     let branch = Branch::new(&mut system, &[-1.0, 0.0], Increasing, &options)
         .unwrap()
-        .event(|_, z| z[1] - 0.4)
-        .event(|_, z| z[0] + 0.6);
+        .event(|_, point| point.z[1] - 0.4)
+        .event(|_, point| point.z[0] + 0.6);
     let (points, _) = finish(branch);
     assert!(
         points

@@ -5,7 +5,7 @@ use crate::systems::{
 };
 use crate::{assert_close, of, steps, trace};
 use continuation::Direction::{Decreasing, Increasing};
-use continuation::{Branch, DenseSystem, Kind, Options, Predictor, Stop};
+use continuation::{Branch, DenseSystem, Kind, Options, Point, Predictor, Stop};
 
 /// The weights of the plane of x and λ.
 fn euclidean(options: Options) -> Options {
@@ -104,8 +104,10 @@ fn the_extremes_of_an_isola_are_events_and_its_length_is_known() {
     });
     let mut system = isola(kappa);
     // ∂G/∂τ = 0
-    let slope =
-        |_: &DenseSystem, z: &[f64]| z[0] * (1.0 - z[0]) - 2.0 * kappa * (1.0 + kappa * z[1]);
+    let slope = |_: &DenseSystem, point: &Point| {
+        let [a, tau] = [point.z[0], point.z[1]];
+        a * (1.0 - a) - 2.0 * kappa * (1.0 + kappa * tau)
+    };
     let branch = Branch::new(&mut system, &on_isola(kappa), Increasing, &options).unwrap();
     let points: Vec<_> = branch.event(slope).collect();
     let extremes = of(&points, Kind::Event(0));

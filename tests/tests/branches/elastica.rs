@@ -89,8 +89,8 @@ fn both_legs_of_the_first_three_pitchforks_are_followed() {
             };
             let mut branch = Branch::switch(&mut system, &crossing, leg, &options).unwrap();
             for (height, _) in TABLE {
-                branch = branch.event(move |system: &Family<'_>, z| {
-                    system.solution(z).start(0)[0].abs() - height
+                branch = branch.event(move |system: &Family<'_>, point| {
+                    system.solution(&point.z).start(0)[0].abs() - height
                 });
             }
             let (points, stop) = labelled(branch);

@@ -1,7 +1,7 @@
 //! u'' + λ eᵘ = 0, u(0) − u(1) = p₂, ∫ u = 0: a limit point for every p₂.
 
 use crate::{assert_close, family, first, to};
-use bvp::{Ends, Family, Problem, Real, Segment};
+use bvp::{Ends, Problem, Real, Segment};
 use continuation::{Branch, Direction, Kind, LimitPointCurve, Options, Stop};
 
 struct Integral;
@@ -61,7 +61,7 @@ fn the_limit_points_are_followed_in_two_parameters() {
     };
     let mut branch = Branch::new(&mut curve, &start, Direction::Increasing, &options)
         .unwrap()
-        .event(|_: &LimitPointCurve<Family<'_>>, z| z[z.len() - 2] - 3.0);
+        .event(|_, point| point.z[point.z.len() - 2] - 3.0);
     let points: Vec<_> = branch.by_ref().collect();
     assert!(matches!(
         branch.into_stop(),
