@@ -181,7 +181,7 @@ pub use problem::dual::Dual;
 pub use problem::equations::{Equations, Shape};
 pub use problem::guess::{Constant, Function, Guess, Table};
 pub use problem::problem::{Ends, Problem, Segment};
-pub use problem::real::Real;
+pub use problem::real::{LeftOf, Real};
 pub use problem::unknown::Unknown;
 pub use result::error::Error;
 pub use result::report::Report;

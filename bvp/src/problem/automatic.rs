@@ -4,7 +4,7 @@ use crate::kernels::specialise::specialise;
 use crate::problem::dual::Dual;
 use crate::problem::equations::{Equations, Shape};
 use crate::problem::problem::{Ends, Problem};
-use crate::problem::real::Real;
+use crate::problem::real::{LeftOf, Real};
 
 /// The widest dual number: more directions are carried in several passes.
 const WIDEST: usize = 24;
@@ -57,7 +57,9 @@ impl<P: Problem> Equations for P {
 
 /// A function of (z, p) that can be evaluated with any scalar.
 trait Differentiable {
-    fn evaluate<T: Real>(&self, z: &[T], p: &[T], value: &mut [T]);
+    fn evaluate<T: Real>(&self, z: &[T], p: &[T], value: &mut [T])
+    where
+        f64: LeftOf<T>;
 }
 
 /// The right-hand side of a problem at one s.
@@ -68,7 +70,10 @@ struct RhsAt<'a, P> {
 }
 
 impl<P: Problem> Differentiable for RhsAt<'_, P> {
-    fn evaluate<T: Real>(&self, y: &[T], p: &[T], dy: &mut [T]) {
+    fn evaluate<T: Real>(&self, y: &[T], p: &[T], dy: &mut [T])
+    where
+        f64: LeftOf<T>,
+    {
         let s = T::from_f64(self.s);
         self.problem.rhs(self.segment, s, y, p, dy);
     }
@@ -81,7 +86,10 @@ struct Conditions<'a, P> {
 }
 
 impl<P: Problem> Differentiable for Conditions<'_, P> {
-    fn evaluate<T: Real>(&self, ends: &[T], p: &[T], r: &mut [T]) {
+    fn evaluate<T: Real>(&self, ends: &[T], p: &[T], r: &mut [T])
+    where
+        f64: LeftOf<T>,
+    {
         self.problem.conditions(self.at.with(ends), p, r);
     }
 }

@@ -11,7 +11,7 @@ use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssi
 /// and the right-hand side need not be differentiable as a complex function: it may use
 /// [`conj`](Self::conj) and [`norm_squared`](Self::norm_squared).
 ///
-/// Arithmetic works with another complex number and with `f64` on the right (`z * 2.0`). A real number
+/// Arithmetic works with another complex number and with `f64` on either side (`2.0 * z`). A real number
 /// of type `T` multiplies by [`scale`](Self::scale) and is added as `Complex::from(x)`.
 ///
 /// ```
@@ -91,7 +91,7 @@ impl<T: Real> Complex<T> {
 impl<T: Real> From<T> for Complex<T> {
     /// A real number.
     fn from(re: T) -> Self {
-        Self::new(re, T::from_f64(0.0))
+        Self::new(re, T::ZERO)
     }
 }
 
@@ -170,6 +170,34 @@ impl<T: Real> Div<f64> for Complex<T> {
     type Output = Self;
     fn div(self, other: f64) -> Self {
         Self::new(self.re / other, self.im / other)
+    }
+}
+
+impl<T: Real> Add<Complex<T>> for f64 {
+    type Output = Complex<T>;
+    fn add(self, other: Complex<T>) -> Complex<T> {
+        other + self
+    }
+}
+
+impl<T: Real> Sub<Complex<T>> for f64 {
+    type Output = Complex<T>;
+    fn sub(self, other: Complex<T>) -> Complex<T> {
+        -other + self
+    }
+}
+
+impl<T: Real> Mul<Complex<T>> for f64 {
+    type Output = Complex<T>;
+    fn mul(self, other: Complex<T>) -> Complex<T> {
+        other * self
+    }
+}
+
+impl<T: Real> Div<Complex<T>> for f64 {
+    type Output = Complex<T>;
+    fn div(self, other: Complex<T>) -> Complex<T> {
+        Complex::from(T::from_f64(self)) / other
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::problem::real::Real;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
+use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A value with its derivatives in `W` directions: x + Σ xᵢ εᵢ with εᵢ εⱼ = 0.
@@ -189,7 +190,76 @@ impl<const W: usize> DivAssign for Dual<W> {
     }
 }
 
+impl<const W: usize> Add<Dual<W>> for f64 {
+    type Output = Dual<W>;
+    #[inline]
+    fn add(self, other: Dual<W>) -> Dual<W> {
+        other + self
+    }
+}
+
+impl<const W: usize> Sub<Dual<W>> for f64 {
+    type Output = Dual<W>;
+    #[inline]
+    fn sub(self, other: Dual<W>) -> Dual<W> {
+        other.chain(self - other.value, -1.0)
+    }
+}
+
+impl<const W: usize> Mul<Dual<W>> for f64 {
+    type Output = Dual<W>;
+    #[inline]
+    fn mul(self, other: Dual<W>) -> Dual<W> {
+        other * self
+    }
+}
+
+impl<const W: usize> Div<Dual<W>> for f64 {
+    type Output = Dual<W>;
+    #[inline]
+    fn div(self, other: Dual<W>) -> Dual<W> {
+        let quotient = self / other.value;
+        other.chain(quotient, -quotient / other.value)
+    }
+}
+
+impl<const W: usize> AddAssign<f64> for Dual<W> {
+    #[inline]
+    fn add_assign(&mut self, other: f64) {
+        *self = *self + other;
+    }
+}
+
+impl<const W: usize> SubAssign<f64> for Dual<W> {
+    #[inline]
+    fn sub_assign(&mut self, other: f64) {
+        *self = *self - other;
+    }
+}
+
+impl<const W: usize> MulAssign<f64> for Dual<W> {
+    #[inline]
+    fn mul_assign(&mut self, other: f64) {
+        *self = *self * other;
+    }
+}
+
+impl<const W: usize> DivAssign<f64> for Dual<W> {
+    #[inline]
+    fn div_assign(&mut self, other: f64) {
+        *self = *self / other;
+    }
+}
+
+impl<const W: usize> Sum for Dual<W> {
+    fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
+        terms.fold(Self::ZERO, Add::add)
+    }
+}
+
 impl<const W: usize> Real for Dual<W> {
+    const ZERO: Self = Self::constant(0.0);
+    const ONE: Self = Self::constant(1.0);
     fn from_f64(value: f64) -> Self {
         Self::constant(value)
     }
@@ -202,8 +272,16 @@ impl<const W: usize> Real for Dual<W> {
         self.chain(e, e)
     }
     #[inline]
+    fn exp_m1(self) -> Self {
+        self.chain(self.value.exp_m1(), self.value.exp())
+    }
+    #[inline]
     fn ln(self) -> Self {
         self.chain(self.value.ln(), 1.0 / self.value)
+    }
+    #[inline]
+    fn ln_1p(self) -> Self {
+        self.chain(self.value.ln_1p(), 1.0 / (1.0 + self.value))
     }
     #[inline]
     fn sin(self) -> Self {
@@ -243,6 +321,11 @@ impl<const W: usize> Real for Dual<W> {
         self.chain(self.value.asin(), derivative)
     }
     #[inline]
+    fn acos(self) -> Self {
+        let derivative = -1.0 / ((1.0 - self.value) * (1.0 + self.value)).sqrt();
+        self.chain(self.value.acos(), derivative)
+    }
+    #[inline]
     fn sinh(self) -> Self {
         self.chain(self.value.sinh(), self.value.cosh())
     }
@@ -254,6 +337,21 @@ impl<const W: usize> Real for Dual<W> {
     fn tanh(self) -> Self {
         let t = self.value.tanh();
         self.chain(t, (1.0 - t) * (1.0 + t))
+    }
+    #[inline]
+    fn asinh(self) -> Self {
+        self.chain(self.value.asinh(), 1.0 / self.value.hypot(1.0))
+    }
+    #[inline]
+    fn acosh(self) -> Self {
+        // A product of roots: that of x² − 1 would overflow for large x.
+        let derivative = 1.0 / ((self.value - 1.0).sqrt() * (self.value + 1.0).sqrt());
+        self.chain(self.value.acosh(), derivative)
+    }
+    #[inline]
+    fn atanh(self) -> Self {
+        let derivative = 1.0 / ((1.0 - self.value) * (1.0 + self.value));
+        self.chain(self.value.atanh(), derivative)
     }
     #[inline]
     fn sqrt(self) -> Self {
@@ -278,6 +376,28 @@ impl<const W: usize> Real for Dual<W> {
         )
     }
     #[inline]
+    fn pow(self, exponent: Self) -> Self {
+        let (x, a) = (self.value, exponent.value);
+        let value = x.powf(a);
+        let d_base = match a {
+            0.0 => 0.0,
+            _ => a * x.powf(a - 1.0),
+        };
+        // xᵃ ln x, whose limit at zero is zero. It is no number for a negative x, which matters only
+        // where the exponent varies.
+        let d_exponent = match x {
+            0.0 if a > 0.0 => 0.0,
+            _ => value * x.ln(),
+        };
+        let mut gradient = self.gradient.map(|g| d_base * g);
+        for (g, of_exponent) in gradient.iter_mut().zip(exponent.gradient) {
+            if of_exponent != 0.0 {
+                *g += d_exponent * of_exponent;
+            }
+        }
+        Self { value, gradient }
+    }
+    #[inline]
     fn abs(self) -> Self {
         if self.value < 0.0 { -self } else { self }
     }
@@ -290,5 +410,10 @@ impl<const W: usize> Real for Dual<W> {
     fn erf(self) -> Self {
         let derivative = 2.0 / PI.sqrt() * (-self.value * self.value).exp();
         self.chain(libm::erf(self.value), derivative)
+    }
+    #[inline]
+    fn apply(self, function: impl FnOnce(f64) -> (f64, f64)) -> Self {
+        let (value, derivative) = function(self.value);
+        self.chain(value, derivative)
     }
 }

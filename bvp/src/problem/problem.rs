@@ -1,6 +1,6 @@
 //! The statement of a boundary value problem.
 
-use crate::problem::real::Real;
+use crate::problem::real::{LeftOf, Real};
 
 /// A smooth piece of the solution: its number of states and the interval of its variable s.
 ///
@@ -115,8 +115,15 @@ pub trait Problem: Sync {
 
     /// The right-hand side: `dy` = f(s, y, p) on `segment`. `dy` has as many entries as `y`, and
     /// every one must be written.
-    fn rhs<T: Real>(&self, segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T]);
+    ///
+    /// The bound lets numbers stand on the left, as in `2.0 * y[0]`; an implementation that does
+    /// without them may leave it out. See [`LeftOf`].
+    fn rhs<T: Real>(&self, segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T])
+    where
+        f64: LeftOf<T>;
 
     /// The conditions: `r` = g(ends, p), zero at the solution. Every entry must be written.
-    fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]);
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T])
+    where
+        f64: LeftOf<T>;
 }

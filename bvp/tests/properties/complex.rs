@@ -35,6 +35,9 @@ proptest! {
         prop_assert_eq!(a + x, a + real);
         prop_assert_eq!(a - x, a - real);
         prop_assert!(near(a * x, a * real) && near(a / x, a / real) && near(a.scale(x), a * real));
+        prop_assert_eq!((x + a, x - a), (real + a, real - a));
+        prop_assert!(near(x * a, real * a));
+        prop_assert!(a.norm_squared() < 0.01 || near(x / a, real / a));
         prop_assert!(near(a.times_i(), a * I) && near(I * I, Complex::from(-1.0)));
         let (mut b, mut pairs) = (a, [0.0; 6]);
         b += real;

@@ -1,11 +1,13 @@
 //! Dual numbers: derivatives against central differences, and identities.
 
-use bvp::{Dual, Real};
+use bvp::{Complex, Dual, LeftOf, Real};
 use proptest::prelude::*;
 
 /// A function of two arguments with any scalar.
 trait Function {
-    fn at<T: Real>(&self, x: T, y: T) -> T;
+    fn at<T: Real>(&self, x: T, y: T) -> T
+    where
+        f64: LeftOf<T>;
 }
 
 /// Every function of [`Real`] whose derivative exists for all x, and y > 0 or y away from 0.
@@ -39,9 +41,18 @@ enum Smooth {
     Negative,
     WithConstants,
     Assigned,
+    ExpM1,
+    Ln1p,
+    Acos,
+    Asinh,
+    AcoshAboveOne,
+    Atanh,
+    Pow,
+    Applied,
+    OnTheLeft,
 }
 
-const ALL: [Smooth; 28] = [
+const ALL: [Smooth; 37] = [
     Smooth::Exp,
     Smooth::LnOfPositive,
     Smooth::Sin,
@@ -70,10 +81,22 @@ const ALL: [Smooth; 28] = [
     Smooth::Negative,
     Smooth::WithConstants,
     Smooth::Assigned,
+    Smooth::ExpM1,
+    Smooth::Ln1p,
+    Smooth::Acos,
+    Smooth::Asinh,
+    Smooth::AcoshAboveOne,
+    Smooth::Atanh,
+    Smooth::Pow,
+    Smooth::Applied,
+    Smooth::OnTheLeft,
 ];
 
 impl Function for Smooth {
-    fn at<T: Real>(&self, x: T, y: T) -> T {
+    fn at<T: Real>(&self, x: T, y: T) -> T
+    where
+        f64: LeftOf<T>,
+    {
         match self {
             Self::Exp => (x * y).exp(),
             Self::LnOfPositive => y.ln() * x,
@@ -113,7 +136,30 @@ impl Function for Smooth {
                 z *= x;
                 z -= y;
                 z /= y;
-                z
+                z += 2.0;
+                z *= 0.3;
+                z -= 1.0;
+                z /= 0.7;
+                [z, T::ONE, x, T::ZERO].into_iter().sum()
+            }
+            Self::ExpM1 => (x * y).exp_m1(),
+            Self::Ln1p => (x * 0.4).ln_1p() * y.ln_1p(),
+            Self::Acos => (x / 3.0).acos() * y,
+            Self::Asinh => (x * y).asinh(),
+            Self::AcoshAboveOne => (y + 1.0).acosh() * x,
+            Self::Atanh => (x / 3.0).atanh() + y,
+            Self::Pow => y.pow(x) + y.pow(T::ZERO) + x.pow(T::from(3.0)),
+            Self::Applied => {
+                // x³ y as a function of two variables.
+                let (a, b) = (x.value(), y.value());
+                x.apply(|a| (a.powi(3) * b, 3.0 * a * a * b)) + y.apply(|_| (0.0, a.powi(3)))
+            }
+            Self::OnTheLeft => {
+                // Products of plain numbers stay plain.
+                let half: f64 = 0.5;
+                let [sum, product] = [1.0 - half * half, 2.0 * 3.0 * half];
+                let z = 1.0 / (2.0 - 3.0 * Complex::new(x, 1.0 + y));
+                sum * x + (1.0 - y) * product - 1.0 / y + half / x + (half + x) * z.re * z.im
             }
         }
     }
@@ -156,6 +202,16 @@ proptest! {
         prop_assert!(same(x.sinh() / x.cosh(), x.tanh()));
         prop_assert!(same(x.sin().asin(), x));
         prop_assert!(same(-(-x).erf(), x.erf()));
+        prop_assert!(same(x.exp_m1().ln_1p(), x));
+        prop_assert!(same(x.cos().abs().acos().cos(), x.cos().abs()));
+        prop_assert!(same(x.sinh().asinh(), x));
+        prop_assert!(same((x + 2.5).cosh().acosh(), x + 2.5));
+        prop_assert!(same(x.tanh().atanh(), x));
+        prop_assert!(same((x + 2.0).pow(x), (x * (x + 2.0).ln()).exp()));
+        prop_assert!(same((x + 2.0).pow(Dual::constant(1.7)), (x + 2.0).powf(1.7)));
+        prop_assert!(same(1.0 - x, -(x - 1.0)));
+        prop_assert!(same(2.0 / (x + 2.0), ((x + 2.0) / 2.0).powi(-1)));
+        prop_assert!(same(x.apply(|x| (x.sin(), x.cos())), x.sin()));
     }
 }
 
@@ -163,11 +219,37 @@ proptest! {
 fn values_outside_the_domain_are_not_numbers() {
     let x = Dual::<1>::variable(-1.0, 0);
     assert!(x.ln().value().is_nan() && x.sqrt().value().is_nan());
-    assert!((x * 2.0).asin().value().is_nan());
+    assert!((x * 2.0).asin().value().is_nan() && (x * 2.0).acos().value().is_nan());
+    assert!((x * 2.0).ln_1p().value().is_nan() && (x * 2.0).atanh().value().is_nan());
+    assert!((-x * 0.9).acosh().value().is_nan() && x.pow(-x / 2.0).value().is_nan());
     assert_eq!(
         Dual::<1>::variable(0.0, 0).sqrt().gradient[0],
         f64::INFINITY
     );
+}
+
+/// Where an exponent does not vary, the logarithm of the base does not matter.
+#[test]
+fn powers_of_zero_and_of_negative_numbers_have_their_derivatives() {
+    let (x, a) = (Dual::<2>::variable(-2.0, 0), Dual::<2>::constant(3.0));
+    let cube = x.pow(a);
+    assert_eq!((cube.value, cube.gradient), (-8.0, [12.0, 0.0]));
+    let varying = x.pow(Dual::variable(3.0, 1));
+    assert!(varying.gradient[1].is_nan() && varying.gradient[0] == 12.0);
+    let zero = Dual::<2>::variable(0.0, 0).pow(Dual::variable(2.0, 1));
+    assert_eq!((zero.value, zero.gradient), (0.0, [0.0, 0.0]));
+    let one = Dual::<2>::variable(0.0, 0).pow(Dual::variable(0.0, 1) * 0.0);
+    assert_eq!((one.value, one.gradient[0]), (1.0, 0.0));
+}
+
+/// Near zero 1 + x keeps no digit of x.
+#[test]
+fn small_arguments_keep_their_digits() {
+    let x = Dual::<1>::variable(1e-20, 0);
+    for y in [x.ln_1p(), x.exp_m1(), x.asinh(), x.atanh()] {
+        assert_eq!((y.value, y.gradient), (1e-20, [1.0]));
+    }
+    assert!((Dual::<1>::variable(1e200, 0).acosh().gradient[0] * 1e200 - 1.0).abs() < 1e-15);
 }
 
 #[test]
