@@ -11,7 +11,7 @@ mod banded;
 mod problems;
 mod processor_time;
 
-use bvp::{Constant, Equations, Family, GlobalError, Scheme};
+use bvp::{Constant, Control, Equations, Family, Scheme};
 use continuation::{Branch, Cause, Direction, Kind, Options, System};
 use criterion::{BenchmarkId, Criterion, SamplingMode};
 use problems::{Bratu, Copies, Swirl};
@@ -228,7 +228,7 @@ fn family<'a>(
     let options = bvp::Options {
         scheme: Some(Scheme::Gauss { stages: STAGES }),
         initial_intervals: intervals,
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..bvp::Options::default()
     };
     let family = Family::new(equations, 0, &[], &guess, &options);

@@ -9,7 +9,7 @@
 mod problems;
 mod processor_time;
 
-use bvp::{Equations, GlobalError, Options, Scheme, Solution, Table, solve};
+use bvp::{Control, Equations, Options, Scheme, Solution, Table, solve};
 use criterion::{BenchmarkId, Criterion, SamplingMode};
 use problems::{ReactionDiffusion, Rotation};
 use processor_time::processor_time;
@@ -27,12 +27,12 @@ fn guess(states: usize, intervals: usize) -> Table {
 }
 
 /// Solves with four stages on the mesh of the guess, which must do.
-fn solved(equations: &dyn Equations, guess: &Table, global_error: GlobalError) -> Solution {
+fn solved(equations: &dyn Equations, guess: &Table, control: Control) -> Solution {
     let options = Options {
         tolerance: 1e-3,
         scheme: Some(Scheme::Gauss { stages: 4 }),
         max_intervals: guess.nodes[0].len(),
-        global_error,
+        control,
         ..Options::default()
     };
     let solution = solve(equations, guess, &options).expect("a well-posed problem");
@@ -44,16 +44,16 @@ fn solved(equations: &dyn Equations, guess: &Table, global_error: GlobalError) -
 struct Bench<'a> {
     /// Heading and name of the function.
     names: [&'a str; 2],
-    global_error: GlobalError,
+    control: Control,
     /// Size and the fastest of all solutions.
     fastest: Vec<(usize, Duration)>,
 }
 
 impl<'a> Bench<'a> {
-    fn new(names: [&'a str; 2], global_error: GlobalError) -> Self {
+    fn new(names: [&'a str; 2], control: Control) -> Self {
         Self {
             names,
-            global_error,
+            control,
             fastest: vec![],
         }
     }
@@ -74,7 +74,7 @@ impl<'a> Bench<'a> {
             b.iter_custom(|iterations| {
                 let runs = (0..iterations).map(|_| {
                     let start = processor_time();
-                    black_box(solved(equations, black_box(&guess), self.global_error));
+                    black_box(solved(equations, black_box(&guess), self.control));
                     let time = processor_time() - start;
                     fastest = fastest.min(time);
                     time
@@ -126,7 +126,7 @@ fn main() {
         .warm_up_time(short)
         .measurement_time(4 * short);
     let mut criterion = criterion.sample_size(10).configure_from_args();
-    let newton = |heading| Bench::new([heading, "one Newton solve"], GlobalError::Skip);
+    let newton = |heading| Bench::new([heading, "one Newton solve"], Control::Defect);
 
     let mut by_intervals = newton("intervals, 4 states");
     for intervals in [100, 1_000, 10_000, 100_000] {
@@ -141,7 +141,7 @@ fn main() {
             "states, reaction with diffusion, 20 intervals",
             "solution with its estimate",
         ],
-        GlobalError::BesideDefect,
+        Control::Both,
     );
     for lines in [5, 10, 25, 50] {
         nonlinear.time(

@@ -121,8 +121,8 @@
 //! polynomials of the solution, the local defects h |S' − f(s, S, p)| / (1 + |y|) of intervals of
 //! length h are equidistributed over as many intervals as the estimated error asks. Where a mesh does
 //! not resolve the solution yet, its largest relative defect |S' − f| / (1 + |f|) above one half, that
-//! takes the place of the error. With [`GlobalError::Skip`] nothing is estimated and the mesh is chosen
-//! for the relative defect, with [`GlobalError::BesideDefect`] for both.
+//! takes the place of the error. With [`Control::Defect`] nothing is estimated and the mesh is chosen
+//! for the relative defect, with [`Control::Both`] for both.
 //!
 //! **Derivative states.** A state whose derivative is another state, as in an equation of second order, is
 //! eliminated from the stage systems in advance, so that writing such an equation as a first-order system
@@ -133,7 +133,7 @@
 //! [`solve`] returns `Ok` only if these are at most [`Options::tolerance`]:
 //!
 //! * the estimated global error of every state and parameter relative to 1 + |value|, or, with
-//!   [`GlobalError::Skip`], the defect of every interval relative to 1 + |f|, root mean square over the
+//!   [`Control::Defect`], the defect of every interval relative to 1 + |f|, root mean square over the
 //!   interval;
 //! * the residual of every condition, relative to the size of its terms where that exceeds one;
 //!
@@ -188,5 +188,5 @@ pub use result::report::Report;
 pub use result::solution::Solution;
 pub use result::stats::Stats;
 pub use solver::embedding::{Embedding, solve_embedded};
-pub use solver::options::{GlobalError, Options};
+pub use solver::options::{Control, Options};
 pub use solver::solver::solve;

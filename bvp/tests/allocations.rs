@@ -1,6 +1,6 @@
 //! Newton's iteration allocates nothing.
 
-use bvp::{Ends, GlobalError, Options, Problem, Real, Segment, Stats, Table, solve};
+use bvp::{Control, Ends, Options, Problem, Real, Segment, Stats, Table, solve};
 
 /// The allocator of the system, which counts.
 #[global_allocator]
@@ -46,7 +46,7 @@ fn cost(value: f64) -> (u64, Stats) {
         parameters: vec![value],
     };
     let options = Options {
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         retries: 0,
         ..Options::to(1e-4)
     };

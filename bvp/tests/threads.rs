@@ -1,7 +1,7 @@
 //! Solutions by several threads.
 
 use bvp::{
-    Ends, Equations, Error, Family, GlobalError, Options, Problem, Real, Segment, Solution, Table,
+    Control, Ends, Equations, Error, Family, Options, Problem, Real, Segment, Solution, Table,
     solve,
 };
 
@@ -49,7 +49,7 @@ fn solution(equations: &dyn Equations, intervals: usize) -> Result<Solution, Err
         parameters: vec![1.0],
     };
     let options = Options {
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         retries: 0,
         ..Options::default()
     };

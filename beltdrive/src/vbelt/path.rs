@@ -4,7 +4,7 @@
 use super::carried::Carried;
 use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, Guess, Scales};
 use crate::{Drive, FrictionLaw};
-use bvp::{Function, GlobalError, Options, Scheme, Solution, Stats};
+use bvp::{Control, Function, Options, Scheme, Solution, Stats};
 
 /// A solve with at most so many Newton steps lets the next step of a homotopy be twice as long.
 const EASY: usize = 8;
@@ -156,10 +156,10 @@ impl<'a> Path<'a> {
             },
             // A shorter step of the homotopy is a better answer to a failure than a finer mesh.
             retries: if effort == Effort::Start { 2 } else { 0 },
-            global_error: match effort {
+            control: match effort {
                 // Integrals of friction need a small defect.
-                Effort::Final => GlobalError::BesideDefect,
-                _ => GlobalError::Skip,
+                Effort::Final => Control::Both,
+                _ => Control::Defect,
             },
         };
         self.problems += 1;

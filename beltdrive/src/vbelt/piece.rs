@@ -11,7 +11,7 @@ use super::tracer::{Tracer, Until};
 use super::watched::{FIRST_ZONE, RATIO, RATIOS};
 use super::zones::Split;
 use crate::{BranchEnd, Drive, EventKind, FrictionLaw, Pulley};
-use bvp::{Family, GlobalError, Scheme};
+use bvp::{Control, Family, Scheme};
 use continuation::{Branch, Direction, Kind, Options, Point};
 
 /// ε where the tight tension is less than the first of [`RATIOS`] times the slack one, less than the
@@ -57,7 +57,7 @@ pub(super) fn discretisation(tolerance: f64, epsilon: f64) -> bvp::Options {
     bvp::Options {
         tolerance,
         scheme: Some(Scheme::Gauss { stages }),
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         max_intervals: MAX_INTERVALS,
         ..bvp::Options::default()
     }

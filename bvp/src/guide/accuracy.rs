@@ -33,7 +33,7 @@
 //!
 //! ```
 //! # use bvp::{Constant, Ends, Problem, Real, Segment};
-//! use bvp::{GlobalError, Options, solve};
+//! use bvp::{Control, Options, solve};
 //! # struct Runge;
 //! # impl Problem for Runge {
 //! #     fn segments(&self) -> Vec<Segment> {
@@ -68,15 +68,15 @@
 //! }
 //!
 //! // Without an estimate the mesh is chosen for the defect.
-//! let options = Options { global_error: GlobalError::Skip, ..Options::to(1e-6) };
+//! let options = Options { control: Control::Defect, ..Options::to(1e-6) };
 //! let solution = solve(&problem, &guess, &options)?;
 //! assert!(solution.defect() <= 1e-6 && solution.error_estimate().is_none());
 //! # Ok::<(), bvp::Error>(())
 //! ```
 //!
-//! With [`GlobalError::Skip`] nothing is estimated, the tolerance is one for the defect relative to
-//! 1 + |f|: as in `bvp4c`, and meant for solutions on the way to another one. With [`GlobalError::BesideDefect`] the tolerance is one for both: where slopes
-//! count, or integrals of right-hand sides must balance.
+//! With [`Control::Defect`] nothing is estimated, the tolerance is one for the defect relative to
+//! 1 + |f|: as in `bvp4c`, and meant for solutions on the way to another one. With [`Control::Both`] the
+//! tolerance is one for both: where slopes count, or integrals of right-hand sides must balance.
 //!
 //! How true the estimates are on problems with known solutions is tabulated in `tests/RESULTS.md`. Over
 //! 12 000 random problems with manufactured solutions the error of some state exceeds ten times its
@@ -162,4 +162,4 @@
 //! With many problems the threads are better spent on those.
 
 #[cfg(doc)]
-use crate::{Error, GlobalError, Options, Scheme, Solution, solve};
+use crate::{Control, Error, Options, Scheme, Solution, solve};

@@ -145,7 +145,7 @@ impl Solution {
     }
 
     /// The largest estimated global error of all states and parameters, relative to 1 + |value|;
-    /// `None` where the estimate was skipped or could not be had.
+    /// `None` with [`Control::Defect`](crate::Control::Defect) or where the estimate failed.
     pub fn error_estimate(&self) -> Option<f64> {
         self.quality.errors.as_ref().map(GlobalErrors::largest)
     }

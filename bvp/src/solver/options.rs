@@ -10,8 +10,8 @@ use crate::result::error::Error;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The estimated global error relative to 1 + |y| is brought to at most this number, or, where its
-    /// estimate is skipped, the defect in the differential equations relative to 1 + |f|; and so are
+    /// The estimated global error relative to 1 + |y| is brought to at most this number, or, where the
+    /// defect is controlled alone, the defect in the differential equations relative to 1 + |f|; and so are
     /// the residuals of the conditions, relative to the size of their terms where that exceeds one.
     /// Between 1e-13 and 1e-1; default 1e-6.
     pub tolerance: f64,
@@ -31,22 +31,22 @@ pub struct Options {
     /// states that meet the conditions, by a homotopy. Callers that have a better answer to a failure
     /// set 0, which omits all of it.
     pub retries: usize,
-    /// Whether the global error is estimated, and so what the mesh is chosen for; default
-    /// [`GlobalError::Estimated`].
-    pub global_error: GlobalError,
+    /// What is brought to at most the tolerance, and so what the mesh is chosen for; default
+    /// [`Control::Error`].
+    pub control: Control,
 }
 
-/// Whether the global error of a solution is estimated.
+/// What the tolerance bounds, and what the mesh is chosen for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum GlobalError {
-    /// It is, by defect correction, and the mesh is chosen for it.
-    Estimated,
-    /// It is, on a mesh on which the defect, too, is at most the tolerance. For what depends on slopes or
-    /// integrates right-hand sides; asks for more intervals.
-    BesideDefect,
-    /// Not at all: for intermediate solutions on the way to another one. The mesh is chosen for the
-    /// defect, which asks for more intervals than the error does.
-    Skip,
+pub enum Control {
+    /// The global error, estimated by defect correction.
+    Error,
+    /// The defect; no error is estimated. For intermediate solutions on the way to another one. Takes
+    /// more intervals than the error does.
+    Defect,
+    /// The estimated global error and the defect. For what depends on slopes or integrates right-hand
+    /// sides. Takes as many intervals as the defect does.
+    Both,
 }
 
 impl Default for Options {
@@ -58,7 +58,7 @@ impl Default for Options {
             max_intervals: 10_000,
             max_newton_steps: 60,
             retries: 3,
-            global_error: GlobalError::Estimated,
+            control: Control::Error,
         }
     }
 }

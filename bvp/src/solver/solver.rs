@@ -18,7 +18,7 @@ use crate::result::solution::Solution;
 use crate::result::stats::Stats;
 use crate::solver::failure::{check_mesh, ill_conditioned, numerical, unresolved};
 use crate::solver::homotopy::rough_solution;
-use crate::solver::options::{GlobalError, Options};
+use crate::solver::options::{Control, Options};
 use crate::solver::statement::{check_guess, check_statement, first_mesh};
 use std::sync::Arc;
 use web_time::Instant;
@@ -59,9 +59,9 @@ pub fn solve(
     let equations = &Held::none(equations);
     check_statement(equations, 0)?;
     let mesh = first_mesh(equations, guess, options)?;
-    let first = match options.global_error {
-        GlobalError::Estimated => thinned(&mesh, THINNED),
-        GlobalError::BesideDefect | GlobalError::Skip => mesh,
+    let first = match options.control {
+        Control::Error => thinned(&mesh, THINNED),
+        Control::Both | Control::Defect => mesh,
     };
     let tableau = Tableau::of(options.scheme());
     let collocation = Collocation::new(equations.clone(), tableau, first.clone());
@@ -203,9 +203,9 @@ impl Run<'_> {
     fn judge(&mut self, solution: &mut Solution) -> Result<Option<Mesh>, Error> {
         let tolerance = self.options.tolerance;
         let (defect, estimating) = (solution.defect(), self.estimates());
-        let (allowed, wanted, grading) = match self.options.global_error {
-            GlobalError::Estimated => (UNRESOLVED, RESOLVED * UNRESOLVED, GRADING_BY_ERROR),
-            GlobalError::BesideDefect | GlobalError::Skip => (tolerance, tolerance, GRADING),
+        let (allowed, wanted, grading) = match self.options.control {
+            Control::Error => (UNRESOLVED, RESOLVED * UNRESOLVED, GRADING_BY_ERROR),
+            Control::Both | Control::Defect => (tolerance, tolerance, GRADING),
         };
         if defect > allowed {
             if estimating
@@ -280,7 +280,7 @@ impl Run<'_> {
 
     /// Whether the global error is to be known.
     fn estimates(&self) -> bool {
-        self.options.global_error != GlobalError::Skip
+        self.options.control != Control::Defect
     }
 
     /// Stages m of the scheme.

@@ -12,7 +12,7 @@ use crate::problem::problem::Segment;
 use crate::result::error::Error;
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
-use crate::solver::options::{GlobalError, Options};
+use crate::solver::options::{Control, Options};
 
 /// Length of the first step in θ.
 const FIRST_STEP: f64 = 0.25;
@@ -42,7 +42,7 @@ pub(crate) fn on_the_way(options: &Options, defect: f64) -> Options {
         tolerance: options.tolerance.max(defect),
         max_newton_steps: options.max_newton_steps.min(NEWTON_STEPS),
         retries: 0,
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..options.clone()
     }
 }

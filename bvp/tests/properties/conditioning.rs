@@ -3,7 +3,7 @@
 use crate::exact::{bratu, exponential, limit_cycle, swing, three_point, wavenumber};
 use crate::failures::{growth, states};
 use bvp::{
-    Conditioning, Constant, Ends, Equations, Error, GlobalError, Options, Problem, Real, Segment,
+    Conditioning, Constant, Control, Ends, Equations, Error, Options, Problem, Real, Segment,
     Solution, conditioning, solve,
 };
 use std::f64::consts::PI;
@@ -65,7 +65,7 @@ fn on_a_fine_mesh(equations: &dyn Equations) -> Conditioning {
     let options = Options {
         tolerance: 1e-2,
         initial_intervals: 256,
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..Options::default()
     };
     let shape = equations.shape();

@@ -2,7 +2,7 @@
 
 use crate::exact::{Exact, bratu, chirp, exponential, limit_cycle, swing, three_point, wavenumber};
 use crate::honesty::true_error;
-use bvp::{GlobalError, Options, Solution, solve};
+use bvp::{Control, Options, Solution, solve};
 use std::f64::consts::PI;
 
 fn solved(problem: &Exact, options: &Options) -> Solution {
@@ -32,7 +32,7 @@ fn chosen_for_the_error_the_error_is_near_the_tolerance_on_fewer_intervals() {
     for tolerance in [1e-3, 1e-6, 1e-9] {
         let by_error = Options::to(tolerance);
         let by_defect = Options {
-            global_error: GlobalError::Skip,
+            control: Control::Defect,
             ..by_error.clone()
         };
         let [mut few, mut many] = [0, 0];
@@ -56,7 +56,7 @@ fn chosen_for_the_error_the_error_is_near_the_tolerance_on_fewer_intervals() {
 fn without_estimates_the_defect_is_controlled() {
     let problem = exponential(50.0);
     let options = Options {
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..Options::to(1e-6)
     };
     let solution = solved(&problem, &options);

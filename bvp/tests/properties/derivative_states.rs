@@ -1,8 +1,7 @@
 //! States whose derivative is another state are eliminated, which changes nothing but the cost.
 
 use bvp::{
-    Constant, Ends, Equations, Family, GlobalError, Options, Scheme, Segment, Shape, Solution,
-    solve,
+    Constant, Control, Ends, Equations, Family, Options, Scheme, Segment, Shape, Solution, solve,
 };
 
 /// Numbers of derivative states: y₀' = y₁, y₁' = y₂, …
@@ -115,7 +114,7 @@ fn guess(derivatives: usize) -> Constant {
 fn options(stages: usize) -> Options {
     Options {
         scheme: Some(Scheme::Gauss { stages }),
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         tolerance: 1e-2,
         ..Options::default()
     }

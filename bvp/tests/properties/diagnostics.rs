@@ -4,7 +4,7 @@ use crate::exact::exponential;
 use crate::failures::{WrongJacobian, bump, growth, jump, numerical, states};
 use crate::reports::report;
 use bvp::{
-    Constant, Equations, Error, FiniteDifferences, GlobalError, Guess, Options, Scheme, Segment,
+    Constant, Control, Equations, Error, FiniteDifferences, Guess, Options, Scheme, Segment,
     Unknown,
 };
 
@@ -118,7 +118,7 @@ fn stages_that_have_no_solution() {
         tolerance: 1e-2,
         initial_intervals: 2,
         max_intervals: 2,
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..Options::default()
     };
     let error = failure(&*exponential(4.0).equations, &states(&[1.0, 0.0]), &options);
@@ -271,7 +271,7 @@ fn the_mesh_limit_says_what_is_missing() {
 fn a_jump_is_to_be_a_junction() {
     let options = Options {
         scheme: Some(Scheme::LobattoIIIA { stages: 3 }),
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..Options::default()
     };
     let error = failure(&jump(), &states(&[1.0]), &options);
@@ -298,7 +298,7 @@ fn a_jump_is_to_be_a_junction() {
 #[test]
 fn a_violated_condition_points_at_its_derivatives() {
     let options = Options {
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..Options::default()
     };
     let error = failure(&WrongJacobian, &states(&[0.0]), &options);

@@ -2,8 +2,8 @@
 
 use crate::exact::exponential;
 use bvp::{
-    Constant, Ends, Equations, Error, FiniteDifferences, GlobalError, Guess, Options, Scheme,
-    Segment, Shape, solve,
+    Constant, Control, Ends, Equations, Error, FiniteDifferences, Guess, Options, Scheme, Segment,
+    Shape, solve,
 };
 
 pub(crate) type Rhs = fn(usize, f64, &[f64], &[f64], &mut [f64]);
@@ -68,7 +68,7 @@ fn stages_that_have_no_solution() {
         tolerance: 1e-2,
         initial_intervals: 2,
         max_intervals: 2,
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..Options::default()
     };
     // Central differences would miss the exact zero.
@@ -186,10 +186,10 @@ pub(crate) fn bump() -> FiniteDifferences<Rhs, Conditions> {
 
 #[test]
 fn the_mesh_limit_and_its_numbers() {
-    for global_error in [GlobalError::Estimated, GlobalError::Skip] {
+    for control in [Control::Error, Control::Defect] {
         let options = Options {
             max_intervals: 20,
-            global_error,
+            control,
             ..Options::default()
         };
         let error = numerical(&bump(), &states(&[0.0]), &options);
@@ -232,7 +232,7 @@ fn a_jump_inside_a_segment_is_located_where_the_defect_is_to_be_small() {
     // Points at both ends of every interval cannot overlook it.
     let options = Options {
         scheme: Some(Scheme::LobattoIIIA { stages: 3 }),
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..Options::default()
     };
     let error = numerical(&jump(), &states(&[1.0]), &options);
@@ -297,7 +297,7 @@ impl Equations for WrongJacobian {
 #[test]
 fn a_violated_condition_is_no_success() {
     let options = Options {
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..Options::default()
     };
     let error = numerical(&WrongJacobian, &states(&[0.0]), &options);

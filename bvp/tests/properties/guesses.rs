@@ -2,9 +2,7 @@
 
 use crate::end_to_end::Mathieu;
 use crate::exact::{bratu, exponential};
-use bvp::{
-    Constant, Function, GlobalError, Guess, Options, Scheme, Segment, Solution, Table, solve,
-};
+use bvp::{Constant, Control, Function, Guess, Options, Scheme, Segment, Solution, Table, solve};
 
 fn options() -> Options {
     Options {
@@ -59,7 +57,7 @@ fn a_table_brings_its_mesh() {
         ..options()
     };
     let as_stated = Options {
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..loose.clone()
     };
     let solution = solve(&*problem.equations, &table, &as_stated).unwrap();
@@ -79,7 +77,7 @@ fn mathieu() -> Solution {
 /// With the mesh chosen for the defect.
 fn by_defect() -> Options {
     Options {
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..options()
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::exact::{Exact, bratu, chirp, exponential, limit_cycle, swing, three_point, wavenumber};
 use bvp::{
-    Constant, Ends, GlobalError, Guess, Options, Problem, Real, Scheme, Segment, Solution, solve,
+    Constant, Control, Ends, Guess, Options, Problem, Real, Scheme, Segment, Solution, solve,
 };
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -115,7 +115,7 @@ proptest! {
         };
         let options = Options {
             max_intervals: 2_000,
-            global_error: GlobalError::Skip,
+            control: Control::Defect,
             ..Options::default()
         };
         let outcome = solve(&problem, &guess, &options);

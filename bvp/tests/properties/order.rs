@@ -1,7 +1,7 @@
 //! Measured orders of convergence, at the nodes and between them.
 
 use crate::exact::{Exact, bratu, chirp, exponential, limit_cycle, swing, three_point, wavenumber};
-use bvp::{GlobalError, Guess, Options, Scheme, Solution, solve};
+use bvp::{Control, Guess, Options, Scheme, Solution, solve};
 use std::f64::consts::PI;
 
 /// Interval counts to choose four from, about a tenth apart.
@@ -28,7 +28,7 @@ pub(crate) fn on_uniform_mesh(
         scheme: Some(scheme),
         initial_intervals: intervals,
         max_intervals: intervals * problem.equations.shape().segments.len(),
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..Options::default()
     };
     let solve = |guess: &dyn Guess| match solve(&*problem.equations, guess, &options) {

@@ -1,7 +1,7 @@
 //! What a person is told of a solution.
 
 use crate::failures::growth;
-use bvp::{Function, GlobalError, Options, Segment, Solution, solve};
+use bvp::{Control, Function, Options, Segment, Solution, solve};
 
 /// The lines of a report, without the time at their end.
 pub(crate) fn report(solution: &Solution) -> Vec<String> {
@@ -40,10 +40,10 @@ fn layer(skip: bool) -> Solution {
         parameters: vec![1.0],
     };
     let options = Options {
-        global_error: if skip {
-            GlobalError::Skip
+        control: if skip {
+            Control::Defect
         } else {
-            GlobalError::Estimated
+            Control::Error
         },
         ..Options::default()
     };

@@ -2,8 +2,7 @@
 
 use crate::failures::{growth, states};
 use bvp::{
-    Constant, Equations, Error, Function, GlobalError, Guess, Options, Scheme, Segment, Table,
-    solve,
+    Constant, Control, Equations, Error, Function, Guess, Options, Scheme, Segment, Table, solve,
 };
 
 /// The error of a statement: it carries no iterate.
@@ -175,7 +174,7 @@ fn guesses_that_do_not_fit() {
         parameters: vec![],
     };
     let as_stated = Options {
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..options.clone()
     };
     let error = statement(&growth(), &guess, &as_stated);

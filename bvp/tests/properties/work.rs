@@ -2,7 +2,7 @@
 
 use crate::end_to_end::{FitzHughNagumo, Mathieu, MinimalTime};
 use crate::exact::{Exact, bratu, exponential};
-use bvp::{Constant, Equations, GlobalError, Guess, Options, solve};
+use bvp::{Constant, Control, Equations, Guess, Options, solve};
 
 /// Newton steps, factorisations, meshes, and intervals of the mesh returned.
 type Work = [usize; 4];
@@ -47,9 +47,9 @@ fn a_linear_problem_costs_one_linearisation_a_mesh() {
         states: vec![vec![0.0; 2]],
         parameters: vec![],
     };
-    let [thinned, stated] = [GlobalError::Estimated, GlobalError::Skip].map(|global_error| {
+    let [thinned, stated] = [Control::Error, Control::Defect].map(|control| {
         let options = Options {
-            global_error,
+            control,
             ..Options::default()
         };
         *solve(&*problem.equations, &guess, &options)

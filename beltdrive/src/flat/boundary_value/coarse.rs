@@ -10,7 +10,7 @@ use super::Failure;
 use super::formulation::{DISPLACEMENT, EXCESS, Formulation, LENGTHS};
 use super::start::{Line, Start};
 use crate::ZoneKind;
-use bvp::{GlobalError, Options, Scheme, Solution};
+use bvp::{Control, Options, Scheme, Solution};
 
 /// Tolerance of the coarse solution.
 const TOLERANCE: f64 = 1e-2;
@@ -27,7 +27,7 @@ pub(super) fn first_guess(problem: &Formulation) -> Result<Start, Failure> {
     let options = Options {
         tolerance: TOLERANCE,
         scheme: Some(Scheme::Gauss { stages: 2 }),
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         ..Options::default()
     };
     let coarse = bvp::solve(&unzoned, &Start::new(&unzoned), &options)?;

@@ -4,7 +4,7 @@
 use super::super::*;
 use super::drive;
 use crate::SpanTension::Belt;
-use bvp::{GlobalError, Guess, Problem};
+use bvp::{Control, Guess, Problem};
 use start::Start;
 
 /// Numbers of intervals a segment, doubling: of the table, and where zones are segments also of the fit.
@@ -28,7 +28,7 @@ fn on_uniform_mesh(
         scheme: Some(scheme),
         initial_intervals: intervals,
         max_intervals: intervals * problem.segments().len(),
-        global_error: GlobalError::Skip,
+        control: Control::Defect,
         retries: 0,
         ..Options::default()
     };
