@@ -116,6 +116,14 @@ pub enum Difficulty {
     /// The system could not adapt its discretisation to the point.
     #[error("the discretisation cannot be adapted: {0}")]
     Adaptation(#[source] Cause),
+    /// The point lies elsewhere in a better discretisation: perhaps on another branch.
+    #[error("a better discretisation moves the point by {distance:.1e}, limit {limit:.1e}")]
+    Shift {
+        /// How far, in the arclength norm.
+        distance: f64,
+        /// The farthest accepted.
+        limit: f64,
+    },
     /// The null vector or the particular solution is not finite.
     #[error("the linearised system is singular")]
     Singular,

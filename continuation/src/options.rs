@@ -32,8 +32,9 @@ pub struct Options {
     /// The angle by which the tangent should turn per step, rad; default 0.35. Steps that turn it
     /// by three times as much are repeated.
     pub angle: f64,
-    /// Points are on the branch when the next Newton correction would be shorter than this;
-    /// default 1e-9. Labelled points are always corrected down to rounding.
+    /// Points are on the branch when the next Newton correction would be shorter than this, or than a
+    /// hundredth of [`System::tolerance`](crate::System::tolerance), in the arclength norm; default
+    /// 1e-9. Labelled points are always corrected down to rounding.
     pub accuracy: f64,
     /// Largest number of Newton corrections per step; default 8.
     pub corrections: usize,

@@ -12,6 +12,13 @@ pub enum Stop {
         /// The bound.
         lambda: f64,
     },
+    /// The branch approaches a bound of λ without reaching it: at the accuracy of the points λ can no
+    /// longer be told from the bound, and other unknowns keep growing.
+    #[error("the branch approaches lambda = {lambda} without reaching it")]
+    Asymptote {
+        /// The bound.
+        lambda: f64,
+    },
     /// The branch is a closed curve; the last point is the first one.
     #[error("the branch is closed")]
     Closed,

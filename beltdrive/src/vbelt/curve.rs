@@ -71,8 +71,9 @@ impl System for Curve<'_> {
         System::groups(&self.family, group, share);
     }
 
-    fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Cause> {
-        System::adapt(&mut self.family, z, vectors)
+    fn adapted(&mut self, vectors: &mut [Vec<f64>]) -> Result<Option<Self>, Cause> {
+        let adapted = System::adapted(&mut self.family, vectors)?;
+        Ok(adapted.map(|family| Self { family, ..*self }))
     }
 
     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self> {

@@ -39,7 +39,7 @@ use std::sync::Arc;
 /// whose solutions form a curve, to be followed by any method of continuation with
 /// [`residual`](Self::residual), [`linearise`](Self::linearise), [`particular`](Self::particular)
 /// and [`null_vector`](Self::null_vector); nothing of it fails or loses accuracy where λ turns back.
-/// The mesh follows the solution by [`adapt`](Self::adapt). Between linearisations nothing is
+/// The mesh follows the solution by [`adapted`](Self::adapted). Between linearisations nothing is
 /// allocated, but for a change of the mesh and a [`Solution`].
 ///
 /// E. J. Doedel, H. B. Keller & J. P. Kernévez, "Numerical analysis and control of bifurcation
@@ -50,7 +50,7 @@ pub struct Family<'a> {
     pub(super) layout: Layout,
     pub(super) options: Options,
     pub(super) stats: Stats,
-    /// Calls of [`adapt`](Self::adapt) since the mesh has changed.
+    /// Calls of [`adapted`](Self::adapted) since the mesh has changed.
     pub(super) settled: usize,
     /// A point or a vector, in work.
     pub(super) x: Iterate,
@@ -289,7 +289,7 @@ impl<'a> Family<'a> {
         before.map(|s| s.nodes.len() + s.stages.len()).sum()
     }
 
-    /// The tolerance that [`adapt`](Self::adapt) keeps, [`Options::tolerance`].
+    /// The tolerance that [`adapted`](Self::adapted) keeps, [`Options::tolerance`].
     pub fn tolerance(&self) -> f64 {
         self.options.tolerance
     }

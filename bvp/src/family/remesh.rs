@@ -1,4 +1,4 @@
-//! The mesh of a family: fitted to a solution, or halved.
+//! The mesh of a family: adapted to a solution, or halved.
 
 use super::family::Family;
 use crate::accuracy::defect::defects;
@@ -13,38 +13,47 @@ use crate::result::solution::Quality;
 use crate::solver::failure::{check_mesh, numerical};
 use std::sync::Arc;
 
-/// A mesh is not coarsened before it has served for so many calls of [`Family::adapt`].
+/// A mesh is not coarsened before it has served for so many calls of [`Family::adapted`].
 const SETTLED: usize = 10;
 /// New meshes are made for this fraction of the tolerance, so that they serve for a stretch of the
 /// curve.
 const MARGIN: f64 = 0.4;
-/// Points on a new mesh are corrected until the corrections are this fraction of the tolerance, ...
-const NEWTON_FRACTION: f64 = 0.01;
-/// ... or below this and no longer shrink.
-const ROUNDING: f64 = 1e-8;
-/// The shortest damped step.
-const SMALLEST_DAMPING: f64 = 1e-3;
 /// A refined mesh may exceed the largest number of intervals by this factor.
 const REFINED: usize = 4;
 
 impl Family<'_> {
-    /// Fits the mesh to the solution `z`: makes a better one if a defect exceeds the tolerance, or if
-    /// the mesh has been kept for some calls and fewer than half of its intervals would do. The
-    /// number of unknowns then changes, every one of `vectors` (points or tangents, laid out like
-    /// `z`) is interpolated on the new mesh, and the answer is true. One that equals `z` is corrected
-    /// there; the direction of [`null_vector`](Self::null_vector) is to be compared anew.
+    /// The same family on a mesh that suits its solution, the first of `vectors`: a better one if a
+    /// defect exceeds the tolerance, or if the mesh has been kept for some calls and fewer than half of
+    /// its intervals would do. `vectors` (points or tangents, laid out like the first) are then
+    /// interpolated on the new mesh; the point among them is to be corrected there, and the direction of
+    /// [`null_vector`](Self::null_vector) to be compared anew. `None`, with the vectors unchanged, where
+    /// the present mesh serves. This family stays valid: to return to it is to keep it.
     ///
     /// # Errors
     /// [`Error::NonFiniteRhs`]; [`Error::MeshLimit`] or [`Error::Unresolved`] if the better mesh has
-    /// more than the intervals allowed or cannot be represented; [`Error::NoConvergence`] if no
-    /// solution is found there. The family and the vectors are then unchanged, and a shorter step
-    /// along the curve is advised.
+    /// more than the intervals allowed or cannot be represented. A shorter step along the curve is then
+    /// advised.
     ///
     /// # Panics
-    /// If `z` or a vector is too short.
-    pub fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Error> {
-        self.read_point(z);
+    /// If there is no vector or one is too short.
+    pub fn adapted(&mut self, vectors: &mut [Vec<f64>]) -> Result<Option<Self>, Error> {
+        self.read_point(&vectors[0]);
         self.settled += 1;
+        let Some(mesh) = self.better_mesh()? else {
+            return Ok(None);
+        };
+        self.settled = 0;
+        let adapted = self.on_mesh(mesh);
+        let mesh = &self.collocation.mesh;
+        for vector in vectors {
+            let old = self.wrap(self.iterate(vector), Quality::unknown(mesh));
+            *vector = adapted.flat(&adapted.collocation.interpolate(&old));
+        }
+        Ok(Some(adapted))
+    }
+
+    /// The mesh that suits the iterate in work, unless the present one serves.
+    fn better_mesh(&mut self) -> Result<Option<Mesh>, Error> {
         let Collocation {
             equations,
             tableau,
@@ -75,7 +84,7 @@ impl Family<'_> {
             .fold(0.0, max_or_nan);
         let resolved = largest <= tolerance;
         if resolved && (self.settled < SETTLED || !is_wasteful(&defects.relative, wanted, m)) {
-            return Ok(false);
+            return Ok(None);
         }
         let next = next_mesh(mesh, &defects.relative, wanted, m, GRADING);
         if resolved {
@@ -84,7 +93,7 @@ impl Family<'_> {
             let first = mesh.len() * self.options.initial_intervals;
             if 2 * intervals(&next).max(first) > intervals(mesh) {
                 self.settled = 0;
-                return Ok(false);
+                return Ok(None);
             }
         } else {
             let quality = Quality {
@@ -93,81 +102,7 @@ impl Family<'_> {
             };
             check_mesh(&next, &self.options, &self.wrap(self.x.clone(), quality))?;
         }
-        let mut adapted = self.on_mesh(next);
-        let interpolated = |vector: &[f64]| {
-            let old = self.wrap(self.iterate(vector), Quality::unknown(mesh));
-            adapted.flat(&adapted.collocation.interpolate(&old))
-        };
-        let moved: Vec<Vec<f64>> = vectors.iter().map(|v| interpolated(v)).collect();
-        let point = interpolated(z);
-        let point = adapted.corrected(point)?;
-        for (vector, moved) in vectors.iter_mut().zip(moved) {
-            let is_the_point = vector.as_slice() == z;
-            *vector = if is_the_point { point.clone() } else { moved };
-        }
-        *self = adapted;
-        Ok(true)
-    }
-
-    /// The point near `z` with G = 0, by damped Gauss-Newton steps: every correction is the solution
-    /// of J δ = −G that [`particular`](Self::particular) finds, which exists at limit points too.
-    fn corrected(&mut self, mut z: Vec<f64>) -> Result<Vec<f64>, Error> {
-        let wanted = (NEWTON_FRACTION * self.options.tolerance).max(100.0 * f64::EPSILON);
-        let mut g = vec![0.0; z.len() - 1];
-        let (mut delta, mut simplified) = (vec![0.0; z.len()], vec![0.0; z.len()]);
-        let mut size = f64::INFINITY;
-        for _ in 0..self.options.max_newton_steps {
-            self.linearise(&z)?;
-            let before = size;
-            size = self.correction(&z, &z, &mut g, &mut delta);
-            let rounding = size <= ROUNDING && size > 0.5 * before;
-            if rounding {
-                return Ok(z);
-            }
-            let mut damping = 1.0;
-            let trial = loop {
-                let steps = z.iter().zip(&delta);
-                let trial: Vec<f64> = steps.map(|(z, d)| z + damping * d).collect();
-                if size <= wanted {
-                    return Ok(trial);
-                }
-                let shrunk = self.correction(&z, &trial, &mut g, &mut simplified);
-                if shrunk <= (1.0 - 0.25 * damping) * size {
-                    break trial;
-                }
-                damping *= 0.5;
-                if damping < SMALLEST_DAMPING {
-                    let best = self.iterate(&z);
-                    let best = self.wrap(best, Quality::unknown(&self.collocation.mesh));
-                    let failure = Failure::NoConvergence {
-                        correction: size,
-                        largest: None,
-                    };
-                    return Err(numerical(failure, best, wanted));
-                }
-            };
-            z = trial;
-        }
-        Ok(z)
-    }
-
-    /// The correction at `place` with the Jacobian of the last linearisation, into `delta`; its
-    /// largest entry relative to 1 + |z| is returned, which is infinite where G is not finite.
-    fn correction(&mut self, z: &[f64], place: &[f64], g: &mut [f64], delta: &mut [f64]) -> f64 {
-        self.residual(place, g);
-        g.iter_mut().for_each(|g| *g = -*g);
-        self.particular(g, delta);
-        let relative = |(z, d): (&f64, &f64)| (d / (1.0 + z.abs())).abs();
-        let largest = z
-            .iter()
-            .zip(delta.iter())
-            .map(relative)
-            .fold(0.0, max_or_nan);
-        if largest.is_nan() {
-            f64::INFINITY
-        } else {
-            largest
-        }
+        Ok(Some(next))
     }
 
     /// The same family on the mesh with every interval halved, for an estimate of the error: the

@@ -300,7 +300,7 @@ fn values_that_are_not_finite_are_reported() {
         }
     ));
     assert_eq!(error.best().unwrap().start(0)[0], 1e4);
-    let error = family.adapt(&z, &mut []).unwrap_err();
+    let error = family.adapted(&mut [z.clone()]).err().unwrap();
     assert!(matches!(error, Error::NonFiniteRhs { .. }));
     let solution = family.solution(&z);
     assert_eq!(solution.defect(), f64::INFINITY);

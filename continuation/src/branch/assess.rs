@@ -74,6 +74,12 @@ impl<S: System> Branch<'_, S> {
                 self.put_vectors(coarse);
                 return point;
             }
+            if crossing {
+                vectors[0].clone_from(&refined);
+            }
+            if self.exchange(fine, vectors, coarse, f64::INFINITY).is_err() {
+                break;
+            }
             // The refined point is the better one; its own error is asked for next.
             point = Point {
                 z: refined,
@@ -81,18 +87,6 @@ impl<S: System> Branch<'_, S> {
                 other,
                 ..point
             };
-            *self.system = fine;
-            self.metric = metric;
-            self.put_vectors(vectors);
-            if crossing {
-                self.node.z.clone_from(&point.z);
-            }
-            if let Err(difficulty) = self.settle() {
-                let step = self.step;
-                self.stop = Some(Stop::StepTooSmall { step, difficulty });
-                self.queue.clear();
-                return point;
-            }
         }
         if let Some(error) = point.error {
             let error = self.relative(&error, point.lambda());
@@ -172,8 +166,8 @@ impl<S: System> Branch<'_, S> {
         outcome
     }
 
-    /// Brings the last node back to the curve after the system has changed.
-    pub(crate) fn settle(&mut self) -> Result<(), Difficulty> {
+    /// Brings the last node back to the curve after the system has changed, by `limit` at most.
+    pub(crate) fn settle(&mut self, limit: f64) -> Result<(), Difficulty> {
         self.metric.regroup(self.system);
         self.metric.normalise(&mut self.home.tangent);
         if self.unoriented && self.history.arclengths.is_empty() {
@@ -184,11 +178,15 @@ impl<S: System> Branch<'_, S> {
         }
         let mut z = self.node.z.clone();
         let plane = Condition::plane(&self.metric, &self.node.tangent, &z);
-        let accuracy = Accuracy::Length(self.options.accuracy);
+        let accuracy = Accuracy::Length(self.accuracy());
         let (system, metric) = (&mut *self.system, &self.metric);
         let report =
             self.corrector
                 .correct(system, metric, &mut z, &plane, accuracy, CORRECTIONS)?;
+        let distance = metric.distance(&z, &self.node.z);
+        if distance > limit {
+            return Err(Difficulty::Shift { distance, limit });
+        }
         let mut tangent = self.corrector.null().to_vec();
         if report.drift > DRIFT || !metric.normalise(&mut tangent) {
             tangent = self.corrector.tangent(system, metric, &z)?;

@@ -69,7 +69,7 @@ impl<'a, S: System> Branch<'a, S> {
     fn first_angle(&mut self, predicted: &[f64], direction: &[f64]) -> Option<f64> {
         let mut z = predicted.to_vec();
         let plane = Condition::plane(&self.metric, direction, predicted);
-        let accuracy = Accuracy::Length(self.options.accuracy);
+        let accuracy = Accuracy::Length(self.accuracy());
         self.corrector
             .correct(
                 self.system,

@@ -30,8 +30,8 @@ impl System for Family<'_> {
         Family::groups(self, group, share);
     }
 
-    fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Cause> {
-        Ok(Family::adapt(self, z, vectors)?)
+    fn adapted(&mut self, vectors: &mut [Vec<f64>]) -> Result<Option<Self>, Cause> {
+        Ok(Family::adapted(self, vectors)?)
     }
 
     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self> {

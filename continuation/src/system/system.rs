@@ -30,7 +30,7 @@ pub trait System {
 
     /// The null vector: J `t` = 0, J from the last linearisation, of any length but with the
     /// orientation det \[J; tᵀ\] > 0 — or always < 0, as long as only
-    /// [`adapt`](Self::adapt) changes that. Branch points are recognised by it.
+    /// [`adapted`](Self::adapted) changes that. Branch points are recognised by it.
     fn null_vector(&mut self, t: &mut [f64]);
 
     /// Which unknowns of x (n numbers each) measure the same quantity, and with what share: the
@@ -44,16 +44,19 @@ pub trait System {
         share.fill(1.0);
     }
 
-    /// Called with every accepted point: the system may change its discretisation, whereupon it
-    /// re-expresses every one of `vectors` (points and tangents, `z` the first) and returns true. By default it
-    /// does nothing.
+    /// Called with every accepted point, the first of `vectors` (points and tangents): the same system
+    /// in a discretisation that suits the point better, with `vectors` re-expressed in it, or `None`
+    /// (the default) where the present one serves. The tracer corrects the point there, and returns to
+    /// this system, which must stay valid, if that moves the point too far.
     ///
     /// # Errors
-    /// Where the discretisation needed is out of reach, with the system and the vectors unchanged: a
-    /// shorter step is then tried.
-    fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Cause> {
-        let _ = (z, vectors);
-        Ok(false)
+    /// Where the discretisation needed is out of reach: a shorter step is then tried.
+    fn adapted(&mut self, vectors: &mut [Vec<f64>]) -> Result<Option<Self>, Cause>
+    where
+        Self: Sized,
+    {
+        let _ = vectors;
+        Ok(None)
     }
 
     /// The same system discretised so much finer that the difference between both is the

@@ -180,23 +180,29 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
         (group[n + 1], share[n + 1]) = (next, 0.0);
     }
 
-    fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Cause> {
-        let n = z.len() - 3;
-        if z[n + 1].abs() > PERSISTENT {
+    fn adapted(&mut self, vectors: &mut [Vec<f64>]) -> Result<Option<Self>, Cause> {
+        let n = vectors[0].len() - 3;
+        if vectors[0][n + 1].abs() > PERSISTENT {
             return Err("the branch point does not persist: its branches part".into());
         }
         let column = |system: &mut S, metric: &_, z: &[f64]| {
             branch_point::column(system, metric, z).map(Some)
         };
-        let here = (&z[..=n], z[n + 2]);
-        let (mut space, changed) = self.surface.adapt(here, vectors, 2, column)?;
-        if changed {
-            self.tangent = vec![0.0; self.unknowns()];
-        } else {
-            space.align(&self.surface.metric, &self.reference);
+        if let Some(surface) = self.surface.adapted(vectors, 2, column)? {
+            let unknowns = surface.base.unknowns() + 2;
+            return Ok(Some(Self {
+                reference: surface.space().clone(),
+                surface,
+                basis: [(); 3].map(|()| vec![0.0; unknowns]),
+                slopes: self.slopes,
+                tangent: vec![0.0; unknowns],
+            }));
         }
+        let z = &vectors[0];
+        let mut space = self.surface.look(&z[..=n], z[n + 2])?.clone();
+        space.align(&self.surface.metric, &self.reference);
         self.reference = space;
-        Ok(changed)
+        Ok(None)
     }
 
     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self> {

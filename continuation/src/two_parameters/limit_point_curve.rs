@@ -172,17 +172,23 @@ impl<S: TwoParameter + Clone> System for LimitPointCurve<S> {
         share[n] = 1.0;
     }
 
-    fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Cause> {
-        let n = z.len() - 1;
-        let (mut plane, changed) = self
-            .surface
-            .adapt((&z[..n], z[n]), vectors, 1, |_, _, _| Ok(None))?;
-        if !changed {
-            plane.align(&self.surface.metric, &self.reference);
+    fn adapted(&mut self, vectors: &mut [Vec<f64>]) -> Result<Option<Self>, Cause> {
+        if let Some(surface) = self.surface.adapted(vectors, 1, |_, _, _| Ok(None))? {
+            let reference = surface.space().clone();
+            return Ok(Some(Self {
+                direction: direction(&reference, self.direction),
+                surface,
+                reference,
+                slopes: self.slopes,
+            }));
         }
+        let z = &vectors[0];
+        let n = z.len() - 1;
+        let mut plane = self.surface.look(&z[..n], z[n])?.clone();
+        plane.align(&self.surface.metric, &self.reference);
         self.direction = direction(&plane, self.direction);
         self.reference = plane;
-        Ok(changed)
+        Ok(None)
     }
 
     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self> {

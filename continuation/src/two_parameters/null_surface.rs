@@ -47,7 +47,19 @@ impl<S: TwoParameter + Clone> Surface<S> {
         let anywhere = Options::within(f64::NEG_INFINITY, f64::INFINITY);
         let mut metric = Metric::new(&base, &anywhere, z);
         metric.reach(&vec![0.0; z.len()]);
-        let (mut probe, mut corrector, mu) = (base.clone(), Corrector::anywhere(), base.second());
+        let mu = base.second();
+        Self::with_metric(base, metric, z, mu, column)
+    }
+
+    fn with_metric(
+        base: S,
+        metric: Metric,
+        z: &[f64],
+        mu: f64,
+        column: impl FnOnce(&mut S, &Metric) -> Result<Option<Vec<f64>>, Difficulty>,
+    ) -> Result<Self, Difficulty> {
+        let (mut probe, mut corrector) = (base.clone(), Corrector::anywhere());
+        probe.set_second(mu);
         let column = column(&mut probe, &metric)?;
         let here = place(&mut probe, &mut corrector, &metric, &column, z, mu)?;
         Ok(Self {
@@ -168,40 +180,28 @@ impl<S: TwoParameter + Clone> Surface<S> {
         second_derivative(&mut self.probe, &self.here.z, self.here.mu)
     }
 
-    /// Lets the base adapt at its solution (z, μ), `vectors` having `more` entries behind those of z.
-    /// The null space there, and whether the discretisation has changed; `column` then chooses a new
-    /// column.
-    pub(crate) fn adapt(
+    /// The same in a better discretisation of the base at its solution, the first of `vectors`, which
+    /// have `more` entries behind those of z, μ the last; `column` then chooses a new column.
+    pub(crate) fn adapted(
         &mut self,
-        (z, mu): (&[f64], f64),
         vectors: &mut [Vec<f64>],
         more: usize,
         column: impl FnOnce(&mut S, &Metric, &[f64]) -> Result<Option<Vec<f64>>, Difficulty>,
-    ) -> Result<(NullSpace, bool), Cause> {
+    ) -> Result<Option<Self>, Cause> {
+        let mu = vectors[0][vectors[0].len() - 1];
         self.base.set_second(mu);
-        let old = vectors.to_vec();
-        if !with_last(vectors, more, |short| self.base.adapt(z, short))? {
+        let adapted = with_last(vectors, more, |short| self.base.adapted(short))?;
+        let z = &vectors[0][..vectors[0].len() - more];
+        let Some(base) = adapted else {
             self.metric.observe(z);
-            return Ok((self.look(z, mu)?.clone(), false));
-        }
-        let probe = std::mem::replace(&mut self.probe, self.base.clone());
-        let (metric, old_column) = (self.metric.clone(), self.column.take());
-        self.probe.set_second(mu);
-        self.metric.regroup(&self.base);
-        let here = &vectors[0][..vectors[0].len() - more];
-        self.metric.observe(here);
-        let space = column(&mut self.probe, &self.metric, here).and_then(|column| {
-            self.column = column;
-            self.look(here, mu).cloned()
-        });
-        if let Err(difficulty) = space {
-            // As if nothing had been changed.
-            (self.base, self.probe) = (probe.clone(), probe);
-            (self.metric, self.column) = (metric, old_column);
-            vectors.clone_from_slice(&old);
-            return Err(difficulty.into());
-        }
-        Ok((space?, true))
+            return Ok(None);
+        };
+        let mut metric = self.metric.clone();
+        metric.regroup(&base);
+        metric.observe(z);
+        let adapted =
+            Self::with_metric(base, metric, z, mu, |base, metric| column(base, metric, z));
+        Ok(Some(adapted?))
     }
 
     /// The refined base at the first of `vectors`, which have `more` entries behind those of z, μ the

@@ -55,8 +55,10 @@ impl<S: System> System for Counting<S> {
         self.system.groups(group, share);
     }
 
-    fn adapt(&mut self, z: &[f64], vectors: &mut [Vec<f64>]) -> Result<bool, Cause> {
+    fn adapted(&mut self, vectors: &mut [Vec<f64>]) -> Result<Option<Self>, Cause> {
         self.counts.vectors = self.counts.vectors.max(vectors.len());
-        self.system.adapt(z, vectors)
+        let counts = self.counts;
+        let adapted = self.system.adapted(vectors)?;
+        Ok(adapted.map(|system| Self { system, counts }))
     }
 }

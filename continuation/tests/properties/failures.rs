@@ -266,11 +266,11 @@ impl System for Stubborn {
         t.copy_from_slice(&[1.0, 1.0]);
     }
 
-    fn adapt(&mut self, z: &[f64], _: &mut [Vec<f64>]) -> Result<bool, Cause> {
-        if z[1] > 0.5 {
+    fn adapted(&mut self, vectors: &mut [Vec<f64>]) -> Result<Option<Self>, Cause> {
+        if vectors[0][1] > 0.5 {
             Err("no finer mesh".into())
         } else {
-            Ok(false)
+            Ok(None)
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What the tracer promises, on problems with known solutions.
 
+mod asymptotes;
 #[path = "../../examples/banded/bratu.rs"]
 mod bratu;
 mod counting;
