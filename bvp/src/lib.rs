@@ -22,14 +22,14 @@
 //! * two-point problems: one segment;
 //! * [eigenvalues](guide::eigenvalues) and unknown loads: parameters, each with one more condition;
 //! * periodic orbits: y(a) = y(b), the period a parameter, and a phase condition;
-//! * multipoint and [interface](guide::forms#interfaces) problems: several segments, joined by
-//!   conditions;
+//! * multipoint problems: conditions at [joined points](Segment::joined) inside a segment;
+//! * [interface](guide::forms#interfaces) problems: several segments, coupled by conditions;
 //! * [free ends](guide::free_boundaries) and lengths: s in \[0, 1\], the length a parameter that
 //!   multiplies f;
 //! * [integrals](guide::forms#integrals): a state each, y' = integrand, with a parameter for an unknown
 //!   value;
 //! * [complex states](guide::forms#complex-states): two real ones each, by [`Complex`];
-//! * kinks and jumps of f at known places: junctions of segments;
+//! * kinks and jumps of f at known places: joined points, or junctions of segments;
 //! * [singular ends](guide::forms#singular-ends), as of cylindrical and spherical coordinates, and
 //!   [infinite intervals](guide::forms#infinite-intervals).
 //!

@@ -147,7 +147,7 @@ fn every_case_is_complete() {
             "{id}"
         );
         for (segment, x, y) in &case.reference.points {
-            let of = segments[*segment];
+            let of = &segments[*segment];
             assert_eq!(y.len(), of.states, "{id}");
             assert!(of.from <= *x && *x <= of.to, "{id}: no point {x}");
             let mut guess = vec![f64::NAN; of.states];

@@ -22,7 +22,8 @@ use crate::problem::equations::Equations;
 use crate::problem::held::Held;
 use crate::problem::problem::Segment;
 use crate::result::error::Error;
-use crate::result::solution::Solution;
+use crate::result::restored::{divided, restored_error};
+use crate::result::solution::{Quality, Solution};
 use crate::result::stats::Stats;
 use crate::solver::failure::numerical;
 use crate::solver::options::Options;
@@ -83,12 +84,27 @@ pub fn conditioning(equations: &dyn Equations, solution: &Solution) -> Result<Co
         ..Options::default()
     };
     let mesh = first_mesh(&equations, solution, &any_size)?;
+    let x = divided(equations.pieces(), solution);
     let tableau = Arc::clone(&solution.tableau);
     let mut collocation = Collocation::new(equations, tableau, mesh);
     let mut residual = collocation.residual_buffer();
     collocation
-        .linearise(&solution.x, &mut residual, &mut Stats::default())
-        .map_err(|error| numerical(Failure::from(error), solution.clone(), 0.0))?;
+        .linearise(&x, &mut residual, &mut Stats::default())
+        .map_err(|error| {
+            let of_pieces = Solution {
+                segments: collocation.equations.segments().to_vec(),
+                mesh: collocation.mesh.clone(),
+                x: x.clone(),
+                quality: Quality::unknown(&collocation.mesh),
+                ..solution.clone()
+            };
+            let error = numerical(Failure::from(error), of_pieces, 0.0);
+            let mut error = restored_error(&collocation.equations, error);
+            if let Some(best) = error.best_mut() {
+                *best = solution.clone();
+            }
+            error
+        })?;
 
     let responses = condition_responses(&mut collocation);
     let by_conditions = norms(&collocation, &responses);
@@ -112,7 +128,7 @@ pub fn conditioning(equations: &dyn Equations, solution: &Solution) -> Result<Co
         kappa2: largest(&by_forcing),
         gamma1,
         sigma: kappa1 / gamma1,
-        rounding: collocation.rounding(&solution.x),
+        rounding: collocation.rounding(&x),
     })
 }
 

@@ -11,16 +11,13 @@ const FEWEST_SPACINGS: f64 = 64.0;
 /// Intervals that differ by less, relative to their length, are equal.
 const EQUAL: f64 = 1e-9;
 
-/// A mesh with `intervals` equal intervals on every segment.
-pub(crate) fn uniform(segments: &[Segment], intervals: usize) -> Mesh {
-    let nodes = |segment: &Segment| -> Vec<f64> {
-        let mut nodes: Vec<f64> = (0..=intervals)
-            .map(|i| segment.from + (segment.to - segment.from) * i as f64 / intervals as f64)
-            .collect();
-        nodes[intervals] = segment.to;
-        nodes
-    };
-    segments.iter().map(nodes).collect()
+/// The nodes of `intervals` equal intervals of a segment.
+pub(crate) fn uniform(segment: &Segment, intervals: usize) -> Vec<f64> {
+    let mut nodes: Vec<f64> = (0..=intervals)
+        .map(|i| segment.from + (segment.to - segment.from) * i as f64 / intervals as f64)
+        .collect();
+    nodes[intervals] = segment.to;
+    nodes
 }
 
 /// The mesh with every interval halved.
@@ -132,7 +129,8 @@ mod tests {
 
     #[test]
     fn halving_doubles_every_segment() {
-        let mesh = uniform(&[Segment::new(1), Segment::on(2, -1.0, 3.0)], 2);
+        let segments = [Segment::new(1), Segment::on(2, -1.0, 3.0)];
+        let mesh: Mesh = segments.iter().map(|segment| uniform(segment, 2)).collect();
         assert_eq!(mesh, [vec![0.0, 0.5, 1.0], vec![-1.0, 1.0, 3.0]]);
         assert_eq!(intervals(&halved(&mesh)), 8);
         assert_eq!(halved(&mesh)[1], [-1.0, 0.0, 1.0, 2.0, 3.0]);
@@ -140,10 +138,10 @@ mod tests {
 
     #[test]
     fn equal_intervals_are_thinned_and_others_kept() {
-        let segments = [Segment::on(1, -1.0, 1.0)];
+        let equal = |intervals| vec![uniform(&Segment::on(1, -1.0, 1.0), intervals)];
         for (stated, left) in [(1, 1), (3, 3), (4, 2), (10, 3), (68, 20), (69, 21)] {
-            let few = thinned(&uniform(&segments, stated), 3.4);
-            assert_eq!(few, uniform(&segments, left));
+            let few = thinned(&equal(stated), 3.4);
+            assert_eq!(few, equal(left));
         }
         let graded = vec![vec![0.0, 0.1, 0.4, 0.7, 1.0]];
         assert_eq!(thinned(&graded, 3.4), graded);

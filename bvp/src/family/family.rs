@@ -10,12 +10,13 @@ use crate::problem::guess::Guess;
 use crate::problem::held::Held;
 use crate::problem::problem::Ends;
 use crate::result::error::Error;
+use crate::result::restored::{divided, restored, restored_error};
 use crate::result::solution::Quality;
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
 use crate::solver::failure::numerical;
 use crate::solver::options::Options;
-use crate::solver::solver::solve;
+use crate::solver::solver::solve_held;
 use crate::solver::statement::check_statement;
 use std::sync::Arc;
 
@@ -88,18 +89,18 @@ impl<'a> Family<'a> {
             }
         }
         check_statement(&problem, fixed.len())?;
-        guess.check_shape(problem.segments(), k)?;
+        guess.check_shape(problem.pieces().stated(), k)?;
         let mut p = vec![0.0; k];
         guess.parameters(&mut p);
-        let first = solve(&Held::new(equations, &fixed, &p), guess, options)?;
+        let first = solve_held(&Held::new(equations, &fixed, &p), guess, options)?;
         let collocation = Collocation::new(
             Held::new(equations, held, &p),
             Arc::clone(&first.tableau),
-            first.mesh.clone(),
+            problem.pieces().divide(&first.mesh),
         );
         let layout = Layout::new(k, parameter, held);
         let family = Self::on(collocation, layout, options.clone(), first.stats);
-        let z = family.flat(&first.x);
+        let z = family.flat(&divided(problem.pieces(), &first));
         Ok((family, z))
     }
 
@@ -175,7 +176,8 @@ impl<'a> Family<'a> {
             .map_err(|failure| {
                 let unknown = Quality::unknown(&self.collocation.mesh);
                 let best = self.wrap(self.x.clone(), unknown);
-                numerical(Failure::from(failure), best, 0.0)
+                let error = numerical(Failure::from(failure), best, 0.0);
+                restored_error(&self.collocation.equations, error)
             })
     }
 
@@ -260,32 +262,34 @@ impl<'a> Family<'a> {
                 .collect(),
             errors: None,
         };
-        self.wrap(x, quality)
+        restored(equations, self.wrap(x, quality))
     }
 
-    /// The states at the left end of a segment of the point `z`, which is cheaper than a
+    /// The states at the start of a segment of the point `z`, which is cheaper than a
     /// [`solution`](Self::solution).
     ///
     /// # Panics
     /// If there is no such segment or `z` is too short.
     pub fn start<'z>(&self, z: &'z [f64], segment: usize) -> &'z [f64] {
-        let states = self.collocation.equations.segments()[segment].states;
-        &z[self.nodes_before(segment)..][..states]
+        let pieces = self.collocation.equations.pieces();
+        let states = pieces.stated()[segment].states;
+        &z[self.nodes_before(pieces.of(segment).start)..][..states]
     }
 
-    /// The states at the right end of a segment of the point `z`.
+    /// The states at the end of a segment of the point `z`.
     ///
     /// # Panics
     /// If there is no such segment or `z` is too short.
     pub fn end<'z>(&self, z: &'z [f64], segment: usize) -> &'z [f64] {
-        let states = self.collocation.equations.segments()[segment].states;
-        let nodes = self.x.segments[segment].nodes.len();
-        &z[self.nodes_before(segment) + nodes - states..][..states]
+        let pieces = self.collocation.equations.pieces();
+        let (states, last) = (pieces.stated()[segment].states, pieces.of(segment).end - 1);
+        let nodes = self.x.segments[last].nodes.len();
+        &z[self.nodes_before(last) + nodes - states..][..states]
     }
 
-    /// Where the nodes of a segment begin in a point.
-    pub(super) fn nodes_before(&self, segment: usize) -> usize {
-        let before = self.x.segments[..segment].iter();
+    /// Where the nodes of a piece begin in a point.
+    pub(super) fn nodes_before(&self, piece: usize) -> usize {
+        let before = self.x.segments[..piece].iter();
         before.map(|s| s.nodes.len() + s.stages.len()).sum()
     }
 
@@ -328,7 +332,8 @@ impl<'a> Family<'a> {
     pub fn exchanged(&self, equations: &'a dyn Equations) -> Result<Self, Error> {
         let own = &self.collocation.equations;
         let problem = Held::none(equations);
-        assert_eq!(own.segments(), problem.segments(), "the same segments");
+        let stated = |held: &Held<'_>| held.pieces().stated().to_vec();
+        assert_eq!(stated(own), stated(&problem), "the same segments");
         check_statement(&problem, own.held_count() + 1)?;
         let mut family = self.clone();
         family.collocation.equations = own.exchanged(equations);

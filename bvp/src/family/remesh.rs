@@ -9,6 +9,7 @@ use crate::kernels::dense::max_or_nan;
 use crate::newton::collocation::Collocation;
 use crate::newton::newton::Failure;
 use crate::result::error::Error;
+use crate::result::restored::restored_error;
 use crate::result::solution::Quality;
 use crate::solver::failure::{check_mesh, numerical};
 use std::sync::Arc;
@@ -39,7 +40,10 @@ impl Family<'_> {
     pub fn adapted(&mut self, vectors: &mut [Vec<f64>]) -> Result<Option<Self>, Error> {
         self.read_point(&vectors[0]);
         self.settled += 1;
-        let Some(mesh) = self.better_mesh()? else {
+        let better = self
+            .better_mesh()
+            .map_err(|error| restored_error(&self.collocation.equations, error))?;
+        let Some(mesh) = better else {
             return Ok(None);
         };
         self.settled = 0;

@@ -89,7 +89,9 @@ pub fn check_jacobians(a: &dyn Equations, b: &dyn Equations, along: &dyn Guess) 
                 compare(*a, *b, place(i / (n + k), Some(i % (n + k))));
             }
         }
-        for s in [segment.from, segment.to] {
+        // A joined point is seen from before and from behind.
+        let joined = segment.joined.iter().flat_map(|&s| [s, s]);
+        for s in [segment.from].into_iter().chain(joined).chain([segment.to]) {
             along.state(index, s, &mut y);
             ends.extend_from_slice(&y);
         }

@@ -13,8 +13,8 @@ pub trait Guess {
     /// Writes the guessed parameters into `p`.
     fn parameters(&self, p: &mut [f64]);
 
-    /// The mesh to start on: for each segment its nodes in ascending order. `None` starts on equal
-    /// intervals, as many as the options say.
+    /// The mesh to start on: for each segment its nodes in the order from its start to its end. `None`
+    /// starts on equal intervals, as many as the options say.
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {
         None
     }
@@ -117,7 +117,7 @@ impl<F: Fn(usize, f64, &mut [f64])> Guess for Function<F> {
 /// States given at nodes and interpolated linearly; the nodes are also the first mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
-    /// For each segment its nodes, ascending from one end of the segment to the other.
+    /// For each segment its nodes, in the order from its start to its end.
     pub nodes: Vec<Vec<f64>>,
     /// For each segment the states at its nodes, one after the other (nodes × states).
     pub states: Vec<Vec<f64>>,
@@ -157,10 +157,13 @@ impl Guess for Table {
     }
 }
 
-/// The index of the interval of `nodes` that holds `s`; the nearest one where `s` is outside.
+/// The index of the interval of `nodes`, ascending or descending, that holds `s`; the nearest one where
+/// `s` is outside.
 pub(crate) fn interval_of(nodes: &[f64], s: f64) -> usize {
-    nodes
-        .partition_point(|&node| node <= s)
-        .clamp(1, nodes.len() - 1)
-        - 1
+    let passed = if nodes[0] < nodes[1] {
+        nodes.partition_point(|&node| node <= s)
+    } else {
+        nodes.partition_point(|&node| node >= s)
+    };
+    passed.clamp(1, nodes.len() - 1) - 1
 }

@@ -1,15 +1,20 @@
-//! Equations with some of their parameters held.
+//! Equations in the form in which the solver works with them.
 
 use crate::problem::equations::{Equations, Shape};
+use crate::problem::guess::Guess;
+use crate::problem::pieces::Pieces;
 use crate::problem::problem::{Ends, Segment};
 
-/// Equations with one more condition pᵢ − value = 0 for each of some parameters, after their own.
-/// Their shape is asked for once, so that no evaluation allocates.
+/// Equations on the pieces of their segments, with more conditions after their own: continuity where
+/// pieces meet, and pᵢ − value = 0 for each of some parameters that are held. Their shape is asked for
+/// once, so that no evaluation allocates.
 #[derive(Clone)]
 pub(crate) struct Held<'a> {
     equations: &'a dyn Equations,
-    /// With the conditions of the held parameters.
-    shape: Shape,
+    pieces: Pieces,
+    parameters: usize,
+    /// Number of conditions of the equations themselves.
+    own: usize,
     /// Index and value of each held parameter.
     values: Vec<(usize, f64)>,
 }
@@ -27,11 +32,12 @@ impl<'a> Held<'a> {
     }
 
     fn with_values(equations: &'a dyn Equations, values: Vec<(usize, f64)>) -> Self {
-        let mut shape = equations.shape();
-        shape.conditions += values.len();
+        let shape = equations.shape();
         Self {
             equations,
-            shape,
+            pieces: Pieces::new(shape.segments),
+            parameters: shape.parameters,
+            own: shape.conditions,
             values,
         }
     }
@@ -41,19 +47,35 @@ impl<'a> Held<'a> {
         Held::with_values(equations, self.values.clone())
     }
 
-    /// The segments.
+    /// The pieces, which are the segments of the solver.
     pub(crate) fn segments(&self) -> &[Segment] {
-        &self.shape.segments
+        self.pieces.all()
+    }
+
+    /// How the segments are divided into pieces.
+    pub(crate) fn pieces(&self) -> &Pieces {
+        &self.pieces
+    }
+
+    /// A guess of the segments as one of the pieces.
+    pub(crate) fn divided(&'a self, guess: &'a dyn Guess) -> Divided<'a> {
+        let pieces = &self.pieces;
+        Divided { guess, pieces }
     }
 
     /// Number of parameters, held or not.
     pub(crate) fn parameters(&self) -> usize {
-        self.shape.parameters
+        self.parameters
     }
 
-    /// Number of conditions, with those of the held parameters.
+    /// Number of all conditions.
     pub(crate) fn condition_count(&self) -> usize {
-        self.shape.conditions
+        self.own + self.pieces.continuity() + self.values.len()
+    }
+
+    /// Number of conditions of the equations themselves.
+    pub(crate) fn own_conditions(&self) -> usize {
+        self.own
     }
 
     /// Number of parameters held.
@@ -78,6 +100,26 @@ impl<'a> Held<'a> {
         held.map(|(_, held)| *held = value).is_some()
     }
 
+    /// The states at the ends of all pieces as those at the ends and joined points of the segments.
+    fn stated<'b>(&'b self, at: Ends<'b, f64>) -> Ends<'b, f64> {
+        Ends::new(self.pieces.stated(), at.values())
+    }
+
+    /// The places, among the states at the ends of all pieces, of those that are equal: before and
+    /// behind every joined point.
+    fn meetings(&self) -> impl Iterator<Item = [usize; 2]> {
+        let mut first = 0;
+        let each = self.pieces.stated().iter().map(move |segment| {
+            let (n, start) = (segment.states, first);
+            first += 2 * n * (segment.joined.len() + 1);
+            (n, start, segment.joined.len())
+        });
+        each.flat_map(|(n, start, points)| {
+            let before = move |i| start + (2 * (i / n) + 1) * n + i % n;
+            (0..n * points).map(move |i| [before(i), before(i) + n])
+        })
+    }
+
     /// Writes the held values into `p`.
     pub(crate) fn fill(&self, p: &mut [f64]) {
         for &(index, value) in &self.values {
@@ -88,28 +130,47 @@ impl<'a> Held<'a> {
 
 impl Equations for Held<'_> {
     fn shape(&self) -> Shape {
-        self.shape.clone()
+        Shape {
+            segments: self.segments().to_vec(),
+            parameters: self.parameters,
+            conditions: self.condition_count(),
+        }
     }
 
-    fn evaluate_rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+    fn evaluate_rhs(&self, piece: usize, t: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        if self.pieces.are_plain() {
+            return self.equations.evaluate_rhs(piece, t, y, p, dy);
+        }
+        let (segment, s, sign) = self.pieces.place(piece, t);
         self.equations.evaluate_rhs(segment, s, y, p, dy);
+        scale(dy, sign);
     }
 
     fn rhs_jacobian(
         &self,
-        segment: usize,
-        s: f64,
+        piece: usize,
+        t: f64,
         y: &[f64],
         p: &[f64],
         dy: &mut [f64],
         jacobian: &mut [f64],
     ) {
+        if self.pieces.are_plain() {
+            return self.equations.rhs_jacobian(piece, t, y, p, dy, jacobian);
+        }
+        let (segment, s, sign) = self.pieces.place(piece, t);
         self.equations.rhs_jacobian(segment, s, y, p, dy, jacobian);
+        scale(dy, sign);
+        scale(jacobian, sign);
     }
 
     fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
-        let (own, held) = r.split_at_mut(r.len() - self.values.len());
-        self.equations.evaluate_conditions(at, p, own);
+        let (own, rest) = r.split_at_mut(self.own);
+        let (continuity, held) = rest.split_at_mut(self.pieces.continuity());
+        self.equations.evaluate_conditions(self.stated(at), p, own);
+        for (r, [before, behind]) in continuity.iter_mut().zip(self.meetings()) {
+            *r = at.values()[before] - at.values()[behind];
+        }
         for (r, (index, value)) in held.iter_mut().zip(&self.values) {
             *r = p[*index] - value;
         }
@@ -122,16 +183,54 @@ impl Equations for Held<'_> {
         r: &mut [f64],
         jacobian: &mut [f64],
     ) {
-        let (own, held) = r.split_at_mut(r.len() - self.values.len());
+        let (own, rest) = r.split_at_mut(self.own);
+        let (continuity, held) = rest.split_at_mut(self.pieces.continuity());
         let ends = at.values().len();
         let columns = ends + p.len();
-        let (own_rows, held_rows) = jacobian.split_at_mut(own.len() * columns);
-        self.equations.conditions_jacobian(at, p, own, own_rows);
+        let (own_rows, rows) = jacobian.split_at_mut(own.len() * columns);
+        let (continuity_rows, held_rows) = rows.split_at_mut(continuity.len() * columns);
+        let stated = self.stated(at);
+        self.equations.conditions_jacobian(stated, p, own, own_rows);
+        let rows = continuity.iter_mut();
+        let rows = rows.zip(continuity_rows.chunks_exact_mut(columns));
+        for ((r, row), [before, behind]) in rows.zip(self.meetings()) {
+            *r = at.values()[before] - at.values()[behind];
+            row.fill(0.0);
+            row[before] = 1.0;
+            row[behind] = -1.0;
+        }
         let rows = held.iter_mut().zip(held_rows.chunks_exact_mut(columns));
         for ((r, row), (index, value)) in rows.zip(&self.values) {
             *r = p[*index] - value;
             row.fill(0.0);
             row[ends + index] = 1.0;
         }
+    }
+}
+
+/// Turns the sign where that is wanted.
+fn scale(values: &mut [f64], sign: f64) {
+    values.iter_mut().for_each(|value| *value *= sign);
+}
+
+/// A guess of the segments as one of the pieces.
+pub(crate) struct Divided<'a> {
+    guess: &'a dyn Guess,
+    pieces: &'a Pieces,
+}
+
+impl Guess for Divided<'_> {
+    fn state(&self, piece: usize, t: f64, y: &mut [f64]) {
+        let (segment, s, _) = self.pieces.place(piece, t);
+        self.guess.state(segment, s, y);
+    }
+
+    fn parameters(&self, p: &mut [f64]) {
+        self.guess.parameters(p);
+    }
+
+    fn mesh(&self) -> Option<Vec<Vec<f64>>> {
+        let mesh = self.guess.mesh()?;
+        Some(self.pieces.divide(&mesh))
     }
 }

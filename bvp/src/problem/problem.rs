@@ -7,14 +7,16 @@ use crate::problem::real::{LeftOf, Real};
 /// A problem is a list of segments that meet only through its conditions, so two-point, periodic,
 /// multipoint, interface and free-length problems are stated the same way. An unknown length is
 /// an unknown parameter: keep s in \[0, 1\] and multiply the right-hand side by the length.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Segment {
     /// Number of states n ≥ 1 of this segment.
     pub states: usize,
-    /// Left end of the interval of s.
+    /// Where s starts.
     pub from: f64,
-    /// Right end of the interval of s; greater than `from`.
+    /// Where s ends; smaller than `from` if s descends along the segment.
     pub to: f64,
+    /// The joined points, inside the segment and in the order from `from` to `to`.
+    pub joined: Vec<f64>,
 }
 
 impl Segment {
@@ -23,15 +25,71 @@ impl Segment {
         Self::on(states, 0.0, 1.0)
     }
 
-    /// A segment with `states` states on `from` ≤ s ≤ `to`.
+    /// A segment with `states` states, with s from `from` to `to`. Where `from` is the larger of the
+    /// two, s descends: the start of the segment is at `from`, its mesh descends, and derivatives are
+    /// those with respect to s all the same.
     pub const fn on(states: usize, from: f64, to: f64) -> Self {
-        Self { states, from, to }
+        let joined = vec![];
+        Self {
+            states,
+            from,
+            to,
+            joined,
+        }
+    }
+
+    /// The same segment joined at points inside it, in the order from `from` to `to`. The states are
+    /// continuous there and may enter the conditions, as [`Ends::joined`]; the right-hand side may
+    /// jump there as a function of s.
+    ///
+    /// ```
+    /// use bvp::{Constant, Ends, Options, Problem, Real, Segment, solve};
+    ///
+    /// /// y'' = 2 with y(0) = 0 and y(0.3) = 0, so that y = s (s − 0.3).
+    /// struct Parabola;
+    ///
+    /// impl Problem for Parabola {
+    ///     fn segments(&self) -> Vec<Segment> {
+    ///         vec![Segment::new(2).joined(&[0.3])]
+    ///     }
+    ///
+    ///     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
+    ///         dy[0] = y[1];
+    ///         dy[1] = T::from(2.0);
+    ///     }
+    ///
+    ///     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+    ///         r[0] = at.start(0)[0];
+    ///         r[1] = at.joined(0, 0)[0];
+    ///     }
+    /// }
+    ///
+    /// let guess = Constant { states: vec![vec![0.0; 2]], parameters: vec![] };
+    /// let solution = solve(&Parabola, &guess, &Options::default())?;
+    /// assert!((solution.end(0)[0] - 0.7).abs() < 1e-12);
+    /// # Ok::<(), bvp::Error>(())
+    /// ```
+    #[must_use]
+    pub fn joined(mut self, points: &[f64]) -> Self {
+        self.joined = points.to_vec();
+        self
+    }
+
+    /// Whether s descends.
+    pub(crate) fn is_reversed(&self) -> bool {
+        self.from > self.to
+    }
+
+    /// Number of values at its ends and joined points: two of every piece.
+    fn values(&self) -> usize {
+        2 * self.states * (self.joined.len() + 1)
     }
 }
 
-/// The states at both ends of every segment, as the conditions see them.
+/// The states at both ends of every segment and at its joined points, as the conditions see them.
 ///
-/// The values lie in one slice: start of segment 0, end of segment 0, start of segment 1, …
+/// The values lie in one slice: start of segment 0, end of segment 0, start of segment 1, … A joined
+/// point stands between start and end of its segment, twice, as seen from before and from behind it.
 #[derive(Clone, Copy, Debug)]
 pub struct Ends<'a, T> {
     segments: &'a [Segment],
@@ -39,17 +97,17 @@ pub struct Ends<'a, T> {
 }
 
 impl<'a, T> Ends<'a, T> {
-    /// Views `values` (Σ 2 nᵢ numbers: start and end of each segment in turn).
+    /// Views `values`: Σ 2 nᵢ (jᵢ + 1) numbers, for segments with nᵢ states and jᵢ joined points.
     ///
     /// # Panics
-    /// If the number of values is not Σ 2 nᵢ.
+    /// If the number of values differs.
     pub fn new(segments: &'a [Segment], values: &'a [T]) -> Self {
-        let count: usize = segments.iter().map(|segment| 2 * segment.states).sum();
+        let count: usize = segments.iter().map(Segment::values).sum();
         assert_eq!(values.len(), count, "one value per state and end");
         Self { segments, values }
     }
 
-    /// The states at the left end of a segment.
+    /// The states at the start of a segment, where s is [`Segment::from`].
     ///
     /// # Panics
     /// If there is no such segment.
@@ -58,17 +116,27 @@ impl<'a, T> Ends<'a, T> {
         &self.values[first..first + self.segments[segment].states]
     }
 
-    /// The states at the right end of a segment.
+    /// The states at the end of a segment, where s is [`Segment::to`].
     ///
     /// # Panics
     /// If there is no such segment.
     pub fn end(&self, segment: usize) -> &'a [T] {
-        let states = self.segments[segment].states;
-        let first = self.offset(segment) + states;
+        let behind = self.offset(segment + 1);
+        &self.values[behind - self.segments[segment].states..behind]
+    }
+
+    /// The states at a joined point of a segment, numbered as in [`Segment::joined`].
+    ///
+    /// # Panics
+    /// If there is no such segment or point.
+    pub fn joined(&self, segment: usize, point: usize) -> &'a [T] {
+        let Segment { states, joined, .. } = &self.segments[segment];
+        assert!(point < joined.len(), "a joined point of the segment");
+        let first = self.offset(segment) + 2 * states * (point + 1);
         &self.values[first..first + states]
     }
 
-    /// All values: start of segment 0, end of segment 0, start of segment 1, …
+    /// All values, in their order.
     pub fn values(&self) -> &'a [T] {
         self.values
     }
@@ -82,7 +150,7 @@ impl<'a, T> Ends<'a, T> {
     }
 
     fn offset(&self, segment: usize) -> usize {
-        self.segments[..segment].iter().map(|s| 2 * s.states).sum()
+        self.segments[..segment].iter().map(Segment::values).sum()
     }
 }
 

@@ -57,18 +57,34 @@ pub enum Error {
         /// Index of the segment.
         segment: usize,
     },
-    /// The interval of a segment is empty, reversed or not finite.
-    #[error("segment {segment} runs from {from} to {to}; its end must lie above its start")]
+    /// The interval of a segment is empty or not finite.
+    #[error("segment {segment} runs from {from} to {to}; its ends must differ and be finite")]
     Interval {
         /// Index of the segment.
         segment: usize,
-        /// Left end.
+        /// Its start.
         from: f64,
-        /// Right end.
+        /// Its end.
+        to: f64,
+    },
+    /// A joined point lies outside its segment, at one of its ends, or not behind the one before.
+    #[error(
+        "joined point {point} of segment {segment}: the points must lie inside it, in order from {from} to {to}"
+    )]
+    Joined {
+        /// Index of the segment.
+        segment: usize,
+        /// The point.
+        point: f64,
+        /// Start of the segment.
+        from: f64,
+        /// End of the segment.
         to: f64,
     },
     /// The mesh of the guess does not fit the segments.
-    #[error("the mesh of the guess for segment {segment} must ascend from {from} to {to}")]
+    #[error(
+        "the mesh of the guess for segment {segment} must run from {from} to {to} without turning back"
+    )]
     GuessMesh {
         /// Index of the segment.
         segment: usize,

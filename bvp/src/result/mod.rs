@@ -2,5 +2,6 @@
 
 pub(crate) mod error;
 pub(crate) mod report;
+pub(crate) mod restored;
 pub(crate) mod solution;
 pub(crate) mod stats;

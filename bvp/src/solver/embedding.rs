@@ -7,7 +7,7 @@ use crate::problem::problem::Segment;
 use crate::result::error::Error;
 use crate::result::solution::Solution;
 use crate::solver::options::Options;
-use crate::solver::solver::solve;
+use crate::solver::solver::solve_held;
 use crate::solver::statement::check_statement;
 use crate::solver::stepping::{LOOSE, Stalled, cost, follow, on_the_way};
 use std::f64::consts::LN_10;
@@ -120,7 +120,7 @@ pub fn solve_embedded(
             value,
         };
         let held = Held::new(equations, &[parameter], &p);
-        solve(&held, &with_value, options)
+        solve_held(&held, &with_value, options)
     };
 
     let unaided = Options {

@@ -13,6 +13,7 @@ use crate::problem::equations::Equations;
 use crate::problem::guess::Guess;
 use crate::problem::held::Held;
 use crate::result::error::Error;
+use crate::result::restored::restore;
 use crate::result::solution::Quality;
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
@@ -54,9 +55,17 @@ pub fn solve(
     guess: &dyn Guess,
     options: &Options,
 ) -> Result<Solution, Error> {
+    solve_held(&Held::none(equations), guess, options)
+}
+
+/// The same with some parameters held.
+pub(crate) fn solve_held(
+    equations: &Held<'_>,
+    guess: &dyn Guess,
+    options: &Options,
+) -> Result<Solution, Error> {
     let start = Instant::now();
     options.validate()?;
-    let equations = &Held::none(equations);
     check_statement(equations, 0)?;
     let mesh = first_mesh(equations, guess, options)?;
     let first = match options.control {
@@ -76,7 +85,7 @@ pub fn solve(
         missed: 0,
         probed: false,
     };
-    run.solve(guess, first)
+    restore(equations, run.solve(&equations.divided(guess), first))
 }
 
 /// What Newton's method starts at.

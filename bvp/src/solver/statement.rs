@@ -1,16 +1,18 @@
 //! Checks of what the caller states, before any arithmetic.
 
 use crate::discretisation::iterate::Iterate;
-use crate::discretisation::mesh::{Mesh, intervals, uniform};
+use crate::discretisation::mesh::{Mesh, ceil, intervals, uniform};
 use crate::problem::guess::Guess;
 use crate::problem::held::Held;
+use crate::problem::pieces::Pieces;
+use crate::problem::problem::Segment;
 use crate::result::error::Error;
 use crate::solver::options::Options;
 
 /// Checks that the problem is stated completely, with a condition for every state and parameter
 /// but so many `free` parameters.
 pub(crate) fn check_statement(equations: &Held<'_>, free: usize) -> Result<(), Error> {
-    let segments = equations.segments();
+    let segments = equations.pieces().stated();
     if segments.is_empty() {
         return Err(Error::NoSegments);
     }
@@ -19,18 +21,19 @@ pub(crate) fn check_statement(equations: &Held<'_>, free: usize) -> Result<(), E
             return Err(Error::NoStates { segment: index });
         }
         let length = segment.to - segment.from;
-        if !(length > 0.0 && length.is_finite()) {
+        if length == 0.0 || !length.is_finite() {
             return Err(Error::Interval {
                 segment: index,
                 from: segment.from,
                 to: segment.to,
             });
         }
+        check_joined(index, segment)?;
     }
     let states = segments.iter().map(|segment| segment.states).sum();
     let parameters = equations.parameters() - free;
     let unknowns = states + parameters;
-    let conditions = equations.condition_count();
+    let conditions = equations.own_conditions() + equations.held_count();
     if conditions != unknowns {
         return Err(Error::ConditionCount {
             conditions,
@@ -42,22 +45,46 @@ pub(crate) fn check_statement(equations: &Held<'_>, free: usize) -> Result<(), E
     Ok(())
 }
 
+/// Checks that joined points lie inside their segment and in its order.
+fn check_joined(index: usize, segment: &Segment) -> Result<(), Error> {
+    let Segment { from, to, .. } = *segment;
+    let mut before = from;
+    for &point in &segment.joined {
+        let is_between = |a: f64, b: f64| (a < point && point < b) || (b < point && point < a);
+        if !is_between(before, to) {
+            return Err(Error::Joined {
+                segment: index,
+                point,
+                from,
+                to,
+            });
+        }
+        before = point;
+    }
+    Ok(())
+}
+
 /// The mesh to start on: that of the guess or equal intervals, if the guess fits the problem.
 pub(crate) fn first_mesh(
     equations: &Held<'_>,
     guess: &dyn Guess,
     options: &Options,
 ) -> Result<Mesh, Error> {
-    let segments = equations.segments();
+    let pieces = equations.pieces();
+    let segments = pieces.stated();
     let mesh = match guess.mesh() {
-        None => uniform(segments, options.initial_intervals),
+        None => equal_intervals(pieces, options.initial_intervals),
         Some(mesh) => {
             for (index, segment) in segments.iter().enumerate() {
+                let is_onward = |pair: &[f64]| match segment.is_reversed() {
+                    true => pair[0] > pair[1],
+                    false => pair[0] < pair[1],
+                };
                 let fits = mesh.get(index).is_some_and(|nodes| {
                     nodes.len() >= 2
                         && nodes.first() == Some(&segment.from)
                         && nodes.last() == Some(&segment.to)
-                        && nodes.windows(2).all(|pair| pair[0] < pair[1])
+                        && nodes.windows(2).all(is_onward)
                 });
                 if !fits || mesh.len() != segments.len() {
                     return Err(Error::GuessMesh {
@@ -67,7 +94,7 @@ pub(crate) fn first_mesh(
                     });
                 }
             }
-            mesh
+            pieces.divide(&mesh)
         }
     };
     guess.check_shape(segments, equations.parameters())?;
@@ -76,6 +103,21 @@ pub(crate) fn first_mesh(
         return Err(Error::FirstMesh { intervals, limit });
     }
     Ok(mesh)
+}
+
+/// So many equal intervals for every segment, shared among its pieces by their lengths.
+fn equal_intervals(pieces: &Pieces, intervals: usize) -> Mesh {
+    let nodes = |segment: usize| {
+        let pieces = &pieces.all()[pieces.of(segment)];
+        let length: f64 = pieces.iter().map(|piece| piece.to - piece.from).sum();
+        let share = |piece: &Segment| match pieces.len() {
+            1 => intervals,
+            _ => ceil(intervals as f64 * ((piece.to - piece.from) / length)),
+        };
+        let of_piece = move |piece: &Segment| uniform(piece, share(piece));
+        pieces.iter().map(of_piece).collect::<Mesh>()
+    };
+    (0..pieces.stated().len()).flat_map(nodes).collect()
 }
 
 /// Checks that a guess is finite.

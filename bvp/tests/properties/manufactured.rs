@@ -65,7 +65,7 @@ struct Perturbed<'a> {
 impl Guess for Perturbed<'_> {
     fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
         let Some(size) = self.size else {
-            let segment_of = Problem::segments(self.exact)[segment];
+            let segment_of = &self.exact.segments()[segment];
             let middle = 0.5 * (segment_of.from + segment_of.to);
             return self.exact.state(segment, middle, y);
         };
