@@ -1,11 +1,11 @@
 //! Dense linear algebra on slices: it knows no boundary value problem.
 
+pub(crate) mod blocked;
 pub(crate) mod dense;
 pub(crate) mod householder;
-pub(crate) mod large;
 pub(crate) mod lq;
+pub(crate) mod lu;
 pub(crate) mod parallel;
 pub(crate) mod random;
 pub(crate) mod reflections;
-pub(crate) mod small;
 pub(crate) mod specialise;

@@ -6,9 +6,9 @@
 //! faer computes. R. Schreiber & C. Van Loan, "A storage-efficient WY representation for products
 //! of Householder transformations", SIAM J. Sci. Stat. Comput. 10 (1989) 53-57.
 
+use crate::kernels::blocked::clear_wide_registers;
 use crate::kernels::dense::add_scaled;
 use crate::kernels::householder::Reflection;
-use crate::kernels::large::clear_wide_registers;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 

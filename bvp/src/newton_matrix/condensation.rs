@@ -35,8 +35,9 @@
 
 use crate::discretisation::iterate::SegmentIterate;
 use crate::discretisation::tableau::Tableau;
-use crate::kernels::dense::{self, SingularRow, dot};
-use crate::kernels::large::{self, LARGE};
+use crate::kernels::blocked;
+use crate::kernels::dense::{self, dot};
+use crate::kernels::lu::lu;
 use crate::kernels::parallel::{Buffers, for_each_run};
 use crate::kernels::specialise::specialise;
 use crate::newton_matrix::derivative_states::{ObservedRows, OrderReduction};
@@ -51,8 +52,8 @@ struct IntervalBuffers {
     rows: Vec<f64>,
     /// Right-hand sides of the free states, mf, and what is known of all, mn.
     work: Vec<f64>,
-    /// For the factorisation of M where it is large.
-    workspace: Option<large::Workspace>,
+    /// For the factorisation of M.
+    workspace: lu::Workspace,
 }
 
 impl Buffers for IntervalBuffers {}
@@ -132,8 +133,7 @@ impl Condensation {
             self.resize_free();
             self.buffers.rows.resize(self.n * free_size, 0.0);
             self.buffers.work.resize(free_size + self.size, 0.0);
-            let large = free_size >= LARGE;
-            self.buffers.workspace = large.then(|| large::Workspace::new(free_size));
+            self.buffers.workspace = lu::Workspace::new(free_size);
         }
     }
 
@@ -176,12 +176,9 @@ impl Condensation {
             .lu
             .chunks_exact(size * size)
             .zip(self.pivots.chunks_exact(size));
-        let count = |(lu, pivots): (&[f64], &[usize])| {
-            let exchanges = pivots.iter().enumerate().filter(|(i, pivot)| i != *pivot);
-            let diagonal = lu.iter().step_by(size + 1);
-            exchanges.count() + diagonal.filter(|pivot| **pivot < 0.0).count()
-        };
-        intervals.map(count).sum()
+        intervals
+            .map(|(lu, pivots)| lu::negative(lu, size, pivots))
+            .sum()
     }
 
     /// The right-hand sides −Xᵀ r − c of all transitions, into the slots of nodes 1 … N of `nodes`.
@@ -273,19 +270,14 @@ fn condense_run(
         let transition = &mut transitions[place * n * columns..][..n * columns];
         system.fill_matrix(h, jacobians, lu);
         system.fill_weights(h, rows);
-        let done = match workspace {
-            Some(workspace) => large::lu_factor(lu, free_size, pivots, workspace)
-                .map(|()| large::lu_solve_transposed(lu, free_size, pivots, rows)),
-            None => dense::lu_factor_and_solve_transposed(lu, free_size, pivots, rows),
-        };
-        done.map_err(|SingularRow(_)| i)?;
+        lu::factor_and_solve_transposed(lu, free_size, pivots, rows, workspace).map_err(|_| i)?;
         system.expand(h, jacobians, rows, adjoint);
         transition.fill(0.0);
         for row in 0..n {
             transition[row * columns + row] = 1.0;
         }
-        if workspace.is_some() {
-            large::add_product(transition, adjoint, jacobians, size, columns);
+        if free_size >= lu::LARGE {
+            blocked::add_product(transition, adjoint, jacobians, size, columns);
         } else {
             specialise!(k in [0, 1] => dense::add_product(transition, adjoint, jacobians, size, n + k));
         }
@@ -317,11 +309,7 @@ fn recover_run(
         let stages = &mut stages[place * size..][..size];
         system.apply(jacobians, dy, dp, r, stages);
         system.gather_free(h, jacobians, stages, free, known);
-        if buffers.workspace.is_some() {
-            large::lu_solve(lu, free_size, pivots, free);
-        } else {
-            dense::lu_solve(lu, free_size, pivots, free);
-        }
+        lu::solve(lu, free_size, pivots, free);
         system.scatter_free(h, free, stages);
     }
 }

@@ -1,16 +1,10 @@
 //! The dense system of all ends and parameters that remains when the segments are eliminated.
 
-use crate::kernels::dense::{SingularRow, lu_factor, lu_solve};
 use crate::kernels::lq::{lq_factor, lq_negative, lq_null_vector, lq_solve};
+use crate::kernels::lu::lu;
 use crate::newton_matrix::almost_block_diagonal::Singular;
 use crate::newton_matrix::dependence::Dependence;
 use crate::problem::problem::Segment;
-use faer::linalg::solvers::{PartialPivLu, Solve};
-use faer::{MatMut, MatRef};
-
-/// Systems of at least so many equations are factored by faer, whose blocked kernels are faster
-/// from about there on; below, its bookkeeping costs more than the arithmetic.
-const LARGE: usize = 64;
 
 /// An equilibrated system, factored: a square one with row pivoting, one with an equation fewer
 /// than unknowns by orthogonal transformations.
@@ -20,14 +14,13 @@ pub(crate) struct EndSystem {
     size: usize,
     /// The matrix, row-major; equilibrated once it is factored.
     matrix: Vec<f64>,
-    /// Its factors, unless it is square and large.
+    /// Its factors.
     factors: Vec<f64>,
-    /// Row exchanges of a square matrix.
+    /// Exchanges in the factorisation of a square matrix.
     pivots: Vec<usize>,
     /// Factors of the reflections of a matrix with fewer rows.
     tau: Vec<f64>,
-    /// The factors of a large square matrix.
-    large: Option<PartialPivLu<f64>>,
+    workspace: lu::Workspace,
     /// Equilibration of rows and columns.
     row_scale: Vec<f64>,
     column_scale: Vec<f64>,
@@ -43,7 +36,7 @@ impl EndSystem {
             factors: vec![],
             pivots: vec![0; if square { size } else { 0 }],
             tau: vec![0.0; if square { 0 } else { equations }],
-            large: None,
+            workspace: lu::Workspace::new(if square { size } else { 0 }),
             row_scale: vec![0.0; equations],
             column_scale: vec![0.0; size],
         }
@@ -59,22 +52,20 @@ impl EndSystem {
     pub(crate) fn factor(&mut self) -> Result<(), Singular> {
         let size = self.size;
         self.equilibrate()?;
-        if self.pivots.is_empty() || size < LARGE {
-            self.factors.clone_from(&self.matrix);
-        }
+        self.factors.clone_from(&self.matrix);
         if self.pivots.is_empty() {
             lq_factor(&mut self.factors, size, &mut self.tau);
             return Ok(());
         }
         // In an equilibrated matrix a pivot at rounding level is a zero.
         let negligible = size as f64 * f64::EPSILON;
-        if size < LARGE {
-            lu_factor(&mut self.factors, size, &mut self.pivots)
-                .map_err(|SingularRow(_)| Singular::Ends)?;
-        } else {
-            let matrix = MatRef::from_row_major_slice(&self.matrix, size, size);
-            self.large = Some(PartialPivLu::new(matrix));
-        }
+        lu::factor(
+            &mut self.factors,
+            size,
+            &mut self.pivots,
+            &mut self.workspace,
+        )
+        .map_err(|_| Singular::Ends)?;
         if self.smallest_pivot() > negligible {
             Ok(())
         } else {
@@ -84,11 +75,7 @@ impl EndSystem {
 
     /// The smallest pivot of the equilibrated square matrix.
     pub(crate) fn smallest_pivot(&self) -> f64 {
-        let pivot = |i: usize| match &self.large {
-            Some(factors) => factors.U()[(i, i)].abs(),
-            None => 1.0 / self.factors[i * self.size + i].abs(),
-        };
-        (0..self.size).map(pivot).fold(f64::INFINITY, f64::min)
+        lu::smallest_pivot(&self.factors, self.size)
     }
 
     /// What a square matrix that proved singular leaves open; its conditions stand from row
@@ -125,12 +112,10 @@ impl EndSystem {
         for (x, scale) in x.iter_mut().zip(&self.row_scale) {
             *x *= scale;
         }
-        match &self.large {
-            Some(factors) => {
-                factors.solve_in_place(MatMut::from_column_major_slice_mut(x, self.size, 1));
-            }
-            None if self.pivots.is_empty() => lq_solve(&self.factors, self.size, &self.tau, x),
-            None => lu_solve(&self.factors, self.size, &self.pivots, x),
+        if self.pivots.is_empty() {
+            lq_solve(&self.factors, self.size, &self.tau, x);
+        } else {
+            lu::solve(&self.factors, self.size, &self.pivots, x);
         }
         self.unscale(x);
     }
@@ -182,14 +167,13 @@ mod tests {
 
     #[test]
     fn small_and_large_systems_are_solved() {
-        // 5 and the sizes have no common factor, so the large entries form a permutation.
-        for size in [3, 33, LARGE - 1, LARGE, 101] {
+        // 5 and the sizes have no common factor, so that the large entries form a permutation.
+        for size in [3, 33, lu::LARGE - 1, lu::LARGE, 101] {
             let mut system = system(size);
             let solution: Vec<f64> = (0..size).map(|i| 1.0 + i as f64).collect();
             let rows = system.matrix_mut().chunks_exact(size);
             let mut x: Vec<f64> = rows.map(|row| dot(row, &solution)).collect();
             system.factor().unwrap();
-            assert_eq!(system.large.is_some(), size >= LARGE);
             system.solve(&mut x);
             for (found, exact) in x.iter().zip(&solution) {
                 assert!(
@@ -202,7 +186,7 @@ mod tests {
 
     #[test]
     fn a_repeated_row_is_singular_at_every_size() {
-        for size in [3, 33, LARGE, 101] {
+        for size in [3, 33, lu::LARGE, 101] {
             let mut system = system(size);
             let row = system.matrix_mut()[..size].to_vec();
             system.matrix_mut()[size..2 * size].copy_from_slice(&row);

@@ -1,7 +1,8 @@
 //! A guess that meets the conditions and knows nothing else.
 
 use crate::discretisation::mesh::Mesh;
-use crate::kernels::dense::{add_scaled, all_finite, dot, lu_factor, lu_solve};
+use crate::kernels::dense::{add_scaled, all_finite, dot};
+use crate::kernels::lu::lu;
 use crate::problem::equations::Equations;
 use crate::problem::guess::Guess;
 use crate::problem::held::Held;
@@ -95,8 +96,14 @@ fn shortest_change(equations: &Held<'_>, ends: &mut [f64], p: &[f64]) -> Option<
     }
     let mut pivots = vec![0; count];
     if largest > 0.0 {
-        lu_factor(&mut normal, count, &mut pivots).ok()?;
-        lu_solve(&normal, count, &pivots, &mut g);
+        lu::factor(
+            &mut normal,
+            count,
+            &mut pivots,
+            &mut lu::Workspace::new(count),
+        )
+        .ok()?;
+        lu::solve(&normal, count, &pivots, &mut g);
         for (row, factor) in jacobian.chunks_exact(columns).zip(&g) {
             let (of_ends, _) = row.split_at(ends.len());
             add_scaled(ends, -factor, of_ends);

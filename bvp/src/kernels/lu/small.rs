@@ -1,38 +1,37 @@
-//! LU factors of matrices of a few rows, whose number the compiler knows: three to five times faster than
-//! loops of unknown length.
+//! LU factors of matrices of a few rows. The compiler knows their number, which makes them three to five
+//! times faster than loops of unknown length.
 
-use crate::kernels::dense::SingularRow;
+use super::lu::SingularRow;
 
 /// Calls a function of this module where it is provided for n rows, or evaluates something else.
 macro_rules! of_size {
     ($n:ident => $function:ident $arguments:tt, $else:expr) => {
         match $n {
-            1 => crate::kernels::small::$function::<1> $arguments,
-            2 => crate::kernels::small::$function::<2> $arguments,
-            3 => crate::kernels::small::$function::<3> $arguments,
-            4 => crate::kernels::small::$function::<4> $arguments,
-            5 => crate::kernels::small::$function::<5> $arguments,
-            6 => crate::kernels::small::$function::<6> $arguments,
-            7 => crate::kernels::small::$function::<7> $arguments,
-            8 => crate::kernels::small::$function::<8> $arguments,
+            1 => crate::kernels::lu::small::$function::<1> $arguments,
+            2 => crate::kernels::lu::small::$function::<2> $arguments,
+            3 => crate::kernels::lu::small::$function::<3> $arguments,
+            4 => crate::kernels::lu::small::$function::<4> $arguments,
+            5 => crate::kernels::lu::small::$function::<5> $arguments,
+            6 => crate::kernels::lu::small::$function::<6> $arguments,
+            7 => crate::kernels::lu::small::$function::<7> $arguments,
+            8 => crate::kernels::lu::small::$function::<8> $arguments,
             _ => $else,
         }
     };
 }
 
-pub(crate) use of_size;
+pub(super) use of_size;
 
-/// [`lu_factor`](crate::kernels::dense::lu_factor) of a matrix of few rows.
-pub(crate) fn lu_factor<const N: usize>(
+/// Factors A in place, as [`panels::factor`](super::panels::factor) does.
+pub(super) fn factor<const N: usize>(
     a: &mut [f64],
     pivots: &mut [usize],
 ) -> Result<(), SingularRow> {
-    lu_factor_and_solve_transposed::<N>(a, pivots, &mut [])
+    factor_and_solve_transposed::<N>(a, pivots, &mut [])
 }
 
-/// [`lu_factor_and_solve_transposed`](crate::kernels::dense::lu_factor_and_solve_transposed) of few equations: the
-/// factors are still in registers when they are used.
-pub(crate) fn lu_factor_and_solve_transposed<const N: usize>(
+/// Factors A and solves xᵀ A = bᵀ for each row b of `rows` while the factors are still in registers.
+pub(super) fn factor_and_solve_transposed<const N: usize>(
     a: &mut [f64],
     pivots: &mut [usize],
     rows: &mut [f64],
@@ -40,7 +39,7 @@ pub(crate) fn lu_factor_and_solve_transposed<const N: usize>(
     let a: &mut [[f64; N]; N] = a.as_chunks_mut().0.try_into().expect("n rows");
     let pivots: &mut [usize; N] = pivots.try_into().expect("n pivots");
     let mut lu = *a;
-    factor(&mut lu, pivots)?;
+    eliminate(&mut lu, pivots)?;
     for b in rows.as_chunks_mut().0 {
         solve_transposed(&lu, pivots, b);
     }
@@ -48,11 +47,11 @@ pub(crate) fn lu_factor_and_solve_transposed<const N: usize>(
     Ok(())
 }
 
-/// One column after the other. Rows are addressed and exchanged by numbers that the compiler knows, so
-/// that the whole matrix can stay in registers.
+/// Eliminates one column after the other. Rows are addressed and exchanged by numbers that the compiler
+/// knows, so that the whole matrix can stay in registers.
 #[expect(clippy::needless_range_loop, reason = "entries by their numbers")]
 #[inline(always)]
-fn factor<const N: usize>(
+fn eliminate<const N: usize>(
     a: &mut [[f64; N]; N],
     pivots: &mut [usize; N],
 ) -> Result<(), SingularRow> {
@@ -86,8 +85,8 @@ fn factor<const N: usize>(
     Ok(())
 }
 
-/// [`lu_solve`](crate::kernels::dense::lu_solve) of few equations, column by column: no sum waits for another.
-pub(crate) fn lu_solve<const N: usize>(lu: &[f64], pivots: &[usize], b: &mut [f64]) {
+/// Solves A x = b in place, column by column, so that no sum waits for another.
+pub(super) fn solve<const N: usize>(lu: &[f64], pivots: &[usize], b: &mut [f64]) {
     let lu: &[[f64; N]; N] = lu.as_chunks().0.try_into().expect("n rows");
     let pivots: &[usize; N] = pivots.try_into().expect("n pivots");
     let b: &mut [f64; N] = b.try_into().expect("n numbers");
@@ -107,7 +106,7 @@ pub(crate) fn lu_solve<const N: usize>(lu: &[f64], pivots: &[usize], b: &mut [f6
     *b = x;
 }
 
-/// xᵀ A = bᵀ for one row b, likewise.
+/// Solves xᵀ A = bᵀ in place for one row b, likewise.
 #[inline(always)]
 fn solve_transposed<const N: usize>(lu: &[[f64; N]; N], pivots: &[usize; N], b: &mut [f64; N]) {
     let mut x = *b;
@@ -126,8 +125,8 @@ fn solve_transposed<const N: usize>(lu: &[[f64; N]; N], pivots: &[usize; N], b: 
     exchange(b, pivots, (0..N).rev());
 }
 
-/// Exchanges entries as rows were, in this order. Mostly none were: to write each back where it is would
-/// keep the next one waiting.
+/// Exchanges entries as the rows were exchanged, in the given order. Most rows stay in place; writing
+/// such an entry back would delay the next one.
 #[inline(always)]
 fn exchange<const N: usize>(
     b: &mut [f64; N],

@@ -1,0 +1,6 @@
+//! LU factors of square matrices.
+
+mod large;
+pub(crate) mod lu;
+mod panels;
+mod small;
