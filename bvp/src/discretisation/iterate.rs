@@ -1,4 +1,4 @@
-//! The unknowns of the discretised problem, seen whole and interval by interval.
+//! The unknowns of the discretised problem, all together and interval by interval.
 
 use crate::discretisation::mesh::Mesh;
 use crate::discretisation::tableau::Tableau;
@@ -23,8 +23,7 @@ pub(crate) struct SegmentIterate {
     pub(crate) stages: Vec<f64>,
 }
 
-/// Makes room for the given segments, mesh and stages. What is new is zero, what was there before is
-/// left.
+/// Makes room for the given segments, mesh and stages. New numbers are zero; old ones are not changed.
 pub(crate) fn resize(
     all: &mut Vec<SegmentIterate>,
     segments: &[Segment],
@@ -40,7 +39,7 @@ pub(crate) fn resize(
 }
 
 impl Iterate {
-    /// The same, and for so many parameters.
+    /// Makes room for the given segments, mesh, stages and k parameters.
     pub(crate) fn resize(&mut self, segments: &[Segment], mesh: &Mesh, stages: usize, k: usize) {
         resize(&mut self.segments, segments, mesh, stages);
         self.p.resize(k, 0.0);
@@ -178,7 +177,7 @@ impl<'a> Interval<'a> {
         add_product(slope, weights, self.stages, weights.len(), self.n);
     }
 
-    /// The place θ of the interval, never outside by rounding.
+    /// The point θ of the interval, which rounding does not move outside.
     #[inline(always)]
     pub(crate) fn place(&self, theta: f64) -> f64 {
         (self.s + theta * self.h).min(self.end)
@@ -191,7 +190,7 @@ impl<'a> Interval<'a> {
         self.place(t.c[j])
     }
 
-    /// r = Kⱼ − f in the place of f, refusing an f that is not finite.
+    /// Replaces f by r = Kⱼ − f; refuses an f that is not finite.
     #[inline(always)]
     pub(crate) fn stage_residual(
         &self,

@@ -5,7 +5,8 @@ use crate::problem::problem::Segment;
 /// The nodes of every segment: ascending, the first and the last are the ends of the segment.
 pub(crate) type Mesh = Vec<Vec<f64>>;
 
-/// An interval must be longer than so many spacings of floating-point numbers.
+/// The least length of an interval in spacings of floating-point numbers, so that its collocation points
+/// stay apart.
 const FEWEST_SPACINGS: f64 = 64.0;
 
 /// Intervals that differ by less, relative to their length, are equal.
@@ -27,8 +28,8 @@ pub(crate) fn halved(mesh: &Mesh) -> Mesh {
         .collect()
 }
 
-/// The mesh with so many times fewer intervals, rounded up, on segments with more than three of equal
-/// length.
+/// The mesh in which the number of intervals is divided by `factor`, rounded up, on segments with more than
+/// three intervals of equal length.
 pub(crate) fn thinned(mesh: &Mesh, factor: f64) -> Mesh {
     let fewer = |nodes: &Vec<f64>| {
         let (count, ends) = (nodes.len() - 1, [nodes[0], nodes[nodes.len() - 1]]);
@@ -41,7 +42,7 @@ pub(crate) fn thinned(mesh: &Mesh, factor: f64) -> Mesh {
     mesh.iter().map(fewer).collect()
 }
 
-/// Whether all intervals of a segment are equal but for rounding.
+/// Whether all intervals of a segment are equal up to rounding.
 fn is_uniform(nodes: &[f64]) -> bool {
     let count = (nodes.len() - 1) as f64;
     let length = nodes[nodes.len() - 1] - nodes[0];
@@ -80,7 +81,7 @@ pub(crate) fn equidistribute(nodes: &[f64], density: &[f64], intervals: usize) -
     placed
 }
 
-/// Whether floating-point numbers resolve every interval: collocation points must stay apart.
+/// Whether every interval is long enough for floating-point numbers.
 pub(crate) fn is_representable(mesh: &Mesh) -> bool {
     let spacing = |pair: &[f64]| f64::EPSILON * pair[0].abs().max(pair[1].abs());
     let resolved = |pair: &[f64]| pair[1] - pair[0] > FEWEST_SPACINGS * spacing(pair);
@@ -92,7 +93,7 @@ pub(crate) fn intervals(mesh: &Mesh) -> usize {
     mesh.iter().map(|nodes| nodes.len() - 1).sum()
 }
 
-/// The next whole number.
+/// The smallest whole number that is not less than x.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

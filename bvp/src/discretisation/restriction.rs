@@ -6,8 +6,8 @@ use crate::discretisation::tableau::Tableau;
 use crate::kernels::specialise::specialise;
 use crate::problem::problem::Segment;
 
-/// The polynomials of `x`, given on `mesh`, on the mesh with every interval halved: exactly, but
-/// for rounding.
+/// The polynomials of `x`, given on `mesh`, on the mesh with every interval halved, exact up to
+/// rounding.
 pub(crate) fn restrict(t: &Tableau, segments: &[Segment], mesh: &Mesh, x: &Iterate) -> Iterate {
     let pairs = segments.iter().zip(mesh).zip(&x.segments);
     Iterate {

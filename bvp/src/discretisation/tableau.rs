@@ -6,7 +6,7 @@ use crate::kernels::dense::{add_product, add_scaled};
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
-/// So many powers of the stage matrix are kept.
+/// The number of powers of the stage matrix that are stored.
 pub(crate) const POWERS: usize = 4;
 
 /// A rule on \[0, 1\]: ∫ g ≈ Σ weights g(points).
@@ -32,7 +32,7 @@ pub(crate) struct Tableau {
     pub(crate) a: Vec<f64>,
     /// Its powers A, A², …, m × m each.
     pub(crate) powers: Vec<f64>,
-    /// bᵀ, bᵀ A, bᵀ A², …, m numbers each, as many.
+    /// bᵀ, bᵀ A, bᵀ A², …, m numbers each; as many as there are powers.
     pub(crate) weights: Vec<f64>,
     /// Where the defect is sampled: the Gauss rule with m + 1 points, which integrates the square
     /// of the leading defect ∝ Πⱼ (θ − cⱼ) exactly and whose points are never collocation points.

@@ -7,7 +7,7 @@ use crate::kernels::dense::add_scaled;
 use crate::kernels::specialise::specialise;
 use crate::result::solution::Solution;
 
-/// The iterate with the nodes and slopes of a solution on another mesh, maybe of another scheme.
+/// The iterate with the nodes and slopes of a solution on another mesh, possibly of another scheme.
 pub(crate) fn transfer(mesh: &Mesh, t: &Tableau, from: &Solution) -> Iterate {
     let mut x = Iterate::default();
     x.resize(&from.segments, mesh, t.stages, from.x.p.len());
@@ -53,19 +53,20 @@ fn transfer_segment(
     to.nodes[last..].copy_from_slice(&x.nodes[x.nodes.len() - n..]);
 }
 
-/// A solution on a segment with n states and m stages, looked at from left to right.
+/// A solution on a segment with n states and m stages, evaluated from left to right.
 struct Along<'a> {
     tableau: &'a Tableau,
     nodes: &'a [f64],
     x: &'a SegmentIterate,
-    /// The interval of the last place.
+    /// The interval of the last evaluation.
     interval: usize,
-    /// The coefficients of the slopes there, in powers of u from −1 at its left end to 1, n a power.
+    /// The coefficients of the slopes on it in powers of u, n per power; u runs from −1 at its left end to 1
+    /// at its right end.
     powers: Vec<f64>,
 }
 
 impl Along<'_> {
-    /// The coefficients of the slopes on the present interval.
+    /// Finds the coefficients of the slopes on the current interval.
     #[inline(always)]
     fn expand(&mut self, [m, n]: [usize; 2]) {
         let stages = &self.x.stages[self.interval * m * n..][..m * n];
@@ -78,7 +79,7 @@ impl Along<'_> {
         }
     }
 
-    /// Goes to s; returns the length of its interval and its u there.
+    /// Moves to the interval of s; returns its length and the u of s.
     #[inline(always)]
     fn go(&mut self, size: [usize; 2], s: f64) -> (f64, f64) {
         let before = self.interval;
@@ -105,7 +106,7 @@ impl Along<'_> {
         }
     }
 
-    /// The state at s: that at the left end of its interval and the integral of the slopes.
+    /// The state at s: the state at the left end of its interval plus the integral of the slopes.
     #[inline(always)]
     fn state(&mut self, size: [usize; 2], s: f64, y: &mut [f64]) {
         let (h, u) = self.go(size, s);

@@ -1,7 +1,7 @@
 //! One Householder reflection.
 
-/// The reflection I − τ v vᵀ that takes a vector to a multiple β of the first unit vector; v is the
-/// vector times `scale`, but for its first entry, which is one. Its determinant is −1. Golub & Van
+/// The reflection I − τ v vᵀ that maps a vector to β times the first unit vector. The first entry of v is
+/// one; the others are those of the vector times `scale`. The determinant is −1. Golub & Van
 /// Loan, *Matrix Computations*, 4th ed., section 5.1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reflection {

@@ -1,16 +1,16 @@
 //! Orthogonal factorisation of a matrix with one row fewer than columns.
 //!
-//! A = \[L 0\] Qᵀ with L lower triangular; the last column of Q spans the null space of A. By
-//! Householder reflections of the rows, so that every result is exact for a matrix within rounding
-//! of A, whatever its rank. Golub & Van Loan, *Matrix Computations*, 4th ed., sections 5.2 and
-//! 5.6.2. Matrices are row-major in slices.
+//! A = \[L 0\] Qᵀ with L lower triangular; the last column of Q spans the null space of A. The
+//! factorisation uses Householder reflections of the rows, so that every result is exact for a matrix
+//! that differs from A by rounding, whatever its rank. Golub & Van Loan, *Matrix Computations*, 4th ed.,
+//! sections 5.2 and 5.6.2. Matrices are row-major in slices.
 
 use crate::kernels::dense::{add_scaled, dot};
 use crate::kernels::householder::Reflection;
 
-/// Replaces A by L, on and below the diagonal, and by the vectors of the reflections, right of it;
-/// their factors go into `tau`, one per row. Pivots below the rounding of entries of size one are
-/// raised to it.
+/// Replaces A by L on and below the diagonal and by the vectors of the reflections to its right. The
+/// factors of the reflections go into `tau`, one per row. Pivots below the machine epsilon are raised
+/// to it.
 pub(crate) fn lq_factor(a: &mut [f64], columns: usize, tau: &mut [f64]) {
     for (j, tau) in tau.iter_mut().enumerate() {
         let (head, rows) = a[j * columns..].split_at_mut(columns);
@@ -41,8 +41,8 @@ fn reflect(x: &mut [f64], tau: f64, v_tail: &[f64]) {
     add_scaled(tail, -product, v_tail);
 }
 
-/// The shortest solution of A x = b in place: b has one entry per row and lies before a last entry
-/// that is ignored.
+/// Replaces b by the shortest solution of A x = b. On entry `x` holds b, one number per row of A, and a
+/// last number that is ignored.
 pub(crate) fn lq_solve(lq: &[f64], columns: usize, tau: &[f64], x: &mut [f64]) {
     for (i, row) in lq.chunks_exact(columns).enumerate() {
         x[i] = (x[i] - dot(&row[..i], &x[..i])) / row[i];

@@ -1,14 +1,13 @@
-//! Work on the intervals of a segment, shared among threads where it pays.
+//! Work on the intervals of a segment, shared among threads where this saves time.
 //!
-//! What a Newton step costs is spent interval by interval: right-hand sides and Jacobians at the
-//! stages, the condensation of the stages and their recovery, and after it the defects. With the
-//! feature `parallel` a long run of intervals is halved until its parts are no longer worth sharing,
-//! and idle threads of rayon's pool take parts of it; between two such passes they sleep. Which
-//! thread has an interval changes nothing of what is done with it, and nothing is summed over
-//! intervals here, so that results are the same to the last bit for any number of threads, and
-//! without the feature.
+//! Nearly all work of a Newton step is done interval by interval: right-hand sides and Jacobians at the
+//! stages, the condensation and the recovery of the stages, and then the defects. With the feature
+//! `parallel` a long run of intervals is halved until its parts are too short to be shared, and idle
+//! threads of rayon's pool take parts of it. The work on an interval does not depend on its thread, and
+//! nothing is summed over intervals, so that the results are the same to the last bit for any number of
+//! threads, and without the feature.
 //!
-//! The elimination of the nodes, where each needs the one before, stays on one thread.
+//! The elimination of the nodes, each of which needs the previous one, stays on one thread.
 
 #[cfg(feature = "parallel")]
 use rayon::join;
@@ -18,9 +17,9 @@ use std::ops::Range;
 /// states on two threads: no gain at 200 intervals, a third less time at 400.
 const WORTH_SHARING: usize = 100_000;
 
-/// What is written for consecutive intervals, as much for each.
+/// Results for consecutive intervals, of the same size for each interval.
 pub(crate) trait Written: Send + Sized {
-    /// What is written for the first `some` of `all` intervals, and for the others.
+    /// The results for the first `some` of `all` intervals, and for the others.
     fn split(self, some: usize, all: usize) -> (Self, Self);
 }
 
@@ -38,7 +37,7 @@ impl<A: Written, B: Written> Written for (A, B) {
     }
 }
 
-/// What the work on a run needs beside the run: every thread has a copy.
+/// Scratch space for the work on a run; every thread has a copy.
 pub(crate) trait Buffers: Clone + Send {
     /// Adds what a copy has observed. Buffers that are only scratch space have nothing to add.
     fn merge(&mut self, _copy: Self) {}
@@ -50,8 +49,7 @@ impl Buffers for () {}
 /// `cost` multiplications.
 ///
 /// # Errors
-/// That of the first part which fails: `work`, which stops at the first interval that fails, thus
-/// gives the error of the first one of the whole run.
+/// The error of the first interval that fails, if `work` stops at the first one of its run that fails.
 pub(crate) fn for_each_run<W: Written, B: Buffers, E: Send>(
     run: Range<usize>,
     cost: usize,

@@ -1,4 +1,4 @@
-//! Random signs, always the same.
+//! A fixed sequence of random signs.
 
 /// The signs of Knuth's multiplicative congruential generator (D. E. Knuth, *The Art of Computer
 /// Programming*, vol. 2, 3rd ed., section 3.3.4).
@@ -13,7 +13,7 @@ impl Default for Signs {
 }
 
 impl Signs {
-    /// x or −x.
+    /// x with the next sign: x or −x.
     pub(crate) fn turn(&mut self, x: f64) -> f64 {
         self.state = self
             .state
@@ -36,7 +36,7 @@ mod tests {
         let drawn = draw();
         assert_eq!(drawn, draw());
         assert!(drawn.iter().all(|x| x.abs() == 2.0));
-        // Four standard deviations of the sum of so many signs.
+        // Four standard deviations of the sum of this many signs.
         assert!(drawn.iter().sum::<f64>().abs() < 2.0 * 4.0 * 100.0);
         let changes = drawn.windows(2).filter(|pair| pair[0] != pair[1]).count();
         assert!(changes.abs_diff(5_000) < 200, "{changes}");

@@ -1,8 +1,8 @@
 //! Elimination of the leading columns of a row-major matrix by Householder reflections, one after
 //! the other or, where there are many, in blocks.
 //!
-//! b reflections have the product Qᵀ = I − V Tᵀ Vᵀ, where the columns of V are their vectors and T
-//! is upper triangular, so a block changes all columns right of it by products of matrices, which
+//! The product of b reflections is Qᵀ = I − V Tᵀ Vᵀ, where the columns of V are their vectors and T is
+//! upper triangular. A block therefore changes all columns to its right by products of matrices, which
 //! faer computes. R. Schreiber & C. Van Loan, "A storage-efficient WY representation for products
 //! of Householder transformations", SIAM J. Sci. Stat. Comput. 10 (1989) 53-57.
 
@@ -12,15 +12,15 @@ use crate::kernels::householder::Reflection;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 
-/// So many columns or more are eliminated in blocks.
+/// The least number of columns that is eliminated in blocks.
 pub(crate) const MANY: usize = 16;
 
 /// Columns of a block.
 const BLOCK: usize = 8;
 
 /// Annihilates column j below row j of `matrix` for all j < `tau.len()`. The vectors of the
-/// reflections, with leading 1 implied, are left in the place of the zeros, their factors in `tau`.
-/// `row` holds a row. `None` if what is left of a column vanishes or is not finite.
+/// reflections, with leading 1 implied, replace the zeros, and their factors go into `tau`. `row` is
+/// scratch space for a row. `None` if the remaining part of a column vanishes or is not finite.
 #[inline(always)]
 pub(crate) fn eliminate(
     matrix: &mut [f64],
@@ -64,18 +64,20 @@ fn reflect(matrix: &mut [f64], width: usize, j: usize, row: &mut [f64]) -> Optio
 /// The buffers of an elimination in blocks.
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks {
-    /// The columns of the block, later V, and V Tᵀ; [`BLOCK`] numbers per row.
+    /// First the columns of the block, then V; [`BLOCK`] numbers per row.
     v: Vec<f64>,
+    /// V Tᵀ, likewise.
     scaled: Vec<f64>,
-    /// Vᵀ V, and Tᵀ.
+    /// Vᵀ V.
     gram: [f64; BLOCK * BLOCK],
+    /// Tᵀ.
     t: [f64; BLOCK * BLOCK],
     /// Vᵀ times the columns right of the block.
     product: Vec<f64>,
 }
 
 impl Blocks {
-    /// For matrices of so many rows and columns.
+    /// For matrices with the given numbers of rows and columns.
     pub(crate) fn new(rows: usize, width: usize) -> Self {
         Self {
             v: vec![0.0; rows * BLOCK],
@@ -86,7 +88,7 @@ impl Blocks {
         }
     }
 
-    /// What [`eliminate`] does, in blocks.
+    /// Does the same as [`eliminate`], in blocks.
     pub(crate) fn eliminate(
         &mut self,
         matrix: &mut [f64],
@@ -103,7 +105,7 @@ impl Blocks {
         Some(())
     }
 
-    /// Eliminates the columns of a block from `first` on within the block, and makes V of them.
+    /// Eliminates the columns of the block that begins at `first`, within the block only, and forms V.
     fn factor(
         &mut self,
         rows: &mut [f64],
@@ -127,7 +129,8 @@ impl Blocks {
         Some(())
     }
 
-    /// Tᵀ, row by row from Vᵀ V: row j is −τⱼ vⱼᵀ V Tᵀ up to the diagonal, where it is τⱼ; and V Tᵀ.
+    /// Finds Tᵀ row by row from Vᵀ V, and V Tᵀ. Row j of Tᵀ is −τⱼ vⱼᵀ V Tᵀ left of the diagonal and τⱼ on
+    /// it.
     fn find_t(&mut self, tau: &[f64], rows: usize) {
         let b = tau.len();
         let v = MatRef::from_row_major_slice(&self.v[..rows * b], rows, b);

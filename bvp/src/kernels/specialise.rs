@@ -1,9 +1,8 @@
 //! Loops whose length the compiler knows.
 
-/// Evaluates a call of a function that is always inlined, once for each of the small values that a
-/// number often has and once for any value: where the compiler knows how long the loops are, it
-/// unrolls them. Half of the time of a solution with two states is won by it. With `else`, any other
-/// value is left to another call.
+/// Compiles a call of an inlined function once for each of the listed values of a number and once for
+/// any other value. Where the compiler knows the length of the loops it unrolls them, which halves the
+/// time of a solution with two states. With `else`, other values get another call.
 macro_rules! specialise {
     ($n:ident in [$($value:literal),*] => $call:expr) => {
         $crate::kernels::specialise::specialise!($n in [$($value),*] => $call, else $call)

@@ -63,11 +63,11 @@ pub(crate) struct Transitions {
     couplings: Vec<f64>,
     /// \[A B C\], the equation between both ends and the parameters that remains, n × (2n + k).
     reduced: Vec<f64>,
-    /// The 2n rows in work, 2n × (3n + k).
+    /// The 2n rows in which a node is eliminated, 2n × (3n + k).
     work: Vec<f64>,
     /// One row of `work`, or 2n right-hand sides.
     row: Vec<f64>,
-    /// For the elimination of many states.
+    /// Buffers for the elimination in blocks, where there are many states.
     reflections: Option<Blocks>,
 }
 
@@ -108,7 +108,7 @@ impl Transitions {
         specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(k in [0] => self.eliminate_nodes(n, k)))
     }
 
-    /// [`eliminate`](Self::eliminate), with numbers that the compiler may know.
+    /// [`eliminate`](Self::eliminate) for values of n and k that the compiler may know.
     #[inline(always)]
     fn eliminate_nodes(&mut self, n: usize, k: usize) -> Result<(), usize> {
         let width = 3 * n + k;
@@ -173,15 +173,14 @@ impl Transitions {
         Ok(())
     }
 
-    /// Carries the right-hand sides gᵢ (in the slot of node i + 1) through the elimination; what
-    /// belongs to the interior nodes stays in their slots, that of the remaining equation is left in
-    /// `reduced`.
+    /// Applies the elimination to the right-hand sides gᵢ, which are in the slots of nodes i + 1. Those of
+    /// the interior nodes stay in their slots; that of the remaining equation goes into `reduced`.
     fn forward(&mut self, nodes: &mut [f64], reduced: &mut [f64]) {
         let n = self.n;
         specialise!(n in [1, 2, 3, 4, 5, 6] => self.forward_nodes(n, nodes, reduced));
     }
 
-    /// [`forward`](Self::forward), likewise.
+    /// [`forward`](Self::forward) for values of n that the compiler may know.
     #[inline(always)]
     fn forward_nodes(&mut self, n: usize, nodes: &mut [f64], reduced: &mut [f64]) {
         reduced.copy_from_slice(&nodes[n..2 * n]);
@@ -238,7 +237,7 @@ impl Transitions {
         specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(k in [0] => self.backward_nodes(n, k, nodes, p)));
     }
 
-    /// [`backward`](Self::backward), likewise.
+    /// [`backward`](Self::backward) for values of n and k that the compiler may know.
     #[inline(always)]
     fn backward_nodes(&self, n: usize, k: usize, nodes: &mut [f64], p: &[f64]) {
         let factors = self
@@ -268,7 +267,8 @@ pub(crate) struct AlmostBlockDiagonal {
     transitions: Vec<Transitions>,
     /// Parameters k.
     k: usize,
-    /// The end system of Σ 2n + k unknowns: the equations that remain of the segments first, then the conditions.
+    /// The end system of Σ 2n + k unknowns: first the remaining equations of the segments, then the
+    /// conditions.
     ends: EndSystem,
     /// Right-hand side and solution of the end system.
     unknowns: Vec<f64>,
@@ -301,8 +301,8 @@ impl AlmostBlockDiagonal {
         &mut self.transitions[segment]
     }
 
-    /// Factors the matrix from the filled transition blocks and the Jacobian of the conditions, a row each with
-    /// Σ 2n + k columns: start and end of each segment in turn, then the parameters.
+    /// Factors the matrix from the filled transition blocks and the Jacobian of the conditions. Its rows
+    /// have Σ 2n + k columns: start and end of each segment in turn, then the parameters.
     pub(crate) fn factor(&mut self, conditions: &[f64]) -> Result<(), Singular> {
         let size = self.unknowns.len();
         let ends = self.ends.matrix_mut();
@@ -325,7 +325,8 @@ impl AlmostBlockDiagonal {
         self.ends.factor()
     }
 
-    /// What a matrix whose end system proved singular leaves open.
+    /// Which conditions depend on each other and which unknown is left free, after the end system has
+    /// proved singular.
     pub(crate) fn dependence(&self, segments: &[Segment]) -> Dependence {
         let first = segments.iter().map(|segment| segment.states).sum();
         self.ends.dependence(first, segments)
@@ -348,7 +349,7 @@ impl AlmostBlockDiagonal {
     }
 
     /// The smallest pivot of the last factorisation relative to the largest entry, or the norm, of its
-    /// column before: a matrix without small ones is well conditioned, at least node by node.
+    /// column before. If no pivot is small, the matrix is well conditioned, at least node by node.
     pub(crate) fn smallest_pivot(&self) -> f64 {
         let pivots = self.transitions.iter().map(Transitions::smallest_pivot);
         pivots.fold(self.ends.smallest_pivot(), f64::min)
@@ -357,10 +358,11 @@ impl AlmostBlockDiagonal {
     /// The null vector t of a matrix J with one condition fewer, in the nodes and the parameters of
     /// `x`. Its direction is such that det \[J; tᵀ\] has one sign for all matrices of a size.
     ///
-    /// With the interior nodes eliminated by Q and tₑ the part of t at the ends, det \[J; tᵀ\] has
-    /// the sign of det Q Π det R det \[E; tₑᵀ\], E being the matrix of the end system: what the
-    /// elimination makes of the row tᵀ has the product t · t > 0 with tₑ, as tₑᵀ itself has. The same
-    /// holds for the stages eliminated before, whose determinants change the sign `stages` times.
+    /// Let Q eliminate the interior nodes, tₑ be the part of t at the ends and E the matrix of the end
+    /// system. Then det \[J; tᵀ\] has the sign of det Q Π det R det \[E; tₑᵀ\], because the row that the
+    /// elimination makes of tᵀ has the product t · t > 0 with tₑ, and tₑᵀ itself has a positive product,
+    /// too. The same holds for the elimination of the stages, whose determinants change the sign `stages`
+    /// times.
     pub(crate) fn null_vector(&mut self, x: &mut Iterate, stages: usize) {
         let negative = stages
             + self.ends.null_vector(&mut self.unknowns)

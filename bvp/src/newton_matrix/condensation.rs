@@ -29,9 +29,9 @@
 //!
 //! and det M is the determinant of this part.
 //!
-//! Intervals are many and their matrices small: the time is that of the loops around the arithmetic, so
-//! that the compiler knows the numbers of stages, of states and of a single free state of the schemes that
-//! the solver chooses, and of stages alone for the others.
+//! There are many intervals with small matrices, so that loops cost more than arithmetic. The functions
+//! are therefore compiled for fixed numbers of stages, of states and for a single free state with the
+//! schemes that the solver chooses by itself, and for fixed numbers of stages with the others.
 
 use crate::discretisation::iterate::SegmentIterate;
 use crate::discretisation::tableau::Tableau;
@@ -45,7 +45,7 @@ use crate::newton_matrix::stage_system::StageSystem;
 use std::convert::Infallible;
 use std::ops::Range;
 
-/// What the work on one interval needs beside what is kept of it.
+/// Scratch space for the work on one interval.
 #[derive(Clone, Debug, Default)]
 struct IntervalBuffers {
     /// The columns of Xᵀ of the free states, n × mf.
@@ -58,7 +58,7 @@ struct IntervalBuffers {
 
 impl Buffers for IntervalBuffers {}
 
-/// What is kept of the stages of one segment to condense residuals and to recover corrections.
+/// The stages of one segment: the factors that condense residuals and recover corrections.
 #[derive(Clone, Debug)]
 pub(crate) struct Condensation {
     /// States n, parameters k and unknowns of all stages of an interval, mn.
@@ -241,7 +241,7 @@ impl Condensation {
     }
 }
 
-/// What a run of intervals leaves: factors of M with pivots, and Xᵀ with the transition blocks.
+/// The results for a run of intervals: factors of M with pivots, and Xᵀ with the transition blocks.
 type Condensed<'a> = (
     (&'a mut [f64], &'a mut [usize]),
     (&'a mut [f64], &'a mut [f64]),

@@ -1,27 +1,29 @@
-//! What a singular system of ends and parameters leaves open.
+//! What a singular system of ends and parameters leaves undetermined.
 
 use crate::problem::problem::Segment;
 use crate::problem::unknown::Unknown;
 use faer::{ColRef, MatRef};
 use std::ops::Range;
 
-/// Conditions with at least this share of the largest entry of a null vector depend on each other.
+/// Conditions whose entries of the left null vector are at least this share of its largest entry are
+/// named as dependent.
 const DEPENDENT: f64 = 0.1;
-/// The first unknown with at least this share of the largest entry of a null vector is called free.
+/// The first unknown whose entry of the right null vector is at least this share of its largest entry is
+/// named as free.
 const FREE: f64 = 0.5;
 
 /// Conditions that depend on each other, given the differential equations, and an unknown that they
-/// leave free. Nothing is known of a matrix that is regular or not finite.
+/// leave free. Both are empty for a matrix that is regular or not finite.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Dependence {
     /// Indices of the conditions, ascending.
     pub(crate) conditions: Vec<usize>,
-    /// The unknown that is freest.
+    /// The unknown that is determined least.
     pub(crate) free: Option<Unknown>,
 }
 
 impl Dependence {
-    /// Of an equilibrated square matrix, row-major, whose conditions stand from row `first` on.
+    /// For an equilibrated square matrix, row-major, whose conditions begin at row `first`.
     ///
     /// With the singular value decomposition A = U Σ Vᵀ the last columns u, v of U and V have
     /// uᵀ A = σ vᵀ and A v = σ u, the smallest singular value σ being negligible: the rows with

@@ -78,13 +78,13 @@ impl EndSystem {
         lu::smallest_pivot(&self.factors, self.size)
     }
 
-    /// What a square matrix that proved singular leaves open; its conditions stand from row
-    /// `first` on.
+    /// Which conditions of a square matrix that proved singular depend on each other, and which unknown is
+    /// left free. The conditions begin at row `first`.
     pub(crate) fn dependence(&self, first: usize, segments: &[Segment]) -> Dependence {
         Dependence::of(&self.matrix, self.size, first, segments)
     }
 
-    /// Scales rows, then columns, to largest entries of one; what is zero stays so.
+    /// Scales rows, then columns, so that their largest entries are one; rows and columns of zeros stay.
     fn equilibrate(&mut self) -> Result<(), Singular> {
         self.column_scale.fill(0.0);
         let rows = self.matrix.chunks_exact_mut(self.size);
@@ -106,8 +106,8 @@ impl EndSystem {
         Ok(())
     }
 
-    /// Replaces right-hand sides, the first entries of `x`, by the solution of the factored system;
-    /// by any one if there is an equation fewer.
+    /// Replaces right-hand sides, the first entries of `x`, by the solution of the factored system, or by
+    /// one of its solutions if there is one equation fewer than unknowns.
     pub(crate) fn solve(&self, x: &mut [f64]) {
         for (x, scale) in x.iter_mut().zip(&self.row_scale) {
             *x *= scale;
@@ -120,15 +120,15 @@ impl EndSystem {
         self.unscale(x);
     }
 
-    /// A null vector of a system with an equation fewer than unknowns. Its direction is known up to
-    /// one sign for all systems of a size: det \[E; xᵀ\] is positive if the number returned is even.
+    /// Writes a null vector of a system with one equation fewer than unknowns into `x`. With the number n
+    /// returned, the sign of (−1)ⁿ det \[E; xᵀ\] is the same for all systems of a size.
     pub(crate) fn null_vector(&self, x: &mut [f64]) -> usize {
         lq_null_vector(&self.factors, self.size, &self.tau, x);
         self.unscale(x);
         lq_negative(&self.factors, self.size)
     }
 
-    /// Undoes the scaling of the columns.
+    /// Scales a solution of the equilibrated system back.
     fn unscale(&self, x: &mut [f64]) {
         for (x, scale) in x.iter_mut().zip(&self.column_scale) {
             *x *= scale;

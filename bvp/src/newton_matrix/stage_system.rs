@@ -19,8 +19,8 @@ const IDENTITY: [[f64; MAX_STAGES]; MAX_STAGES] = {
     identity
 };
 
-/// The equations of the stages of an interval, with numbers that the compiler knows where it inlines
-/// what is done with them.
+/// The equations of the stages of an interval. Where its methods are inlined, the compiler may know the
+/// numbers m, n, k and f.
 #[derive(Clone, Copy)]
 pub(crate) struct StageSystem<'a> {
     t: &'a Tableau,

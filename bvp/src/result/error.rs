@@ -116,7 +116,7 @@ pub enum Error {
     Guess {
         /// Index of the segment.
         segment: usize,
-        /// Where.
+        /// The place s.
         s: f64,
     },
     /// A guessed parameter is not finite.
@@ -157,7 +157,7 @@ pub enum Error {
     NonFiniteRhs {
         /// Index of the segment.
         segment: usize,
-        /// Where.
+        /// The place s.
         s: f64,
         /// Index of the state whose derivative it is.
         component: usize,
@@ -197,7 +197,7 @@ pub enum Error {
         /// Indices of the conditions that depend on each other, given the differential equations;
         /// none if that cannot be told.
         conditions: Vec<usize>,
-        /// The unknown at the ends that is freest, if that can be told.
+        /// The unknown at the ends that is determined least, if that can be told.
         free: Option<Unknown>,
         /// The iterate.
         best: Box<Solution>,
@@ -293,8 +293,8 @@ pub enum Error {
         /// Estimated rounding error relative to 1 + |y|. From 0.01 on no digit of the solution is
         /// known, nor one of this number.
         rounding: f64,
-        /// That over the unit roundoff 1.1e-16: an estimate of the condition number, and a lower bound of
-        /// it where no digit is known.
+        /// `rounding` divided by the unit roundoff 1.1e-16: an estimate of the condition number, or a lower
+        /// bound of it where no digit is known.
         condition: f64,
         /// Tolerance asked for.
         tolerance: f64,
@@ -341,7 +341,7 @@ fn of(unknown: Option<&Unknown>) -> String {
     unknown.map_or_else(String::new, |unknown| format!(" of {unknown}"))
 }
 
-/// At most so many conditions are named.
+/// The most conditions that a message names.
 const NAMED: usize = 4;
 
 /// Which conditions fail to determine what.

@@ -4,7 +4,7 @@ use crate::discretisation::scheme::Scheme;
 use crate::result::solution::Solution;
 use std::fmt;
 
-/// What a solution is worth and what it has cost, to be printed: a few lines of at most 80 columns.
+/// The accuracy of a solution and its cost, for printing: a few lines of at most 80 columns.
 ///
 /// ```text
 /// Gauss, 4 stages: 58 intervals in 2 segments, meshes tried: 4
@@ -18,7 +18,7 @@ use std::fmt;
 pub struct Report<'a>(&'a Solution);
 
 impl Solution {
-    /// A summary to be printed; of an iterate that did not converge it says so.
+    /// A summary for printing. For an iterate that did not converge it says so.
     pub fn report(&self) -> Report<'_> {
         Report(self)
     }
@@ -80,7 +80,7 @@ impl fmt::Display for Report<'_> {
 }
 
 impl Report<'_> {
-    /// The largest estimated error and whose it is.
+    /// The largest estimated error and the unknown that has it.
     fn largest_error(&self) -> Option<(f64, String)> {
         let solution = self.0;
         let mut all = vec![];

@@ -38,7 +38,7 @@ pub(crate) struct Quality {
 }
 
 impl Quality {
-    /// Nothing is known.
+    /// The accuracy of an iterate of which nothing is known.
     pub(crate) fn unknown(mesh: &Mesh) -> Self {
         Self {
             defects: Defects::unknown(mesh),
@@ -167,7 +167,7 @@ impl Solution {
         Some(&errors.parameters)
     }
 
-    /// What the solution has cost.
+    /// The cost of the solution.
     pub fn stats(&self) -> &Stats {
         &self.stats
     }

@@ -1,6 +1,6 @@
 //! The cost of a solution.
 
-/// What a solution has cost, over all meshes and including its error estimate.
+/// The cost of a solution, over all meshes and including its error estimate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stats {
     /// Evaluations of the right-hand side at one point, with or without derivatives.
