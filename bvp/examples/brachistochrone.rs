@@ -61,9 +61,7 @@ impl Problem for Slide {
 fn fastest(a: f64, b: f64) -> Result<Solution, Error> {
     let speed = (2.0 * GRAVITY * b).sqrt();
     let guess = Function {
-        state: |_segment: usize, s: f64, y: &mut [f64]| {
-            y.copy_from_slice(&[a * s, b * s, speed * s, FRAC_PI_2 * (1.0 - s)]);
-        },
+        state: |_segment: usize, s: f64| [a * s, b * s, speed * s, FRAC_PI_2 * (1.0 - s)],
         parameters: vec![2.0 * a.hypot(b) / speed, 1.0 / speed],
     };
     let options = Options {

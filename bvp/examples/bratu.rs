@@ -41,10 +41,7 @@ impl Problem for Bratu {
 /// Solves from a sine arch of the given height.
 fn from_arch(lambda: f64, height: f64) -> Result<Solution, Error> {
     let guess = Function {
-        state: |_segment: usize, s: f64, y: &mut [f64]| {
-            y[0] = height * (PI * s).sin();
-            y[1] = height * PI * (PI * s).cos();
-        },
+        state: |_segment: usize, s: f64| [height * (PI * s).sin(), height * PI * (PI * s).cos()],
         parameters: vec![],
     };
     let options = Options {

@@ -84,9 +84,9 @@ fn exact(x: f64) -> f64 {
 
 fn front(a: f64, length: f64, projected: bool) -> Result<Solution, Error> {
     let guess = Function {
-        state: |_segment: usize, x: f64, y: &mut [f64]| {
-            y[0] = 0.5 * (1.0 - (0.5 * x).tanh());
-            y[1] = -y[0] * (1.0 - y[0]);
+        state: |_segment: usize, x: f64| {
+            let height = 0.5 * (1.0 - (0.5 * x).tanh());
+            [height, -height * (1.0 - height)]
         },
         parameters: vec![0.0],
     };

@@ -58,9 +58,7 @@ fn main() -> Result<(), Error> {
         let heat = 2.0 * theta * sinh / cosh;
         // The temperature of a uniform source.
         let guess = Function {
-            state: |_segment: usize, x: f64, y: &mut [f64]| {
-                y.copy_from_slice(&[0.5 * heat * x * (1.0 - x), heat * (0.5 - x), x]);
-            },
+            state: |_segment: usize, x: f64| [0.5 * heat * x * (1.0 - x), heat * (0.5 - x), x],
             parameters: vec![1.0],
         };
         let solution = solve(&Slab { heat }, &guess, &Options::to(1e-9))?;

@@ -47,10 +47,7 @@ fn follow(j: f64) -> Result<Solution, Error> {
         ..Options::default()
     };
     let cosine = Function {
-        state: |_segment: usize, s: f64, y: &mut [f64]| {
-            y[0] = (j * s).cos();
-            y[1] = -j * (j * s).sin();
-        },
+        state: |_segment: usize, s: f64| [(j * s).cos(), -j * (j * s).sin()],
         parameters: vec![j * j],
     };
     let mut solution = solve(&Mathieu { q: 0.0 }, &cosine, &options)?;

@@ -54,9 +54,9 @@ impl Problem for Disk {
 
 fn main() -> Result<(), Error> {
     let guess = Function {
-        state: |_segment: usize, s: f64, y: &mut [f64]| {
+        state: |_segment: usize, s: f64| {
             let decay = (-LENGTH * s / (1.0 - s)).exp();
-            y.copy_from_slice(&[0.0, 0.0, decay, -decay, decay - 1.0]);
+            [0.0, 0.0, decay, -decay, decay - 1.0]
         },
         parameters: vec![],
     };

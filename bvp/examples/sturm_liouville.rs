@@ -58,7 +58,7 @@ impl Problem for Pruefer {
 fn follow(k: u32) -> Result<Solution, Error> {
     let n = f64::from(k + 1);
     let line = Function {
-        state: |_segment: usize, x: f64, y: &mut [f64]| y[0] = n * (x + FRAC_PI_2),
+        state: |_segment: usize, x: f64| [n * (x + FRAC_PI_2)],
         parameters: vec![n * n],
     };
     let options = Options::to(1e-8);

@@ -70,10 +70,7 @@
 //! }
 //!
 //! let guess = Function {
-//!     state: |_segment: usize, s: f64, y: &mut [f64]| {
-//!         y[0] = (4.0 * s).cos();
-//!         y[1] = -4.0 * (4.0 * s).sin();
-//!     },
+//!     state: |_segment: usize, s: f64| [(4.0 * s).cos(), -4.0 * (4.0 * s).sin()],
 //!     parameters: vec![15.0],
 //! };
 //! let solution = solve(&Mathieu, &guess, &Options::to(1e-9))?;

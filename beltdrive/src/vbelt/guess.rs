@@ -71,8 +71,21 @@ impl<'a> Guess<'a> {
         }
     }
 
+    /// Position of a segment among the zones of its pulley.
+    fn zone(&self, segment: usize) -> f64 {
+        let first = self.problem.zones(self.problem.pulley(segment)).start;
+        (segment - first) as f64
+    }
+
+    /// Part of the contact that one zone of `pulley` takes.
+    fn zone_share(&self, pulley: usize) -> f64 {
+        1.0 / self.problem.zones(pulley).len() as f64
+    }
+}
+
+impl bvp::Guess for Guess<'_> {
     /// The state at `s` in \[0, 1\] of a segment. The zones of a pulley have equal lengths.
-    pub(crate) fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
+    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
         let pulley = self.problem.pulley(segment);
         let groove = self.problem.groove(pulley);
         let Contacting {
@@ -117,7 +130,7 @@ impl<'a> Guess<'a> {
     }
 
     /// The parameters; the tight tension is that of the load if it is unknown.
-    pub(crate) fn parameters(&self, p: &mut [f64]) {
+    fn parameters(&self, p: &mut [f64]) {
         let [_, tight] = self.problem.load();
         p.fill(tight.value());
         // The mean depth of the belt, half of that at the tight end, slows it on the driver; the
@@ -136,17 +149,6 @@ impl<'a> Guess<'a> {
             }
         }
     }
-
-    /// Position of a segment among the zones of its pulley.
-    fn zone(&self, segment: usize) -> f64 {
-        let first = self.problem.zones(self.problem.pulley(segment)).start;
-        (segment - first) as f64
-    }
-
-    /// Part of the contact that one zone of `pulley` takes.
-    fn zone_share(&self, pulley: usize) -> f64 {
-        1.0 / self.problem.zones(pulley).len() as f64
-    }
 }
 
 #[cfg(test)]
@@ -155,7 +157,7 @@ mod tests {
     use super::super::{Regime, Scales};
     use super::*;
     use crate::FrictionLaw;
-    use bvp::{Ends, Problem};
+    use bvp::{Ends, Guess as _, Problem};
 
     /// Both ends of every segment, in the layout of `Ends`, and the parameters.
     fn ends(problem: &DriveProblem) -> (Vec<f64>, Vec<f64>) {

@@ -4,7 +4,7 @@
 use super::carried::Carried;
 use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, Guess, Scales};
 use crate::{Drive, FrictionLaw};
-use bvp::{Control, Function, Options, Scheme, Solution, Stats};
+use bvp::{Control, Options, Scheme, Solution, Stats};
 
 /// A solve with at most so many Newton steps lets the next step of a homotopy be twice as long.
 const EASY: usize = 8;
@@ -210,13 +210,7 @@ impl<'a> Path<'a> {
     /// Solves a problem from the frictionless guess.
     pub(super) fn cold(&mut self, problem: DriveProblem, effort: Effort) -> Result<Solved, Stuck> {
         let guess = Guess::new(&problem);
-        let mut parameters = vec![0.0; bvp::Problem::parameters(&problem)];
-        guess.parameters(&mut parameters);
-        let start = Function {
-            state: |segment: usize, s: f64, y: &mut [f64]| guess.state(segment, s, y),
-            parameters,
-        };
-        self.attempt(problem.clone(), &start, effort)
+        self.attempt(problem.clone(), &guess, effort)
             .map_err(|cause| Stuck { last: None, cause })
     }
 

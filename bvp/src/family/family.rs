@@ -17,7 +17,7 @@ use crate::result::stats::Stats;
 use crate::solver::failure::numerical;
 use crate::solver::options::Options;
 use crate::solver::solver::solve_held;
-use crate::solver::statement::check_statement;
+use crate::solver::statement::{check_guess_shape, check_statement};
 use std::sync::Arc;
 
 /// The solutions of a boundary value problem with one condition fewer than unknown constants: a
@@ -89,7 +89,7 @@ impl<'a> Family<'a> {
             }
         }
         check_statement(&problem, fixed.len())?;
-        guess.check_shape(problem.pieces().stated(), k)?;
+        check_guess_shape(&problem, guess)?;
         let mut p = vec![0.0; k];
         guess.parameters(&mut p);
         let first = solve_held(&Held::new(equations, &fixed, &p), guess, options)?;

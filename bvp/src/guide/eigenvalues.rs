@@ -63,10 +63,7 @@
 //! for (k, zero) in (1..).zip(bessel_zeros) {
 //!     let waves = (f64::from(k) - 0.5) * PI;
 //!     let guess = Function {
-//!         state: |_segment: usize, s: f64, y: &mut [f64]| {
-//!             y[0] = (waves * s).cos();
-//!             y[1] = -waves * (waves * s).sin();
-//!         },
+//!         state: |_segment: usize, s: f64| [(waves * s).cos(), -waves * (waves * s).sin()],
 //!         parameters: vec![(1.5 * waves).powi(2)],
 //!     };
 //!     let solution = solve(&Column, &guess, &Options::to(1e-9))?;
@@ -121,7 +118,7 @@
 //! let waves = (f64::from(k) - 0.5) * PI;
 //! let scale = 1.5 * waves;
 //! let guess = Function {
-//!     state: |_segment: usize, s: f64, y: &mut [f64]| y[0] = FRAC_PI_2 + waves * s,
+//!     state: |_segment: usize, s: f64| [FRAC_PI_2 + waves * s],
 //!     parameters: vec![scale * scale],
 //! };
 //! let solution = solve(&Angle { k, scale }, &guess, &Options::to(1e-9))?;

@@ -98,9 +98,7 @@
 //! }
 //!
 //! let guess = Function {
-//!     state: |_segment: usize, x: f64, y: &mut [f64]| {
-//!         y.copy_from_slice(&[4.0 * x * (x - 1.0), 8.0 * x - 4.0, 2.0 * x]);
-//!     },
+//!     state: |_segment: usize, x: f64| [4.0 * x * (x - 1.0), 8.0 * x - 4.0, 2.0 * x],
 //!     parameters: vec![0.2],
 //! };
 //! let solution = solve(&Chain, &guess, &Options::to(1e-9))?;

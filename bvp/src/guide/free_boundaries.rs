@@ -50,10 +50,7 @@
 //! // From a straight line: no length may be guessed as zero.
 //! let surface = 3.0;
 //! let guess = Function {
-//!     state: |_segment: usize, s: f64, y: &mut [f64]| {
-//!         y[0] = surface * (1.0 - s);
-//!         y[1] = -surface;
-//!     },
+//!     state: |_segment: usize, s: f64| [surface * (1.0 - s), -surface],
 //!     parameters: vec![1.0],
 //! };
 //! let solution = solve(&Oxygen { surface }, &guess, &Options::to(1e-9))?;
@@ -107,10 +104,7 @@
 //! }
 //!
 //! let guess = Function {
-//!     state: |_segment: usize, s: f64, y: &mut [f64]| {
-//!         y[0] = 2.0 * (TAU * s).cos();
-//!         y[1] = -2.0 * (TAU * s).sin();
-//!     },
+//!     state: |_segment: usize, s: f64| [2.0 * (TAU * s).cos(), -2.0 * (TAU * s).sin()],
 //!     parameters: vec![TAU],
 //! };
 //! let solution = solve(&Oscillator, &guess, &Options::default())?;

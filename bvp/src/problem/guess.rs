@@ -1,8 +1,6 @@
 //! Initial guesses.
 
-use crate::discretisation::mesh::Mesh;
 use crate::problem::problem::Segment;
-use crate::result::error::Error;
 
 /// A first guess of the solution: constants, a function, a table, or a previous
 /// [`Solution`](crate::Solution) of any scheme on any mesh.
@@ -19,42 +17,19 @@ pub trait Guess {
         None
     }
 
-    /// Checks that the guess has the states and parameters of a problem with these segments and so
-    /// many parameters; called once, after the mesh is found to fit and before anything is written.
-    /// The default accepts everything.
-    ///
-    /// # Errors
-    /// [`Error::GuessStates`] or [`Error::GuessParameters`].
-    fn check_shape(&self, segments: &[Segment], parameters: usize) -> Result<(), Error> {
-        let _ = (segments, parameters);
-        Ok(())
+    /// The number of values that this guess has for the states of a segment, which is number `index`: over
+    /// all nodes of the segment where there is a [`mesh`](Self::mesh), at one place otherwise. A
+    /// number that does not suit the segment is refused before anything is written; `None`, the
+    /// default, is not checked.
+    fn state_values(&self, index: usize, segment: &Segment) -> Option<usize> {
+        let _ = (index, segment);
+        None
     }
-}
 
-/// Compares the numbers of values of each segment and of parameters with those needed.
-pub(crate) fn compare_shape(
-    found: impl Fn(usize) -> usize,
-    needed: impl Iterator<Item = usize>,
-    found_parameters: usize,
-    needed_parameters: usize,
-) -> Result<(), Error> {
-    for (segment, needed) in needed.enumerate() {
-        let found = found(segment);
-        if found != needed {
-            return Err(Error::GuessStates {
-                segment,
-                found,
-                needed,
-            });
-        }
+    /// The number of parameters that this guess has; `None`, the default, is not checked.
+    fn parameter_values(&self) -> Option<usize> {
+        None
     }
-    if found_parameters != needed_parameters {
-        return Err(Error::GuessParameters {
-            found: found_parameters,
-            needed: needed_parameters,
-        });
-    }
-    Ok(())
 }
 
 /// The number of values in a list of segments; none where there is no such segment.
@@ -80,37 +55,60 @@ impl Guess for Constant {
         p.copy_from_slice(&self.parameters);
     }
 
-    fn check_shape(&self, segments: &[Segment], parameters: usize) -> Result<(), Error> {
-        compare_shape(
-            |segment| values(&self.states, segment),
-            segments.iter().map(|segment| segment.states),
-            self.parameters.len(),
-            parameters,
-        )
+    fn state_values(&self, index: usize, _segment: &Segment) -> Option<usize> {
+        Some(values(&self.states, index))
+    }
+
+    fn parameter_values(&self) -> Option<usize> {
+        Some(self.parameters.len())
     }
 }
 
-/// States given by a function of (segment, s) that writes them.
+/// States given by a function of (segment, s) that returns them, as an array or a vector.
+///
+/// ```
+/// use bvp::Function;
+///
+/// // y = sin s and y' = cos s.
+/// let guess = Function {
+///     state: |_segment: usize, s: f64| [s.sin(), s.cos()],
+///     parameters: vec![],
+/// };
+/// ```
 #[derive(Clone, Debug)]
 pub struct Function<F> {
-    /// Writes the states of a segment at s.
+    /// Returns the states of a segment at s, as many as the segment has.
     pub state: F,
     /// The parameters.
     pub parameters: Vec<f64>,
 }
 
-impl<F: Fn(usize, f64, &mut [f64])> Guess for Function<F> {
+impl<F, S> Guess for Function<F>
+where
+    F: Fn(usize, f64) -> S,
+    S: AsRef<[f64]>,
+{
     fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
-        (self.state)(segment, s, y);
+        let states = (self.state)(segment, s);
+        let states = states.as_ref();
+        if states.len() == y.len() {
+            y.copy_from_slice(states);
+        } else {
+            // Their number was right at the start of the segment; a guess that is not a number is refused.
+            y.fill(f64::NAN);
+        }
     }
 
     fn parameters(&self, p: &mut [f64]) {
         p.copy_from_slice(&self.parameters);
     }
 
-    fn check_shape(&self, _segments: &[Segment], parameters: usize) -> Result<(), Error> {
-        let none = std::iter::empty();
-        compare_shape(|_| 0, none, self.parameters.len(), parameters)
+    fn state_values(&self, index: usize, segment: &Segment) -> Option<usize> {
+        Some((self.state)(index, segment.from).as_ref().len())
+    }
+
+    fn parameter_values(&self) -> Option<usize> {
+        Some(self.parameters.len())
     }
 }
 
@@ -140,19 +138,15 @@ impl Guess for Table {
         p.copy_from_slice(&self.parameters);
     }
 
-    fn check_shape(&self, segments: &[Segment], parameters: usize) -> Result<(), Error> {
-        compare_shape(
-            |segment| values(&self.states, segment),
-            segments
-                .iter()
-                .zip(&self.nodes)
-                .map(|(segment, nodes)| segment.states * nodes.len()),
-            self.parameters.len(),
-            parameters,
-        )
+    fn state_values(&self, index: usize, _segment: &Segment) -> Option<usize> {
+        Some(values(&self.states, index))
     }
 
-    fn mesh(&self) -> Option<Mesh> {
+    fn parameter_values(&self) -> Option<usize> {
+        Some(self.parameters.len())
+    }
+
+    fn mesh(&self) -> Option<Vec<Vec<f64>>> {
         Some(self.nodes.clone())
     }
 }

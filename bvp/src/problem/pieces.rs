@@ -8,7 +8,6 @@
 //! dy/dt = −f(−t, y, p),    −from ≤ t ≤ −to
 //! ```
 
-use crate::discretisation::mesh::Mesh;
 use crate::problem::problem::Segment;
 
 /// The pieces of the segments of a problem.
@@ -117,7 +116,7 @@ impl Pieces {
     }
 
     /// The mesh of the pieces that has the nodes of a mesh of the segments, and the joined points.
-    pub(crate) fn divide(&self, mesh: &[Vec<f64>]) -> Mesh {
+    pub(crate) fn divide(&self, mesh: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let nodes = |(piece, origin): (&Segment, &Origin)| {
             let sign = sign(origin.reversed);
             let all = mesh[origin.segment].iter().map(|s| sign * s);

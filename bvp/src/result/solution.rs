@@ -9,13 +9,12 @@ use crate::discretisation::scheme::Scheme;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::{add_scaled, max_or_nan};
 use crate::problem::guess::Guess;
-use crate::problem::guess::{compare_shape, interval_of};
+use crate::problem::guess::interval_of;
 use crate::problem::problem::Segment;
-use crate::result::error::Error;
 use crate::result::stats::Stats;
 use std::sync::Arc;
 
-/// A solution (or, in an [`Error`], the best iterate): a collocation polynomial on
+/// A solution (or, in an [`Error`](crate::Error), the best iterate): a collocation polynomial on
 /// every interval, the parameters, and what is known of their accuracy.
 #[derive(Clone, Debug)]
 pub struct Solution {
@@ -63,6 +62,41 @@ impl Solution {
         self.add_stages(segment, i, &weights, h, y);
     }
 
+    /// The states of `segment` at all of `places`, in any order, into `states`: n numbers a place, one
+    /// place after the other. Each is that of [`state`](Self::state).
+    ///
+    /// ```
+    /// # use bvp::{Constant, Ends, FiniteDifferences, Options, Segment, solve};
+    /// # let problem = FiniteDifferences {
+    /// #     segments: vec![Segment::new(2)],
+    /// #     parameters: 0,
+    /// #     condition_count: 2,
+    /// #     rhs: |_: usize, _s: f64, y: &[f64], _p: &[f64], dy: &mut [f64]| {
+    /// #         dy.copy_from_slice(&[y[1], 0.0]);
+    /// #     },
+    /// #     conditions: |at: Ends<'_, f64>, _p: &[f64], r: &mut [f64]| {
+    /// #         r.copy_from_slice(&[at.start(0)[0], at.end(0)[0] - 1.0]);
+    /// #     },
+    /// # };
+    /// # let guess = Constant { states: vec![vec![0.0; 2]], parameters: vec![] };
+    /// # let solution = solve(&problem, &guess, &Options::default())?;
+    /// // The straight line from (0, 0) to (1, 1), with its slope.
+    /// let mut states = [0.0; 4];
+    /// solution.states(0, &[0.25, 0.5], &mut states);
+    /// assert!((states[0] - 0.25).abs() < 1e-12 && (states[2] - 0.5).abs() < 1e-12);
+    /// # Ok::<(), bvp::Error>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If there is no such segment, or the numbers of places and states do not suit each other.
+    pub fn states(&self, segment: usize, places: &[f64], states: &mut [f64]) {
+        let n = self.segments[segment].states;
+        assert_eq!(states.len(), n * places.len(), "n states a place");
+        for (s, y) in places.iter().zip(states.chunks_exact_mut(n)) {
+            self.state(segment, *s, y);
+        }
+    }
+
     /// The derivatives dy/ds of the continuous solution of `segment` at `s`, into `slope`.
     ///
     /// # Panics
@@ -81,7 +115,7 @@ impl Solution {
         &self.x.p
     }
 
-    /// The mesh nodes of a segment, ascending.
+    /// The mesh nodes of a segment from its start to its end, joined points among them.
     ///
     /// # Panics
     /// If there is no such segment.
@@ -98,7 +132,7 @@ impl Solution {
         &self.x.segments[segment].nodes[node * n..][..n]
     }
 
-    /// The states at the left end of a segment.
+    /// The states at the start of a segment.
     ///
     /// # Panics
     /// If there is no such segment.
@@ -106,7 +140,7 @@ impl Solution {
         self.node(segment, 0)
     }
 
-    /// The states at the right end of a segment.
+    /// The states at the end of a segment.
     ///
     /// # Panics
     /// If there is no such segment.
@@ -172,7 +206,7 @@ impl Solution {
         &self.stats
     }
 
-    /// The interval with the largest defect: its segment, left end and length.
+    /// The interval with the largest defect: its segment, start and length.
     pub(crate) fn worst_interval(&self) -> (usize, f64, f64) {
         let (mut worst, mut place) = (f64::NEG_INFINITY, (0, f64::NAN, f64::NAN));
         for (segment, (nodes, defects)) in self
@@ -221,12 +255,11 @@ impl Guess for Solution {
         Some(self.mesh.clone())
     }
 
-    fn check_shape(&self, segments: &[Segment], parameters: usize) -> Result<(), Error> {
-        compare_shape(
-            |segment| self.segments.get(segment).map_or(0, |s| s.states),
-            segments.iter().map(|segment| segment.states),
-            self.x.p.len(),
-            parameters,
-        )
+    fn state_values(&self, index: usize, _segment: &Segment) -> Option<usize> {
+        Some(self.x.segments.get(index).map_or(0, |x| x.nodes.len()))
+    }
+
+    fn parameter_values(&self) -> Option<usize> {
+        Some(self.x.p.len())
     }
 }

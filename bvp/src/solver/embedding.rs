@@ -213,8 +213,12 @@ impl Guess for WithValue<'_> {
         self.guess.mesh()
     }
 
-    fn check_shape(&self, segments: &[Segment], parameters: usize) -> Result<(), Error> {
-        self.guess.check_shape(segments, parameters)
+    fn state_values(&self, index: usize, segment: &Segment) -> Option<usize> {
+        self.guess.state_values(index, segment)
+    }
+
+    fn parameter_values(&self) -> Option<usize> {
+        self.guess.parameter_values()
     }
 }
 

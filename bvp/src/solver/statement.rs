@@ -97,12 +97,35 @@ pub(crate) fn first_mesh(
             pieces.divide(&mesh)
         }
     };
-    guess.check_shape(segments, equations.parameters())?;
+    check_guess_shape(equations, guess)?;
     let (intervals, limit) = (intervals(&mesh), options.max_intervals);
     if intervals > limit {
         return Err(Error::FirstMesh { intervals, limit });
     }
     Ok(mesh)
+}
+
+/// Checks that a guess has the states and parameters of a problem.
+pub(crate) fn check_guess_shape(equations: &Held<'_>, guess: &dyn Guess) -> Result<(), Error> {
+    let mesh = guess.mesh();
+    for (index, segment) in equations.pieces().stated().iter().enumerate() {
+        let nodes = mesh.as_ref().and_then(|mesh| mesh.get(index));
+        let needed = segment.states * nodes.map_or(1, Vec::len);
+        let found = guess.state_values(index, segment).unwrap_or(needed);
+        if found != needed {
+            return Err(Error::GuessStates {
+                segment: index,
+                found,
+                needed,
+            });
+        }
+    }
+    let needed = equations.parameters();
+    let found = guess.parameter_values().unwrap_or(needed);
+    if found != needed {
+        return Err(Error::GuessParameters { found, needed });
+    }
+    Ok(())
 }
 
 /// So many equal intervals for every segment, shared among its pieces by their lengths.

@@ -8,7 +8,6 @@
 //! boundary value problems", ACM Trans. Math. Softw. 27 (2001) 245-266.
 
 use crate::problem::guess::Guess;
-use crate::problem::problem::Segment;
 use crate::result::error::Error;
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
@@ -145,10 +144,6 @@ impl Guess for Secant<'_> {
 
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {
         Guess::mesh(self.last)
-    }
-
-    fn check_shape(&self, segments: &[Segment], parameters: usize) -> Result<(), Error> {
-        self.last.check_shape(segments, parameters)
     }
 }
 

@@ -124,9 +124,7 @@ proptest! {
         let imaginary = -0.5 * ((n + 1.0) / (n - 1.0)).ln();
         // The wave of a slab that does not leak.
         let guess = Function {
-            state: |_: usize, s: f64, y: &mut [f64]| {
-                y.copy_from_slice(&[(real * s).sin(), 0.0, real * (real * s).cos(), 0.0]);
-            },
+            state: |_: usize, s: f64| [(real * s).sin(), 0.0, real * (real * s).cos(), 0.0],
             parameters: vec![real, -0.1],
         };
         let solution = solve(&Slab { n }, &guess, &Options::to(1e-10)).unwrap();

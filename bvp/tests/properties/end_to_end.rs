@@ -9,12 +9,9 @@ pub(crate) struct Mathieu;
 
 impl Mathieu {
     /// Four half waves and λ = 15.
-    pub(crate) fn guess() -> Function<fn(usize, f64, &mut [f64])> {
+    pub(crate) fn guess() -> Function<fn(usize, f64) -> [f64; 2]> {
         Function {
-            state: |_, s, y| {
-                y[0] = (4.0 * s).cos();
-                y[1] = -4.0 * (4.0 * s).sin();
-            },
+            state: |_, s| [(4.0 * s).cos(), -4.0 * (4.0 * s).sin()],
             parameters: vec![15.0],
         }
     }
@@ -61,12 +58,9 @@ pub(crate) struct FitzHughNagumo;
 
 impl FitzHughNagumo {
     /// A circle and the period 2π.
-    pub(crate) fn guess() -> Function<fn(usize, f64, &mut [f64])> {
+    pub(crate) fn guess() -> Function<fn(usize, f64) -> [f64; 2]> {
         Function {
-            state: |_, s, y| {
-                y[0] = 2.0 * (2.0 * PI * s).sin();
-                y[1] = (2.0 * PI * s).cos();
-            },
+            state: |_, s| [2.0 * (2.0 * PI * s).sin(), (2.0 * PI * s).cos()],
             parameters: vec![2.0 * PI],
         }
     }

@@ -2,13 +2,94 @@
 
 use crate::end_to_end::Mathieu;
 use crate::exact::{bratu, exponential};
-use bvp::{Constant, Control, Function, Guess, Options, Scheme, Segment, Solution, Table, solve};
+use bvp::{
+    Constant, Control, Ends, Error, Function, Guess, Options, Problem, Real, Scheme, Segment,
+    Solution, Table, solve,
+};
 
 fn options() -> Options {
     Options {
         tolerance: 1e-8,
         ..Options::default()
     }
+}
+
+/// The states at many places are those at each of them, in any order.
+#[test]
+fn states_at_many_places_are_those_at_each() {
+    let problem = Growing;
+    let guess = Function {
+        state: |segment: usize, s: f64| vec![s; segment + 1],
+        parameters: vec![],
+    };
+    let solution = solve(&problem, &guess, &Options::to(1e-9)).unwrap();
+    let places = [0.7, 0.0, 0.31, 1.0, 0.31, 0.699];
+    for segment in 0..2 {
+        let n = segment + 1;
+        let mut states = vec![f64::NAN; n * places.len()];
+        solution.states(segment, &places, &mut states);
+        let mut y = vec![f64::NAN; n];
+        for (s, found) in places.iter().zip(states.chunks(n)) {
+            solution.state(segment, *s, &mut y);
+            assert_eq!(found, y);
+            assert!((y[n - 1] - s.exp()).abs() < 1e-8);
+        }
+    }
+    solution.states(0, &[], &mut []);
+}
+
+/// eˢ on a segment with one state, and on one with two.
+struct Growing;
+
+impl Problem for Growing {
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(1), Segment::new(2)]
+    }
+
+    fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
+        dy.copy_from_slice(y);
+    }
+
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+        r[0] = at.start(0)[0] - 1.0;
+        r[1] = at.start(1)[0] - 1.0;
+        r[2] = at.start(1)[1] - 1.0;
+    }
+}
+
+/// A function that returns too few or too many states is refused before anything is evaluated, and one
+/// that does so at some places only where it is found to.
+#[test]
+fn functions_with_a_wrong_number_of_states_are_refused() {
+    for wrong in 0..2usize {
+        for found in (0..5).filter(|found| *found != wrong + 1) {
+            let guess = Function {
+                state: |segment: usize, _: f64| {
+                    vec![1.0; if segment == wrong { found } else { segment + 1 }]
+                },
+                parameters: vec![],
+            };
+            let error = solve(&Growing, &guess, &Options::default()).unwrap_err();
+            let Error::GuessStates {
+                segment,
+                found: stated,
+                needed,
+            } = error
+            else {
+                panic!("{error}");
+            };
+            assert_eq!((segment, stated, needed), (wrong, found, wrong + 1));
+        }
+    }
+    let changing = Function {
+        state: |segment: usize, s: f64| vec![1.0; if s > 0.5 { 7 } else { segment + 1 }],
+        parameters: vec![],
+    };
+    let error = solve(&Growing, &changing, &Options::default()).unwrap_err();
+    assert!(
+        matches!(error, Error::Guess { segment: 0, s } if s > 0.2),
+        "{error}"
+    );
 }
 
 #[test]
@@ -19,10 +100,7 @@ fn constant_function_and_table_reach_the_same_solution() {
         parameters: vec![],
     };
     let function = Function {
-        state: |_: usize, s: f64, y: &mut [f64]| {
-            y[0] = s * (1.0 - s);
-            y[1] = 1.0 - 2.0 * s;
-        },
+        state: |_: usize, s: f64| [s * (1.0 - s), 1.0 - 2.0 * s],
         parameters: vec![],
     };
     let table = Table {

@@ -103,12 +103,11 @@ fn by_differences() -> impl Equations {
 }
 
 /// Half a swing from 1 to about −0.8.
-fn guess() -> Function<fn(usize, f64, &mut [f64])> {
+fn guess() -> Function<fn(usize, f64) -> [f64; 2]> {
     Function {
-        state: |_, s, y| {
+        state: |_, s| {
             let angle = std::f64::consts::PI * s;
-            y[0] = 0.1 + 0.9 * angle.cos();
-            y[1] = -0.9 * angle.sin();
+            [0.1 + 0.9 * angle.cos(), -0.9 * angle.sin()]
         },
         parameters: vec![3.3, 0.1],
     }

@@ -169,9 +169,9 @@ fn oscillator(joined: bool) -> impl bvp::Equations {
     }
 }
 
-fn sine_guess() -> Function<impl Fn(usize, f64, &mut [f64])> {
+fn sine_guess() -> Function<impl Fn(usize, f64) -> [f64; 2]> {
     Function {
-        state: |_: usize, s: f64, y: &mut [f64]| y.copy_from_slice(&[0.5 * (2.0 * s).sin(), 1.0]),
+        state: |_: usize, s: f64| [0.5 * (2.0 * s).sin(), 1.0],
         parameters: vec![3.0],
     }
 }

@@ -36,7 +36,7 @@ fn layer(skip: bool) -> Solution {
         r[3] = p[0] - at.end(1)[0];
     };
     let guess = Function {
-        state: |_: usize, _: f64, y: &mut [f64]| y.fill(1.0),
+        state: |segment: usize, _: f64| vec![1.0; segment + 1],
         parameters: vec![1.0],
     };
     let options = Options {

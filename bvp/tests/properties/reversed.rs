@@ -45,9 +45,9 @@ impl Problem for Growth {
     }
 }
 
-fn guess() -> Function<impl Fn(usize, f64, &mut [f64])> {
+fn guess() -> Function<impl Fn(usize, f64) -> [f64; 2]> {
     Function {
-        state: |_: usize, s: f64, y: &mut [f64]| y.copy_from_slice(&[s, 1.0]),
+        state: |_: usize, s: f64| [s, 1.0],
         parameters: vec![1.0],
     }
 }

@@ -37,7 +37,7 @@ impl Problem for Pruefer {
 
 fn pruefer(c: [f64; 2], n: f64) -> Solution {
     let guess = Function {
-        state: |_: usize, s: f64, y: &mut [f64]| y[0] = n * s,
+        state: |_: usize, s: f64| [n * s],
         parameters: vec![n * n + c[0] * (PI.exp() - 1.0) / PI],
     };
     solve(&Pruefer { c, n }, &guess, &Options::to(1e-9)).unwrap()
@@ -88,12 +88,12 @@ proptest! {
         let angle = pruefer(c, f64::from(n));
         let problem = SturmLiouville { c, n: f64::from(n) };
         let guess = Function {
-            state: |_: usize, s: f64, y: &mut [f64]| {
-                let mut theta = [0.0];
+            state: |_: usize, s: f64| {
+let mut theta = [0.0];
                 angle.state(0, s, &mut theta);
                 let (sin, cos) = theta[0].sin_cos();
-                y.copy_from_slice(&[sin, problem.n * cos]);
-            },
+[sin, problem.n * cos]
+},
             parameters: angle.parameters().to_vec(),
         };
         let solution = solve(&problem, &guess, &Options::to(1e-9)).unwrap();

@@ -54,9 +54,9 @@ fn infinite_intervals_cut_off_and_mapped_agree_with_published_values() {
                 mapped,
             };
             let guess = Function {
-                state: |_: usize, s: f64, y: &mut [f64]| {
+                state: |_: usize, s: f64| {
                     let decay = (-problem.place(s).0).exp();
-                    y.copy_from_slice(&[decay - 1.0, -decay, decay]);
+                    [decay - 1.0, -decay, decay]
                 },
                 parameters: vec![],
             };
@@ -110,9 +110,9 @@ impl Problem for Front {
 fn front_error(a: f64, length: f64, projected: bool) -> f64 {
     let segments = [Segment::on(2, -length, 0.0), Segment::on(2, 0.0, length)];
     let guess = Function {
-        state: |_: usize, x: f64, y: &mut [f64]| {
-            y[0] = 0.5 * (1.0 - (0.5 * x).tanh());
-            y[1] = -y[0] * (1.0 - y[0]);
+        state: |_: usize, x: f64| {
+            let height = 0.5 * (1.0 - (0.5 * x).tanh());
+            [height, -height * (1.0 - height)]
         },
         parameters: vec![0.0],
     };
