@@ -39,11 +39,29 @@
 //!
 //! # Example
 //!
-//! The fourth eigenvalue of Mathieu's equation y'' + (λ − 2q cos 2s) y = 0 for q = 5, even and of
+//! Bratu's problem y'' + eʸ = 0 with y(0) = y(1) = 0, as two equations of first order for the states
+//! (y, y'), stated by closures:
+//!
+//! ```
+//! use bvp::{Constant, Options, Real, TwoPoint, solve};
+//!
+//! let bratu = TwoPoint::new(
+//!     [2, 0], // two states, no unknown parameters
+//!     [0.0, 1.0],
+//!     |_s, y, _p, dy| dy.copy_from_slice(&[y[1], -y[0].exp()]),
+//!     |start, end, _p, r| r.copy_from_slice(&[start[0], end[0]]),
+//! );
+//! let solution = solve(&bratu, &Constant::new([0.0, 0.0]), &Options::default())?;
+//! println!("y'(0) = {:.6}", solution.start(0)[1]);
+//! # assert_eq!(format!("{:.6}", solution.start(0)[1]), "0.549353");
+//! # Ok::<(), bvp::Error>(())
+//! ```
+//!
+//! In general a problem is a type with a right-hand side that is generic in its scalar [`Real`]. The fourth eigenvalue of Mathieu's equation y'' + (λ − 2q cos 2s) y = 0 for q = 5, even and of
 //! period π, the amplitude fixed by y(0) = 1: two states, one parameter, three conditions.
 //!
 //! ```
-//! use bvp::{Ends, Function, Options, Problem, Real, Segment, solve};
+//! use bvp::{Ends, Function, LeftOf, Options, Problem, Real, Segment, solve};
 //! use std::f64::consts::PI;
 //!
 //! struct Mathieu;
@@ -57,9 +75,12 @@
 //!         1
 //!     }
 //!
-//!     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
+//!     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T])
+//!     where
+//!         f64: LeftOf<T>, // for numbers on the left of a T
+//!     {
 //!         dy[0] = y[1];
-//!         dy[1] = -(p[0] - (s * 2.0).cos() * 10.0) * y[0];
+//!         dy[1] = -(p[0] - 10.0 * (2.0 * s).cos()) * y[0];
 //!     }
 //!
 //!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
@@ -82,8 +103,7 @@
 //! # Ok::<(), bvp::Error>(())
 //! ```
 //!
-//! The right-hand side is generic in its scalar [`Real`], so the solver has exact Jacobians
-//! without being given any.
+//! Either way the solver has exact Jacobians without being given any.
 //!
 //! Where a parameter is left free, the solutions form a curve. [`Family`] is the discretised problem as
 //! the curve sees it, for a continuation method; [`guide::families`] has an example.
@@ -168,10 +188,10 @@ mod problem;
 mod result;
 mod solver;
 
-pub use accuracy::conditioning::{Conditioning, conditioning};
+pub use accuracy::conditioning::Conditioning;
 pub use discretisation::scheme::Scheme;
 pub use family::family::Family;
-pub use problem::check::{Differenced, JacobianCheck, Place, check_jacobians};
+pub use problem::check::{JacobianCheck, check_jacobians};
 pub use problem::complex::Complex;
 pub use problem::difference::FiniteDifferences;
 pub use problem::dual::Dual;
@@ -179,9 +199,9 @@ pub use problem::equations::{Equations, Shape};
 pub use problem::guess::{Constant, Function, Guess, Table};
 pub use problem::problem::{Ends, Problem, Segment};
 pub use problem::real::{LeftOf, Real};
+pub use problem::two_point::TwoPoint;
 pub use problem::unknown::Unknown;
 pub use result::error::Error;
-pub use result::report::Report;
 pub use result::solution::Solution;
 pub use result::stats::Stats;
 pub use solver::embedding::{Embedding, solve_embedded};

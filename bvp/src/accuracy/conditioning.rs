@@ -69,14 +69,11 @@ pub struct Conditioning {
     pub rounding: f64,
 }
 
-/// The [`Conditioning`] of a problem at its solution: one linearisation on the mesh of the solution,
-/// and a solve for each condition and, for κ₂, up to 64 for each state. Maxima are over the nodes.
-///
-/// # Errors
-/// Statement errors as of [`solve`](crate::solve) if the equations are not those of the solution;
-/// [`Error::NonFiniteRhs`], [`Error::NonFiniteCondition`], [`Error::SingularNode`] or
-/// [`Error::SingularConditions`], with the solution, if they cannot be linearised there.
-pub fn conditioning(equations: &dyn Equations, solution: &Solution) -> Result<Conditioning, Error> {
+/// See [`Solution::conditioning`].
+pub(crate) fn conditioning(
+    equations: &dyn Equations,
+    solution: &Solution,
+) -> Result<Conditioning, Error> {
     let equations = Held::none(equations);
     check_statement(&equations, 0)?;
     let any_size = Options {

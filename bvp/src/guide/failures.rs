@@ -12,8 +12,8 @@
 //! | [`SingularConditions`](Error::SingularConditions) | At the iterate the conditions do not determine the solution | 1. Two conditions that say the same? 2. A constant, a phase or an amplitude left free? 3. A guess of zero, where a product vanishes. 4. A normalisation that the solution cannot meet ([`eigenvalues`](super::eigenvalues)). 5. A [fold](super::families) |
 //! | [`SingularNode`](Error::SingularNode) | Stages on an interval are not determined: rare, and a matter of its length | Another [`Options::initial_intervals`] |
 //! | [`Unreached`](Error::Unreached) | [`solve_embedded`] came to a halt on the way | 1. Is the value reached [a fold](super::families)? 2. Another parameter, another start |
-//! | [`MeshLimit`](Error::MeshLimit) | More intervals needed than allowed | 1. Where are the nodes? Dense at a kink or jump: a junction. Dense everywhere: noise in the right-hand side, such as interpolated data or an inner iteration. 2. [`conditioning`]. 3. Larger [`Options::max_intervals`], from the best iterate. 4. Larger tolerance |
-//! | [`Unresolved`](Error::Unresolved) | No mesh helps, or intervals shrank to the spacing of numbers | 1. A kink, jump or singularity at the place named: a junction, or a substitution ([`forms`](super::forms)). 2. [`conditioning`] |
+//! | [`MeshLimit`](Error::MeshLimit) | More intervals needed than allowed | 1. Where are the nodes? Dense at a kink or jump: a junction. Dense everywhere: noise in the right-hand side, such as interpolated data or an inner iteration. 2. [`conditioning`](Solution::conditioning). 3. Larger [`Options::max_intervals`], from the best iterate. 4. Larger tolerance |
+//! | [`Unresolved`](Error::Unresolved) | No mesh helps, or intervals shrank to the spacing of numbers | 1. A kink, jump or singularity at the place named: a junction, or a substitution ([`forms`](super::forms)). 2. [`conditioning`](Solution::conditioning) |
 //! | [`ConditionViolated`](Error::ConditionViolated) | Newton's method has converged, yet a condition does not hold | Its derivative is wrong, or it is not smooth |
 //! | [`IllConditioned`](Error::IllConditioned) | Rounding alone changes the solution by more than the tolerance | [Ill-conditioned problems](#ill-conditioned-problems) |
 //! | A solution, but the wrong one | There are several | Another guess; [`families`](super::families) finds how they are connected |
@@ -74,7 +74,7 @@
 //!
 //! ```
 //! # use bvp::{Constant, Ends, Problem, Real, Segment};
-//! use bvp::{Differenced, check_jacobians};
+//! use bvp::{FiniteDifferences, check_jacobians};
 //! # struct Pendulum;
 //! # impl Problem for Pendulum {
 //! #     fn segments(&self) -> Vec<Segment> {
@@ -91,8 +91,8 @@
 //! # }
 //! # let by_hand = Pendulum;
 //! # let guess = Constant { states: vec![vec![0.7, -0.3]], parameters: vec![] };
-//! let check = check_jacobians(&by_hand, &Differenced(&by_hand), &guess);
-//! assert!(check.difference < 1e-8, "{:?}", check.place);
+//! let check = check_jacobians(&by_hand, &FiniteDifferences::of(&by_hand), &guess);
+//! assert!(check.difference < 1e-8, "{check:?}");
 //! ```
 //!
 //! A large difference where the right-hand side is a [`Problem`](crate::Problem) means that it is not
@@ -111,12 +111,11 @@
 //!
 //! # Ill-conditioned problems
 //!
-//! [`conditioning`] says how much of changes of the conditions (κ₁) and of the equations (κ₂) arrives in
+//! [`conditioning`](Solution::conditioning) says how much of changes of the conditions (κ₁) and of the equations (κ₂) arrives in
 //! the solution, and how much rounding makes of it:
 //!
 //! ```
 //! # use bvp::{Constant, Ends, Options, Problem, Real, Segment, solve};
-//! use bvp::conditioning;
 //!
 //! /// ε y″ = s y′ − y, y(−1) = 1, y(1) = 2.
 //! struct TwoLayers {
@@ -139,7 +138,7 @@
 //! // Harmless: what layers of the width 1/10 make of slopes.
 //! let problem = TwoLayers { epsilon: 0.1 };
 //! let solution = solve(&problem, &guess, &Options::to(1e-3))?;
-//! let harmless = conditioning(&problem, &solution)?;
+//! let harmless = solution.conditioning(&problem)?;
 //! assert!(harmless.kappa < 1e3 && harmless.rounding < 1e-10);
 //!
 //! // A multiple of s is fixed by the conditions through both layers only: refused.
@@ -147,7 +146,7 @@
 //! let error = solve(&problem, &guess, &Options::to(1e-3)).unwrap_err();
 //! println!("{error}");
 //! let best = error.best().expect("the iterate of a numerical failure");
-//! let hopeless = conditioning(&problem, best)?;
+//! let hopeless = best.conditioning(&problem)?;
 //! assert!(hopeless.kappa > 1e10 && hopeless.rounding > 1e-3);
 //! # Ok::<(), bvp::Error>(())
 //! ```
@@ -168,4 +167,4 @@
 //! solution, solve to a smaller tolerance, from another guess, and with another [`Scheme`].
 
 #[cfg(doc)]
-use crate::{Error, Options, Scheme, conditioning, solve_embedded};
+use crate::{Error, Options, Scheme, Solution, solve_embedded};

@@ -107,7 +107,7 @@
 //! | method | Lobatto IIIA, order 4; 5 | Lobatto IIIA, order 4 | Gauss, `ipar(2)` points | deferred correction, orders 4, 6, 8 | Gauss, 6 or 7 points; others by [`Options::scheme`] |
 //! | value at x | `deval(sol, x)` | `sol.sol(x)` | `appsln` | at the mesh only | [`Solution::state`], [`Solution::derivative`] |
 //! | success | a warning or an error if not | `sol.status` | `iflag` | `iflbvp` | `Result` |
-//! | conditioning | – | – | – | `ckappa1`, `gamma1`, … | [`conditioning`](crate::conditioning()) |
+//! | conditioning | – | – | – | `ckappa1`, `gamma1`, … | [`conditioning`](crate::Solution::conditioning) |
 //! | from easy to hard | a loop | a loop | a loop | a loop | [`solve_embedded`](crate::solve_embedded), [`families`](super::families) |
 //!
 //! `bvp4c` and `solve_bvp` hold the residual of the differential equations, here called the defect, to

@@ -105,19 +105,68 @@ fn differentiate(
 ) {
     // The smallest of a few widths that carries all directions in one pass.
     match z.len() + p.len() {
-        0..=2 => one_pass::<2>(function, z, p, value, jacobian),
-        3..=4 => one_pass::<4>(function, z, p, value, jacobian),
-        5..=6 => one_pass::<6>(function, z, p, value, jacobian),
-        7..=10 => one_pass::<10>(function, z, p, value, jacobian),
-        11..=16 => one_pass::<16>(function, z, p, value, jacobian),
-        17..=WIDEST => one_pass::<WIDEST>(function, z, p, value, jacobian),
-        _ => in_passes(function, z, p, value, jacobian),
+        0..=2 => one_pass::<2>(|z, p, v| function.evaluate(z, p, v), z, p, value, jacobian),
+        3..=4 => one_pass::<4>(|z, p, v| function.evaluate(z, p, v), z, p, value, jacobian),
+        5..=6 => one_pass::<6>(|z, p, v| function.evaluate(z, p, v), z, p, value, jacobian),
+        7..=10 => one_pass::<10>(|z, p, v| function.evaluate(z, p, v), z, p, value, jacobian),
+        11..=16 => one_pass::<16>(|z, p, v| function.evaluate(z, p, v), z, p, value, jacobian),
+        _ => {
+            differentiate_by::<WIDEST>(|z, p, v| function.evaluate(z, p, v), z, p, value, jacobian)
+        }
+    }
+}
+
+/// The same of a function of dual numbers of one width.
+pub(crate) fn differentiate_by<const W: usize>(
+    function: impl Fn(&[Dual<W>], &[Dual<W>], &mut [Dual<W>]),
+    z: &[f64],
+    p: &[f64],
+    value: &mut [f64],
+    jacobian: &mut [f64],
+) {
+    if z.len() + p.len() <= W {
+        one_pass(function, z, p, value, jacobian);
+    } else {
+        in_passes(function, z, p, value, jacobian);
+    }
+}
+
+/// The value of a function of dual numbers with at most as many values as arguments.
+pub(crate) fn value_by<const W: usize>(
+    function: impl Fn(&[Dual<W>], &[Dual<W>], &mut [Dual<W>]),
+    z: &[f64],
+    p: &[f64],
+    value: &mut [f64],
+) {
+    let count = z.len() + p.len();
+    let constants = || z.iter().chain(p).map(|&x| Dual::constant(x));
+    let unwritten = Dual::constant(f64::NAN);
+    let mut evaluate = |arguments: &[Dual<W>], values: &mut [Dual<W>]| {
+        let (zs, ps) = arguments.split_at(z.len());
+        let values = &mut values[..value.len()];
+        function(zs, ps, values);
+        for (value, dual) in value.iter_mut().zip(values) {
+            *value = dual.value;
+        }
+    };
+    if count <= W {
+        let (mut arguments, mut values) = ([unwritten; W], [unwritten; W]);
+        arguments
+            .iter_mut()
+            .zip(constants())
+            .for_each(|(to, x)| *to = x);
+        evaluate(&arguments[..count], &mut values);
+    } else {
+        evaluate(
+            &constants().collect::<Vec<_>>(),
+            &mut vec![unwritten; count],
+        );
     }
 }
 
 /// All directions at once, on the stack.
 fn one_pass<const W: usize>(
-    function: &impl Differentiable,
+    function: impl Fn(&[Dual<W>], &[Dual<W>], &mut [Dual<W>]),
     z: &[f64],
     p: &[f64],
     value: &mut [f64],
@@ -130,7 +179,7 @@ fn one_pass<const W: usize>(
     }
     let mut values = [Dual::<W>::constant(f64::NAN); W];
     let (zs, ps) = arguments[..columns].split_at(z.len());
-    function.evaluate(zs, ps, &mut values[..value.len()]);
+    function(zs, ps, &mut values[..value.len()]);
     specialise!(columns in [1, 2, 3, 4, 5, 6] => write(&values, value, jacobian, columns));
 }
 
@@ -149,32 +198,31 @@ fn write<const W: usize>(
     }
 }
 
-/// [`WIDEST`] directions per pass. The only evaluation that allocates: beside so many arguments
-/// two buffers cost nothing.
-fn in_passes(
-    function: &impl Differentiable,
+/// W directions per pass. Allocates: beside so many arguments two buffers cost nothing.
+fn in_passes<const W: usize>(
+    function: impl Fn(&[Dual<W>], &[Dual<W>], &mut [Dual<W>]),
     z: &[f64],
     p: &[f64],
     value: &mut [f64],
     jacobian: &mut [f64],
 ) {
     let columns = z.len() + p.len();
-    let mut arguments: Vec<Dual<WIDEST>> = z.iter().chain(p).map(|&x| Dual::constant(x)).collect();
+    let mut arguments: Vec<Dual<W>> = z.iter().chain(p).map(|&x| Dual::constant(x)).collect();
     let mut values = vec![Dual::constant(f64::NAN); value.len()];
-    for first in (0..columns).step_by(WIDEST) {
-        let width = WIDEST.min(columns - first);
+    for first in (0..columns).step_by(W) {
+        let width = W.min(columns - first);
         for direction in 0..width {
             arguments[first + direction].gradient[direction] = 1.0;
         }
         let (zs, ps) = arguments.split_at(z.len());
-        function.evaluate(zs, ps, &mut values);
+        function(zs, ps, &mut values);
         for (i, dual) in values.iter().enumerate() {
             value[i] = dual.value;
             let row = &mut jacobian[i * columns + first..][..width];
             row.copy_from_slice(&dual.gradient[..width]);
         }
         for argument in &mut arguments[first..first + width] {
-            argument.gradient = [0.0; WIDEST];
+            argument.gradient = [0.0; W];
         }
     }
 }

@@ -48,6 +48,30 @@ pub struct FiniteDifferences<F, G> {
     pub conditions: G,
 }
 
+impl FiniteDifferences<(), ()> {
+    /// The values of other equations with their Jacobians replaced by central differences, to
+    /// [compare](crate::check_jacobians) the originals with.
+    pub fn of(
+        equations: &dyn Equations,
+    ) -> FiniteDifferences<
+        impl Fn(usize, f64, &[f64], &[f64], &mut [f64]) + Sync,
+        impl Fn(Ends<'_, f64>, &[f64], &mut [f64]) + Sync,
+    > {
+        let shape = equations.shape();
+        FiniteDifferences {
+            segments: shape.segments,
+            parameters: shape.parameters,
+            condition_count: shape.conditions,
+            rhs: |segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]| {
+                equations.evaluate_rhs(segment, s, y, p, dy);
+            },
+            conditions: |at: Ends<'_, f64>, p: &[f64], r: &mut [f64]| {
+                equations.evaluate_conditions(at, p, r);
+            },
+        }
+    }
+}
+
 impl<F, G> Equations for FiniteDifferences<F, G>
 where
     F: Fn(usize, f64, &[f64], &[f64], &mut [f64]) + Sync,

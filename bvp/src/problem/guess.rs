@@ -46,6 +46,16 @@ pub struct Constant {
     pub parameters: Vec<f64>,
 }
 
+impl Constant {
+    /// A guess for one segment and no parameters.
+    pub fn new(states: impl Into<Vec<f64>>) -> Self {
+        Self {
+            states: vec![states.into()],
+            parameters: vec![],
+        }
+    }
+}
+
 impl Guess for Constant {
     fn state(&self, segment: usize, _s: f64, y: &mut [f64]) {
         y.copy_from_slice(&self.states[segment]);

@@ -11,4 +11,5 @@ pub(crate) mod held;
 pub(crate) mod pieces;
 pub(crate) mod problem;
 pub(crate) mod real;
+pub(crate) mod two_point;
 pub(crate) mod unknown;

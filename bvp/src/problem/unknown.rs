@@ -7,6 +7,7 @@ use std::fmt;
 
 /// An unknown of the discretised problem.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Unknown {
     /// A state at a mesh node.
     State {

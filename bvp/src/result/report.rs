@@ -4,22 +4,23 @@ use crate::discretisation::scheme::Scheme;
 use crate::result::solution::Solution;
 use std::fmt;
 
-/// The accuracy of a solution and its cost, for printing: a few lines of at most 80 columns.
-///
-/// ```text
-/// Gauss, 4 stages: 58 intervals in 2 segments, meshes tried: 4
-/// error       3.0e-9, estimated, relative: component 1 of segment 1
-/// defect      3.1e-7, relative: segment 1, s = 2.05875 to 2.06449
-/// conditions  0.0e0, the largest residual: condition 3
-/// cost        4357 right-hand sides, 1380 Jacobians,
-///             5 factorisations, 8 Newton steps, 8.1e-4 s
-/// ```
+/// What [`Solution::report`] prints.
 #[derive(Clone, Copy, Debug)]
-pub struct Report<'a>(&'a Solution);
+struct Report<'a>(&'a Solution);
 
 impl Solution {
-    /// A summary for printing. For an iterate that did not converge it says so.
-    pub fn report(&self) -> Report<'_> {
+    /// The accuracy of a solution and its cost, for printing: a few lines of at most 80 columns. For
+    /// an iterate that did not converge it says so.
+    ///
+    /// ```text
+    /// Gauss, 4 stages: 58 intervals in 2 segments, meshes tried: 4
+    /// error       3.0e-9, estimated, relative: component 1 of segment 1
+    /// defect      3.1e-7, relative: segment 1, s = 2.05875 to 2.06449
+    /// conditions  0.0e0, the largest residual: condition 3
+    /// cost        4357 right-hand sides, 1380 Jacobians,
+    ///             5 factorisations, 8 Newton steps, 8.1e-4 s
+    /// ```
+    pub fn report(&self) -> impl fmt::Display + '_ {
         Report(self)
     }
 }

@@ -1,22 +1,26 @@
 //! The continuous solution.
 
+use crate::accuracy::conditioning::{Conditioning, conditioning};
 use crate::accuracy::defect::Defects;
 use crate::accuracy::global_error::GlobalErrors;
 use crate::discretisation::iterate::Iterate;
-use crate::discretisation::mesh::Mesh;
+use crate::discretisation::mesh::{Mesh, intervals};
 use crate::discretisation::scheme::MAX_STAGES;
 use crate::discretisation::scheme::Scheme;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::{add_scaled, max_or_nan};
+use crate::problem::equations::Equations;
 use crate::problem::guess::Guess;
 use crate::problem::guess::interval_of;
 use crate::problem::problem::Segment;
+use crate::result::error::Error;
 use crate::result::stats::Stats;
+use std::fmt;
 use std::sync::Arc;
 
-/// A solution (or, in an [`Error`](crate::Error), the best iterate): a collocation polynomial on
+/// A solution (or, in an [`Error`], the best iterate): a collocation polynomial on
 /// every interval, the parameters, and what is known of their accuracy.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Solution {
     pub(crate) segments: Vec<Segment>,
     pub(crate) tableau: Arc<Tableau>,
@@ -66,20 +70,14 @@ impl Solution {
     /// place after the other. Each is that of [`state`](Self::state).
     ///
     /// ```
-    /// # use bvp::{Constant, Ends, FiniteDifferences, Options, Segment, solve};
-    /// # let problem = FiniteDifferences {
-    /// #     segments: vec![Segment::new(2)],
-    /// #     parameters: 0,
-    /// #     condition_count: 2,
-    /// #     rhs: |_: usize, _s: f64, y: &[f64], _p: &[f64], dy: &mut [f64]| {
-    /// #         dy.copy_from_slice(&[y[1], 0.0]);
-    /// #     },
-    /// #     conditions: |at: Ends<'_, f64>, _p: &[f64], r: &mut [f64]| {
-    /// #         r.copy_from_slice(&[at.start(0)[0], at.end(0)[0] - 1.0]);
-    /// #     },
-    /// # };
-    /// # let guess = Constant { states: vec![vec![0.0; 2]], parameters: vec![] };
-    /// # let solution = solve(&problem, &guess, &Options::default())?;
+    /// # use bvp::{Constant, Options, TwoPoint, solve};
+    /// # let line = TwoPoint::new(
+    /// #     [2, 0],
+    /// #     [0.0, 1.0],
+    /// #     |s, y, _p, dy| dy.copy_from_slice(&[y[1], 0.0 * s]),
+    /// #     |start, end, _p, r| r.copy_from_slice(&[start[0], end[0] - 1.0]),
+    /// # );
+    /// # let solution = solve(&line, &Constant::new([0.0, 0.0]), &Options::default())?;
     /// // The straight line from (0, 0) to (1, 1), with its slope.
     /// let mut states = [0.0; 4];
     /// solution.states(0, &[0.25, 0.5], &mut states);
@@ -201,6 +199,17 @@ impl Solution {
         Some(&errors.parameters)
     }
 
+    /// The [`Conditioning`] of the problem with these equations at this solution: one linearisation on the mesh of the solution,
+    /// and a solve for each condition and, for κ₂, up to 64 for each state. Maxima are over the nodes.
+    ///
+    /// # Errors
+    /// Statement errors as of [`solve`](crate::solve) if the equations are not those of the solution;
+    /// [`Error::NonFiniteRhs`], [`Error::NonFiniteCondition`], [`Error::SingularNode`] or
+    /// [`Error::SingularConditions`], with the solution, if they cannot be linearised there.
+    pub fn conditioning(&self, equations: &dyn Equations) -> Result<Conditioning, Error> {
+        conditioning(equations, self)
+    }
+
     /// The cost of the solution.
     pub fn stats(&self) -> &Stats {
         &self.stats
@@ -239,6 +248,20 @@ impl Solution {
         for (weight, stage) in weights.iter().zip(stages.chunks_exact(n)) {
             add_scaled(y, factor * weight, stage);
         }
+    }
+}
+
+/// What it is and how accurate, without its many numbers.
+impl fmt::Debug for Solution {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Solution")
+            .field("segments", &self.segments)
+            .field("scheme", &self.scheme())
+            .field("intervals", &intervals(&self.mesh))
+            .field("parameters", &self.x.p)
+            .field("error_estimate", &self.error_estimate())
+            .field("defect", &self.defect())
+            .finish_non_exhaustive()
     }
 }
 

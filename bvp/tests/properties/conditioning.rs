@@ -4,7 +4,7 @@ use crate::exact::{bratu, exponential, limit_cycle, swing, three_point, wavenumb
 use crate::failures::{growth, states};
 use bvp::{
     Conditioning, Constant, Control, Ends, Equations, Error, Options, Problem, Real, Segment,
-    Solution, conditioning, solve,
+    Solution, solve,
 };
 use std::f64::consts::PI;
 
@@ -74,7 +74,7 @@ fn on_a_fine_mesh(equations: &dyn Equations) -> Conditioning {
         ..states(&vec![0.0; shape.segments[0].states])
     };
     let solution = solve(equations, &guess, &options).unwrap();
-    conditioning(equations, &solution).unwrap()
+    solution.conditioning(equations).unwrap()
 }
 
 /// Compares κ, κ₁, κ₂, γ₁ and σ.
@@ -254,7 +254,7 @@ fn a_known_solution_of_a_well_conditioned_problem_is_found_again() {
     ];
     for problem in &problems {
         let solution = solve(&*problem.equations, problem, &Options::default()).unwrap();
-        let found = conditioning(&*problem.equations, &solution).unwrap();
+        let found = solution.conditioning(&*problem.equations).unwrap();
         assert!(found.rounding < 1e-13, "{}: {found:?}", problem.name);
         assert!(found.kappa >= found.kappa1.max(found.kappa2), "{found:?}");
     }
@@ -263,8 +263,8 @@ fn a_known_solution_of_a_well_conditioned_problem_is_found_again() {
 #[test]
 fn a_solution_of_other_equations_is_refused() {
     let solution = from_zero(&Linear::new(1.0, 1.0), 1e-6).unwrap();
-    let error = conditioning(&growth(), &solution).unwrap_err();
+    let error = solution.conditioning(&growth()).unwrap_err();
     assert!(matches!(error, Error::GuessStates { segment: 0, .. }));
-    let error = conditioning(&Linear::new(1.0, 2.0), &solution).unwrap_err();
+    let error = solution.conditioning(&Linear::new(1.0, 2.0)).unwrap_err();
     assert!(matches!(error, Error::GuessMesh { segment: 0, .. }));
 }

@@ -1,8 +1,8 @@
 //! Derivatives of one problem from three sources, and of problems of every size.
 
 use bvp::{
-    Constant, Differenced, Ends, Equations, FiniteDifferences, Function, Options, Place, Problem,
-    Real, Segment, Shape, check_jacobians, solve,
+    Constant, Ends, Equations, FiniteDifferences, Function, Options, Problem, Real, Segment, Shape,
+    check_jacobians, solve,
 };
 
 /// A forced pendulum with unknown duration p₀ and damping p₁, and nonlinear conditions.
@@ -120,7 +120,7 @@ fn three_sources_of_derivatives_agree() {
     for equations in [&Pendulum as &dyn Equations, &ByHand] {
         let check = check_jacobians(equations, &by_differences(), &guess());
         assert!(check.difference < 1e-8, "{check:?}");
-        let check = check_jacobians(equations, &Differenced(equations), &guess());
+        let check = check_jacobians(equations, &FiniteDifferences::of(equations), &guess());
         assert!(check.difference < 1e-8, "{check:?}");
     }
 }
@@ -186,15 +186,8 @@ impl Equations for Mistaken {
 fn a_mistake_is_found_where_it_is() {
     let check = check_jacobians(&Mistaken, &Pendulum, &guess());
     assert!(check.difference > 0.1);
-    let Place::Rhs {
-        segment: 0,
-        component: 1,
-        column: Some(0),
-        ..
-    } = check.place
-    else {
-        panic!("{check:?}")
-    };
+    let (segment, _) = check.rhs.expect("the right-hand side");
+    assert_eq!((segment, check.row, check.column), (0, 1, Some(0)));
 }
 
 /// n states in a nonlinear ring, one parameter: every width of dual number.
@@ -234,7 +227,7 @@ fn every_number_of_directions_is_differentiated() {
             states: vec![(0..n).map(|i| (1.0 + i as f64).sin()).collect()],
             parameters: vec![0.7],
         };
-        let check = check_jacobians(&ring, &Differenced(&ring), &guess);
+        let check = check_jacobians(&ring, &FiniteDifferences::of(&ring), &guess);
         assert!(check.difference < 1e-8, "{n}: {check:?}");
     }
 }

@@ -3,7 +3,7 @@
 
 use bvp::{
     Constant, Control, Embedding, Ends, Error, Family, FiniteDifferences, Function, LeftOf,
-    Options, Problem, Real, Scheme, Segment, Solution, Table, conditioning, solve, solve_embedded,
+    Options, Problem, Real, Scheme, Segment, Solution, Table, solve, solve_embedded,
 };
 use proptest::prelude::*;
 
@@ -182,7 +182,7 @@ fn a_joined_point_is_two_segments_and_their_continuity() {
     let [one, two] = [true, false].map(|joined| {
         let equations = oscillator(joined);
         let solution = solve(&equations, &sine_guess(), &options).unwrap();
-        let conditioning = conditioning(&equations, &solution).unwrap();
+        let conditioning = solution.conditioning(&equations).unwrap();
         (solution, conditioning)
     });
     assert!((one.0.parameters()[0] - 4.0).abs() < 1e-7);

@@ -1,6 +1,7 @@
 //! What the solver promises, one property per file.
 
 mod classes;
+mod closures;
 mod complex;
 mod conditioning;
 mod control;

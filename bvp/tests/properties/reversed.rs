@@ -2,7 +2,7 @@
 
 use bvp::{
     Constant, Control, Ends, FiniteDifferences, Function, LeftOf, Options, Problem, Real, Segment,
-    Solution, Table, check_jacobians, conditioning, solve,
+    Solution, Table, check_jacobians, solve,
 };
 use proptest::prelude::*;
 
@@ -115,7 +115,7 @@ fn solutions_and_descending_tables_are_guesses_of_a_reversed_segment() {
     };
     let error = solve(&problem, &ascending, &options).unwrap_err();
     assert!(matches!(error, bvp::Error::GuessMesh { segment: 0, .. }));
-    let kappa = |problem: &Growth, solution: &Solution| conditioning(problem, solution).unwrap();
+    let kappa = |problem: &Growth, solution: &Solution| solution.conditioning(problem).unwrap();
     let forward = Growth {
         reversed: false,
         joined: vec![],
@@ -143,7 +143,7 @@ fn a_layer_at_the_end_of_a_reversed_segment_is_resolved() {
         states: vec![vec![0.0]],
         parameters: vec![],
     };
-    let check = check_jacobians(&equations, &bvp::Differenced(&equations), &guess);
+    let check = check_jacobians(&equations, &FiniteDifferences::of(&equations), &guess);
     assert!(check.difference < 1e-6);
     let solution = solve(&equations, &guess, &Options::to(1e-8)).unwrap();
     let particular = |s: f64| rate * (rate * s.cos() + s.sin()) / (1.0 + rate * rate);
