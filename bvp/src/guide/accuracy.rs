@@ -9,14 +9,13 @@
 //! * the residual of every condition, relative to the size of its terms where that exceeds one;
 //!
 //! and if rounding does not hide the solution ([`Error::IllConditioned`]). The defect in the
-//! differential equations is known too ([`Solution::defects`]), but nothing is asked of it.
+//! differential equations is known too ([`Solution::defects`]), but it is not tested.
 //!
 //! What success does not mean:
 //!
 //! * that the solution is the only one, or the one that was wanted;
-//! * that nothing was overlooked. Like every estimate, that of the error sees the right-hand side at
-//!   finitely many points: given data with a peak of the width 1e-4 on an interval of length one were
-//!   missed from 100 initial intervals and found from 300. Begin with more of them
+//! * that nothing was overlooked. Like every estimate, the estimate of the error uses the right-hand side
+//!   at finitely many points: a peak of width 1e-4 in given data on an interval of length one was missed from 100 initial intervals and found from 300. Begin with more of them
 //!   ([`Options::initial_intervals`]), with a [`Table`](crate::Table) whose nodes are dense there, or
 //!   give the peak a short segment of its own;
 //! * that small states have as many digits as large ones: the tolerance is relative to 1 + |y|, so
@@ -25,11 +24,11 @@
 //! # How the error is estimated
 //!
 //! A solution S has a defect d = S′ − f(s, S, p), known wherever f is evaluated. Its error e, with which
-//! S + e would be exact, satisfies e′ = f(s, S + e) − f(s, S) − d with the conditions of the problem, to
-//! first order a linear problem with the matrix of Newton's last step. It is solved by collocation on the
-//! same mesh, which costs one evaluation of f at m + 1 places of every interval and no factorisation.
-//! The error found is reported with a factor of 1.5, the largest of every state over the nodes, some
-//! points in between and the places where the state passes through zero.
+//! S + e would be exact, satisfies e′ = f(s, S + e) − f(s, S) − d with the conditions of the problem. To
+//! first order this is a linear problem with the matrix of Newton's last step. It is solved by collocation
+//! on the same mesh, which costs one evaluation of f at m + 1 points of every interval and no
+//! factorisation. For every state, the largest error over the nodes, some points in between and the zeros
+//! of the state is multiplied by 1.5 and reported.
 //!
 //! ```
 //! # use bvp::{Constant, Ends, Problem, Real, Segment};
@@ -74,21 +73,22 @@
 //! # Ok::<(), bvp::Error>(())
 //! ```
 //!
-//! With [`Control::Defect`] nothing is estimated, the tolerance is one for the defect relative to
-//! 1 + |f|: as in `bvp4c`, and meant for solutions on the way to another one. With [`Control::Both`] the
-//! tolerance is one for both: where slopes count, or integrals of right-hand sides must balance.
+//! With [`Control::Defect`] nothing is estimated; the tolerance holds for the defect relative to 1 + |f|,
+//! as in `bvp4c`. This is meant for solutions on the way to another one. With [`Control::Both`] the
+//! tolerance holds for both the error and the defect, for problems where slopes matter, or where integrals
+//! of right-hand sides must balance.
 //!
-//! How true the estimates are on problems with known solutions is tabulated in `tests/RESULTS.md`. Over
+//! `tests/RESULTS.md` tabulates how true the estimates are on problems with known solutions. Over
 //! 12 000 random problems with manufactured solutions the error of some state exceeds ten times its
 //! estimate in 18 cases, and no error exceeds ten tolerances.
 //!
 //! # The order
 //!
-//! The scheme of Gauss with m stages has order 2m at the nodes and m + 1 in between. High orders pay,
-//! as measured over the reference problems, so [`Scheme::for_tolerance`] chooses six stages down to
-//! 3e-5 and seven below. [`Options::scheme`] is there for other purposes than time: for a solution with a
-//! continuous derivative or a comparison with `bvp4c` set [`Scheme::LobattoIIIA`], and for a second
-//! opinion any other number of stages.
+//! The Gauss scheme with m stages has order 2m at the nodes and m + 1 in between. On the reference
+//! problems high orders took the least time, so [`Scheme::for_tolerance`] chooses six stages down to 3e-5
+//! and seven below. [`Options::scheme`] serves other purposes than speed: set [`Scheme::LobattoIIIA`] for a
+//! solution with a continuous derivative or a comparison with `bvp4c`, and any other number of stages for
+//! a second opinion.
 //!
 //! # What it costs
 //!
@@ -98,9 +98,10 @@
 //!
 //! * start from a [`Solution`] of a neighbouring problem, which brings its mesh;
 //! * ask for no more accuracy than needed;
-//! * keep apart what need not be solved together: segments of a problem are solved at once, with all of
+//! * solve independent parts separately: the segments of one problem are solved together, with all of
 //!   their states at both ends in one small dense system;
-//! * see that the mesh has no work at a place where f is not smooth ([`forms`](super::forms)).
+//! * put a junction where f is not smooth, so that the mesh need not be refined there
+//!   ([`forms`](super::forms)).
 //!
 //! Times on the reference problems and where they go are in `benches/RESULTS.md`.
 //!
@@ -152,14 +153,14 @@
 //! # Ok::<(), bvp::Error>(())
 //! ```
 //!
-//! One large problem can use several threads by the feature `parallel`, which shares its intervals
-//! among them:
+//! One large problem can use several threads with the feature `parallel`, which shares its intervals among
+//! them:
 //!
 //! ```text
 //! bvp = { version = "0.1", features = ["parallel"] }
 //! ```
 //!
-//! With many problems the threads are better spent on those.
+//! With many problems it is better to give each thread its own problems.
 
 #[cfg(doc)]
 use crate::{Control, Error, Options, Scheme, Solution, solve};

@@ -1,4 +1,4 @@
-//! What to do when there is no solution, or one that is not to be trusted.
+//! What to do if there is no solution, or one that cannot be trusted.
 //!
 //! # Symptom, meaning, remedy
 //!
@@ -10,25 +10,25 @@
 //! | [`NonFiniteRhs`](Error::NonFiniteRhs), [`NonFiniteCondition`](Error::NonFiniteCondition) | NaN or ∞ where the iterate is, or an entry that is never written | 1. Write every entry. 2. A guess inside the domain of logarithms, roots, quotients. 3. States that cannot leave it: ln y instead of y. 4. Data for all s: none may be missing between its ends |
 //! | [`NoConvergence`](Error::NoConvergence) | The guess is too far away, there is no solution, a derivative is wrong, or f jumps where a state passes a value | 1. [Look at the best iterate](#look-at-the-best-iterate). 2. [Check the derivatives](#check-the-derivatives) if they are by hand. 3. [A better guess](#a-better-guess). 4. [`solve_embedded`]. 5. Ask whether there is [a fold](super::families). 6. A jump that depends on the solution: smooth it, or segments that meet there |
 //! | [`SingularConditions`](Error::SingularConditions) | At the iterate the conditions do not determine the solution | 1. Two conditions that say the same? 2. A constant, a phase or an amplitude left free? 3. A guess of zero, where a product vanishes. 4. A normalisation that the solution cannot meet ([`eigenvalues`](super::eigenvalues)). 5. A [fold](super::families) |
-//! | [`SingularNode`](Error::SingularNode) | Stages on an interval are not determined: rare, and a matter of its length | Another [`Options::initial_intervals`] |
-//! | [`Unreached`](Error::Unreached) | [`solve_embedded`] came to a halt on the way | 1. Is the value reached [a fold](super::families)? 2. Another parameter, another start |
+//! | [`SingularNode`](Error::SingularNode) | The stages on an interval are not determined; this is rare and depends on its length | Another [`Options::initial_intervals`] |
+//! | [`Unreached`](Error::Unreached) | [`solve_embedded`] stopped on the way | 1. Is the value reached [a fold](super::families)? 2. Another parameter, another start |
 //! | [`MeshLimit`](Error::MeshLimit) | More intervals needed than allowed | 1. Where are the nodes? Dense at a kink or jump: a junction. Dense everywhere: noise in the right-hand side, such as interpolated data or an inner iteration. 2. [`conditioning`](Solution::conditioning). 3. Larger [`Options::max_intervals`], from the best iterate. 4. Larger tolerance |
 //! | [`Unresolved`](Error::Unresolved) | No mesh helps, or intervals shrank to the spacing of numbers | 1. A kink, jump or singularity at the place named: a junction, or a substitution ([`forms`](super::forms)). 2. [`conditioning`](Solution::conditioning) |
 //! | [`ConditionViolated`](Error::ConditionViolated) | Newton's method has converged, yet a condition does not hold | Its derivative is wrong, or it is not smooth |
 //! | [`IllConditioned`](Error::IllConditioned) | Rounding alone changes the solution by more than the tolerance | [Ill-conditioned problems](#ill-conditioned-problems) |
 //! | A solution, but the wrong one | There are several | Another guess; [`families`](super::families) finds how they are connected |
-//! | A solution, but slowly | Hard guess, many intervals, many states | [`Stats`](crate::Stats): many Newton steps ask for a better guess, many intervals for a junction, [`accuracy`](super::accuracy) has the rest |
+//! | A solution, but slowly | Poor guess, many intervals, many states | [`Stats`](crate::Stats): after many Newton steps a better guess, with many intervals a junction; for the rest see [`accuracy`](super::accuracy) |
 //!
-//! The solver has helped itself before it gives up: damping, the slopes of the guess integrated,
-//! finer meshes, a homotopy from a straight line ([`Options::retries`]). A second call with the same guess
-//! finds nothing new.
+//! Before it gives up, the solver tries damping, a step of Picard's iteration from the guess, finer meshes,
+//! and a homotopy from a straight line ([`Options::retries`]). A second call with the same guess finds
+//! nothing new.
 //!
 //! # Look at the best iterate
 //!
 //! Every numerical failure carries its last iterate, a [`Solution`](crate::Solution) that can be plotted
-//! and that is a [`Guess`](crate::Guess) too. An iterate that grows without bounds says that there may be
-//! no solution, one with steps between neighbouring nodes that there is a layer, one that looks right
-//! that only the limits were too tight:
+//! and that is also a [`Guess`](crate::Guess). If it grows without bounds, there may be no solution. If it
+//! has steps between neighbouring nodes, there is a layer. If it looks right, only the limits were too
+//! tight:
 //!
 //! ```
 //! # use bvp::{Constant, Ends, Problem, Real, Segment};
@@ -69,8 +69,8 @@
 //!
 //! # Check the derivatives
 //!
-//! Those of a [`Problem`](crate::Problem) are exact. Those of [`Equations`](crate::Equations) by hand
-//! are compared with differences, best in a unit test:
+//! The derivatives of a [`Problem`](crate::Problem) are exact. Derivatives written by hand, for
+//! [`Equations`](crate::Equations), can be compared with differences, best in a unit test:
 //!
 //! ```
 //! # use bvp::{Constant, Ends, Problem, Real, Segment};
@@ -103,16 +103,16 @@
 //! 1. Parameters of the right size and sign; they matter more than the states.
 //! 2. States that meet the conditions, and derivatives that belong to them: y₁ = y₀′ where the equations
 //!    say so.
-//! 3. The right shape: as many waves, the layer about where it is.
+//! 3. The right shape: the right number of waves, a layer roughly in its place.
 //! 4. The solution of a simpler problem: linearised, with a larger ε, a smaller load, on half of the
 //!    interval. A [`Solution`](crate::Solution) is a guess for any problem with the same segments;
 //!    [`Function`](crate::Function) makes one from whatever else is known.
-//! 5. All of these by steps: [`solve_embedded`].
+//! 5. Each of these in steps: [`solve_embedded`].
 //!
 //! # Ill-conditioned problems
 //!
-//! [`conditioning`](Solution::conditioning) says how much of changes of the conditions (κ₁) and of the equations (κ₂) arrives in
-//! the solution, and how much rounding makes of it:
+//! [`conditioning`](Solution::conditioning) tells how strongly the solution responds to changes of the
+//! conditions (κ₁) and of the equations (κ₂), and how large its rounding error is:
 //!
 //! ```
 //! # use bvp::{Constant, Ends, Options, Problem, Real, Segment, solve};
@@ -153,17 +153,17 @@
 //!
 //! No finer mesh and no other method in double precision helps against a large κ. What may help:
 //!
-//! * conditions at the other end: a growing solution wants to be fixed where it is large, a decaying one
+//! * conditions at the other end: a growing solution should be fixed where it is large, a decaying one
 //!   where it starts;
-//! * the integration constants as they are known: a conserved quantity instead of one of its terms, a
-//!   symmetry instead of the whole interval;
+//! * known integration constants: a conserved quantity instead of one of its terms, a symmetry instead of
+//!   the whole interval;
 //! * other variables, such as logarithms and Riccati variables;
 //! * a shorter interval, where an infinite one has been cut off;
 //! * a larger tolerance, where the amplified rounding is small enough for the purpose.
 //!
 //! # Success
 //!
-//! What `Ok` means and what it does not is said in [`accuracy`](super::accuracy). To be surer of a
+//! [`accuracy`](super::accuracy) says what `Ok` means and what it does not mean. To be more certain of a
 //! solution, solve to a smaller tolerance, from another guess, and with another [`Scheme`].
 
 #[cfg(doc)]

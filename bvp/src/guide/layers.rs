@@ -1,4 +1,4 @@
-//! A thin layer: what the mesh does, and a way there where the direct one fails.
+//! A thin layer: how the mesh adapts, and what to do if a direct solution fails.
 //!
 //! # The problem
 //!
@@ -9,7 +9,7 @@
 //! For small ε either y′ = 1 or y = 0: the solution follows the line y = s − 7/6 from the left and
 //! y = s + 1/2 from the right, and jumps from one to the other where they are opposite, at s = 1/3. In
 //! the jump, whose width is a few ε, ε y″ = −y y′ nearly: y = a tanh(a (s − 1/3)/(2ε)) with a = 5/6, so
-//! that y′(1/3) = a²/(2ε) but for terms of order one. J. Kevorkian & J. D. Cole, *Perturbation Methods in
+//! that y′(1/3) = a²/(2ε) up to terms of order one. J. Kevorkian & J. D. Cole, *Perturbation Methods in
 //! Applied Mathematics* (Springer 1981), chapter 2.
 //!
 //! # The mesh
@@ -65,19 +65,19 @@
 //!    mesh is graded towards it; otherwise it equidistributes the relative defect, which draws nodes into
 //!    a layer wherever it is.
 //! 2. After that the error is estimated. The next mesh equidistributes the local defects
-//!    h |S′ − f|/(1 + |y|), what an interval of length h adds to the error, with as many intervals as
-//!    the estimated error asks.
+//!    h |S′ − f|/(1 + |y|), which are what an interval of length h adds to the error. Its number of
+//!    intervals follows from the estimated error.
 //! 3. Once the estimate is within the tolerance, the solution is returned.
 //!
 //! Nodes are removed as well as added.
 //!
 //! # Where the direct way fails
 //!
-//! Newton's method needs to begin near the layer, and the smaller ε is, the nearer. For small enough ε
-//! it fails, after everything that [`Options::retries`](crate::Options::retries) names. Then make ε a
-//! parameter without a condition of its own and give the way to
-//! [`solve_embedded`](crate::solve_embedded): from a value for which the problem is easy to the one
-//! wanted, every solution and its mesh the guess of the next.
+//! Newton's method must start close to the layer, and closer if ε is smaller. For small enough ε it fails
+//! even with everything that [`Options::retries`](crate::Options::retries) lists. Then make ε a parameter
+//! without a condition of its own and let [`solve_embedded`](crate::solve_embedded) lead it from a value
+//! for which the problem is easy to the value wanted. Each solution, with its mesh, is the guess for the
+//! next.
 //!
 //! ```
 //! use bvp::{Constant, Embedding, Ends, Error, Options, Problem, Real, Segment};
@@ -127,9 +127,9 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! The solutions on the way are rough; the last one meets all of the options. If the way ends early,
+//! The solutions on the way are rough; the last one meets all options. If the way ends early,
 //! [`Error::Unreached`](crate::Error::Unreached) has the value that was reached and the solution there.
-//! A Reynolds number, a load or a nonlinearity switched on gradually is embedded the same way
+//! A Reynolds number, a load, or a nonlinearity that is switched on gradually is embedded in the same way
 //! (`cargo run -p bvp --example reynolds`).
 //!
 //! # What helps with layers
@@ -137,9 +137,9 @@
 //! * A guess with the layer in about its right place, by [`Function`](crate::Function); or the
 //!   [`Solution`](crate::Solution) for a larger ε, or a [`Table`](crate::Table) whose nodes are dense
 //!   where the layer is expected.
-//! * States of moderate size. With y′ as a state its error counts relative to 1 + |y′|, and y′ is as
-//!   large as 1/ε; ε y′ as a state asks for less.
+//! * States of moderate size. If y′ is a state, its error counts relative to 1 + |y′|, and y′ is as large as
+//!   1/ε. With ε y′ as the state less accuracy is needed.
 //! * The place of some layers is ill-conditioned: that of ε y″ = −y y′ with y(0) = −1, y(1) = 1 moves
-//!   exponentially more in 1/ε than the conditions do. In double precision no finer mesh finds it; half
-//!   of the interval, with y = 0 in the middle by symmetry, does. [`failures`](super::failures) tells
-//!   how to see it.
+//!   more than the conditions do by a factor that grows exponentially with 1/ε. In double precision no
+//!   finer mesh finds it, but half of the interval does, with y = 0 in the middle by symmetry.
+//!   [`failures`](super::failures) tells how to recognise this.

@@ -110,10 +110,10 @@
 //! | conditioning | – | – | – | `ckappa1`, `gamma1`, … | [`conditioning`](crate::Solution::conditioning) |
 //! | from easy to hard | a loop | a loop | a loop | a loop | [`solve_embedded`](crate::solve_embedded), [`families`](super::families) |
 //!
-//! `bvp4c` and `solve_bvp` hold the residual of the differential equations, here called the defect, to
-//! the tolerance, and what that makes of the solution is left to the user. [`solve`](crate::solve)
-//! holds the estimated error of the solution to it, as COLNEW does: the same number asks for something
-//! else. [`accuracy`](super::accuracy) says what.
+//! `bvp4c` and `solve_bvp` keep the residual of the differential equations, here called the defect, within
+//! the tolerance; the error of the solution may be larger or smaller. [`solve`](crate::solve) keeps the
+//! estimated error of the solution within the tolerance, as COLNEW does. The same number thus means
+//! something else; [`accuracy`](super::accuracy) says what.
 //!
 //! # Reading a solution
 //!
@@ -129,21 +129,21 @@
 //! | defect: largest, of every interval | [`defect`](Solution::defect)`()`, [`defects`](Solution::defects)`(segment)` |
 //! | largest residual of the conditions | [`condition_residual`](Solution::condition_residual)`()` |
 //! | cost | [`stats`](Solution::stats)`()` |
-//! | all of it in six lines | `report()`, to be printed |
+//! | all of this in six lines | `report()`, for printing |
 //!
 //! Errors are relative to 1 + |value|, as in COLNEW; there is no absolute tolerance. The report of the
 //! first solution above:
 //!
 //! ```text
-//! Gauss, 7 stages: 6 intervals in 1 segment, meshes tried: 1
-//! error       2.6e-11, estimated, relative: component 1 of segment 0
-//! defect      4.9e-12, relative: segment 0, s = 0.833333 to 1.0
+//! Gauss, 7 stages: 3 intervals in 1 segment, meshes tried: 1
+//! error       1.8e-10, estimated, relative: component 1 of segment 0
+//! defect      6.6e-10, relative: segment 0, s = 0.666667 to 1.0
 //! conditions  0.0e0, the largest residual: condition 1
-//! cost        198 right-hand sides, 63 Jacobians,
-//!             2 factorisations, 5 Newton steps, 1.4e-4 s
+//! cost        129 right-hand sides, 21 Jacobians,
+//!             1 factorisation, 5 Newton steps, 1.4e-4 s
 //! ```
 //!
-//! A table of the solution at equal distances, with what is known of every column:
+//! A table of the solution at equal distances, with the estimated error of every column:
 //!
 //! ```
 //! # use bvp::{Constant, Ends, Options, Problem, Real, Segment, solve};

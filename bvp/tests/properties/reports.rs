@@ -1,7 +1,8 @@
 //! What a person is told of a solution.
 
 use crate::failures::growth;
-use bvp::{Control, Function, Options, Segment, Solution, solve};
+use bvp::{Constant, Control, Ends, Function, Options, Problem, Real, Segment, Solution, solve};
+use std::{env, fs, path::Path};
 
 /// The lines of a report, without the time at their end.
 pub(crate) fn report(solution: &Solution) -> Vec<String> {
@@ -109,4 +110,60 @@ fn an_error_that_was_not_estimated_is_not_known() {
         report(&layer(true))[1],
         "error       not known, no estimate"
     );
+}
+
+/// Bratu's problem, the first one of the guide.
+struct Bratu;
+
+impl Problem for Bratu {
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(2, 0.0, 1.0)]
+    }
+
+    fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
+        dy[0] = y[1];
+        dy[1] = -y[0].exp();
+    }
+
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+        r[0] = at.start(0)[0];
+        r[1] = at.end(0)[0];
+    }
+}
+
+/// The report in the documentation is that of the first solution of the guide, but for its time. With
+/// `UPDATE_DOCS=1` it is written again.
+#[test]
+fn the_documented_report_is_what_is_printed() {
+    let guess = Constant {
+        states: vec![vec![0.0; 2]],
+        parameters: vec![],
+    };
+    let solution = solve(&Bratu, &guess, &Options::to(1e-6)).expect("Bratu's problem");
+    let printed = report(&solution);
+    for (file, comment) in [
+        ("guide/other_solvers.rs", "//! "),
+        ("result/report.rs", "    /// "),
+    ] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(file);
+        let text = fs::read_to_string(&path).unwrap();
+        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        let first = lines
+            .iter()
+            .position(|line| line.starts_with(&format!("{comment}Gauss, ")))
+            .expect("the first line of a report");
+        let shown = &mut lines[first..first + printed.len()];
+        for (line, printed) in shown.iter_mut().zip(&printed) {
+            let time = line.rfind(", ").filter(|_| line.ends_with(" s"));
+            let time = time.map_or(String::new(), |at| line[at..].to_owned());
+            let anew = format!("{comment}{printed}{time}");
+            if env::var_os("UPDATE_DOCS").is_none() {
+                assert_eq!(*line, anew, "{file}: UPDATE_DOCS=1 writes it again");
+            }
+            *line = anew;
+        }
+        if env::var_os("UPDATE_DOCS").is_some() {
+            fs::write(&path, lines.join("\n") + "\n").unwrap();
+        }
+    }
 }
