@@ -188,7 +188,6 @@ mod problem;
 mod result;
 mod solver;
 
-pub use accuracy::conditioning::Conditioning;
 pub use discretisation::scheme::Scheme;
 pub use family::family::Family;
 pub use problem::check::{JacobianCheck, check_jacobians};
@@ -204,6 +203,7 @@ pub use problem::unknown::Unknown;
 pub use result::error::Error;
 pub use result::solution::Solution;
 pub use result::stats::Stats;
+pub use solver::conditioning::Conditioning;
 pub use solver::embedding::{Embedding, solve_embedded};
 pub use solver::options::{Control, Options};
 pub use solver::solver::solve;

@@ -8,37 +8,9 @@ use crate::kernels::parallel::{Buffers, for_each_run};
 use crate::kernels::specialise::specialise;
 use crate::problem::equations::Equations;
 use crate::problem::held::Held;
+use crate::result::quality::{Defects, Samples};
 use crate::result::stats::Stats;
 use std::ops::Range;
-
-/// The defects of a solution, one number per interval and segment.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Defects {
-    /// Relative to 1 + |f|.
-    pub(crate) relative: Vec<Vec<f64>>,
-    /// Times the length of the interval and relative to 1 + |y|: what an interval adds to the error.
-    pub(crate) local: Vec<Vec<f64>>,
-}
-
-impl Defects {
-    /// Infinite ones, where they are not known.
-    pub(crate) fn unknown(mesh: &Mesh) -> Self {
-        let infinite = |nodes: &Vec<f64>| vec![f64::INFINITY; nodes.len() - 1];
-        let relative: Vec<_> = mesh.iter().map(infinite).collect();
-        Self {
-            local: relative.clone(),
-            relative,
-        }
-    }
-
-    /// The largest that an interval adds to the error.
-    pub(crate) fn largest_local(&self) -> f64 {
-        self.local.iter().flatten().copied().fold(0.0, max_or_nan)
-    }
-}
-
-/// S' − f at the m + 1 defect points of every interval of every segment, n numbers each.
-pub(crate) type Samples = Vec<Vec<f64>>;
 
 /// Relative defect of the continuous solution S, one number per interval and segment:
 ///

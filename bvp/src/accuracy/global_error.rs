@@ -17,27 +17,11 @@
 //! Rokhlin, "Spectral deferred correction methods for ordinary differential equations", BIT 40 (2000)
 //! 241-266.
 
-use crate::accuracy::defect::Samples;
 use crate::discretisation::iterate::{Interval, Iterate, Residual, SegmentIterate};
 use crate::kernels::dense::{add_scaled, dot, max_or_nan};
 use crate::kernels::specialise::specialise;
 use crate::newton::collocation::Collocation;
-
-/// Estimated global errors, relative to 1 + |value|.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct GlobalErrors {
-    /// For every segment one number per state, the largest over the segment.
-    pub(crate) states: Vec<Vec<f64>>,
-    /// One number per parameter.
-    pub(crate) parameters: Vec<f64>,
-}
-
-impl GlobalErrors {
-    pub(crate) fn largest(&self) -> f64 {
-        let all = self.states.iter().flatten().chain(&self.parameters);
-        all.copied().fold(0.0, max_or_nan)
-    }
-}
+use crate::result::quality::{GlobalErrors, Samples};
 
 /// So many times the error found is reported. Where a mesh is too coarse for what is left out, of higher
 /// order, the error found is too small: over 12 000 random problems the error of some state exceeds ten

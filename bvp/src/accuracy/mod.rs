@@ -1,6 +1,5 @@
 //! Everything that decides whether a solution is good enough, and which mesh is better.
 
-pub(crate) mod conditioning;
 pub(crate) mod defect;
 pub(crate) mod global_error;
 pub(crate) mod layers;

@@ -5,4 +5,3 @@ pub(crate) mod mesh;
 pub(crate) mod restriction;
 pub(crate) mod scheme;
 pub(crate) mod tableau;
-pub(crate) mod transfer;

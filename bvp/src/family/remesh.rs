@@ -9,8 +9,8 @@ use crate::kernels::dense::max_or_nan;
 use crate::newton::collocation::Collocation;
 use crate::newton::newton::Failure;
 use crate::result::error::Error;
+use crate::result::quality::Quality;
 use crate::result::restored::restored_error;
-use crate::result::solution::Quality;
 use crate::solver::failure::{check_mesh, numerical};
 use std::sync::Arc;
 

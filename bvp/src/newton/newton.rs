@@ -7,14 +7,13 @@
 //! for Nonlinear Problems* (Springer 2004), algorithms NLEQ-ERR (section 3.3.3) and QNERR; a damped
 //! step that could have been longer is not repeated.
 
-use crate::accuracy::defect::Samples;
-use crate::accuracy::global_error::GlobalErrors;
 use crate::discretisation::iterate::{Iterate, NonFinite, Residual};
 use crate::kernels::dense::max_or_nan;
 use crate::newton::collocation::{Collocation, LinearisationError};
 use crate::newton_matrix::almost_block_diagonal::Singular;
 use crate::newton_matrix::dependence::Dependence;
 use crate::problem::unknown::Unknown;
+use crate::result::quality::{GlobalErrors, Samples};
 use crate::result::stats::Stats;
 
 /// Simplified corrections that shrink at least this much per step keep the Jacobian: three such

@@ -1,13 +1,12 @@
 //! Solutions and errors of the pieces that the solver knows, in the segments of the statement.
 
-use crate::accuracy::defect::Defects;
-use crate::accuracy::global_error::GlobalErrors;
 use crate::discretisation::iterate::{Iterate, SegmentIterate};
 use crate::problem::held::Held;
 use crate::problem::pieces::Pieces;
 use crate::problem::unknown::Unknown;
 use crate::result::error::Error;
-use crate::result::solution::{Quality, Solution};
+use crate::result::quality::{Defects, GlobalErrors, Quality};
+use crate::result::solution::Solution;
 
 /// What the solver says of the pieces of equations, said of their segments.
 pub(crate) fn restore(

@@ -1,24 +1,20 @@
 //! The continuous solution.
 
-use crate::accuracy::conditioning::{Conditioning, conditioning};
-use crate::accuracy::defect::Defects;
-use crate::accuracy::global_error::GlobalErrors;
 use crate::discretisation::iterate::Iterate;
 use crate::discretisation::mesh::{Mesh, intervals};
 use crate::discretisation::scheme::MAX_STAGES;
 use crate::discretisation::scheme::Scheme;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::{add_scaled, max_or_nan};
-use crate::problem::equations::Equations;
 use crate::problem::guess::Guess;
 use crate::problem::guess::interval_of;
 use crate::problem::problem::Segment;
-use crate::result::error::Error;
+use crate::result::quality::{GlobalErrors, Quality};
 use crate::result::stats::Stats;
 use std::fmt;
 use std::sync::Arc;
 
-/// A solution (or, in an [`Error`], the best iterate): a collocation polynomial on
+/// A solution (or, in an [`Error`](crate::Error), the best iterate): a collocation polynomial on
 /// every interval, the parameters, and what is known of their accuracy.
 #[derive(Clone)]
 pub struct Solution {
@@ -28,27 +24,6 @@ pub struct Solution {
     pub(crate) x: Iterate,
     pub(crate) quality: Quality,
     pub(crate) stats: Stats,
-}
-
-/// What is known of the accuracy of an iterate; infinite where it is not known.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Quality {
-    pub(crate) defects: Defects,
-    /// |Residual| of every condition; none where they are not known.
-    pub(crate) conditions: Vec<f64>,
-    /// Estimated global error of the states of every segment and of the parameters.
-    pub(crate) errors: Option<GlobalErrors>,
-}
-
-impl Quality {
-    /// The accuracy of an iterate of which nothing is known.
-    pub(crate) fn unknown(mesh: &Mesh) -> Self {
-        Self {
-            defects: Defects::unknown(mesh),
-            conditions: vec![],
-            errors: None,
-        }
-    }
 }
 
 impl Solution {
@@ -197,17 +172,6 @@ impl Solution {
     pub fn parameter_errors(&self) -> Option<&[f64]> {
         let errors = self.quality.errors.as_ref()?;
         Some(&errors.parameters)
-    }
-
-    /// The [`Conditioning`] of the problem with these equations at this solution: one linearisation on the mesh of the solution,
-    /// and a solve for each condition and, for κ₂, up to 64 for each state. Maxima are over the nodes.
-    ///
-    /// # Errors
-    /// Statement errors as of [`solve`](crate::solve) if the equations are not those of the solution;
-    /// [`Error::NonFiniteRhs`], [`Error::NonFiniteCondition`], [`Error::SingularNode`] or
-    /// [`Error::SingularConditions`], with the solution, if they cannot be linearised there.
-    pub fn conditioning(&self, equations: &dyn Equations) -> Result<Conditioning, Error> {
-        conditioning(equations, self)
     }
 
     /// The cost of the solution.

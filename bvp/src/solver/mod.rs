@@ -1,5 +1,6 @@
 //! The driver: from a statement and a guess to a solution or an error.
 
+pub(crate) mod conditioning;
 pub(crate) mod embedding;
 pub(crate) mod failure;
 pub(crate) mod homotopy;
@@ -8,3 +9,4 @@ pub(crate) mod solver;
 pub(crate) mod statement;
 pub(crate) mod stepping;
 pub(crate) mod straight;
+pub(crate) mod transfer;

@@ -1,26 +1,26 @@
 //! The driver: Newton on a mesh, the error of the solution, a better mesh, until everything holds.
 
-use crate::accuracy::defect::{Samples, defects};
+use crate::accuracy::defect::defects;
 use crate::accuracy::mesh_selection::{GRADING, GRADING_BY_ERROR, UNRESOLVED, next_mesh};
 use crate::accuracy::rounding::exceeds;
 use crate::discretisation::iterate::{Iterate, NonFinite};
 use crate::discretisation::mesh::{Mesh, halved, intervals, thinned};
 use crate::discretisation::tableau::Tableau;
-use crate::discretisation::transfer::transfer;
 use crate::newton::collocation::Collocation;
 use crate::newton::newton::{Failure, Newton};
 use crate::problem::equations::Equations;
 use crate::problem::guess::Guess;
 use crate::problem::held::Held;
 use crate::result::error::Error;
+use crate::result::quality::{Quality, Samples};
 use crate::result::restored::restore;
-use crate::result::solution::Quality;
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
 use crate::solver::failure::{check_mesh, ill_conditioned, numerical, unresolved};
 use crate::solver::homotopy::rough_solution;
 use crate::solver::options::{Control, Options};
 use crate::solver::statement::{check_guess, check_statement, first_mesh};
+use crate::solver::transfer::transfer;
 use std::sync::Arc;
 use web_time::Instant;
 

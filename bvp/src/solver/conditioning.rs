@@ -22,8 +22,9 @@ use crate::problem::equations::Equations;
 use crate::problem::held::Held;
 use crate::problem::problem::Segment;
 use crate::result::error::Error;
+use crate::result::quality::Quality;
 use crate::result::restored::{divided, restored_error};
-use crate::result::solution::{Quality, Solution};
+use crate::result::solution::Solution;
 use crate::result::stats::Stats;
 use crate::solver::failure::numerical;
 use crate::solver::options::Options;
@@ -67,6 +68,19 @@ pub struct Conditioning {
     /// precision, with one step of iterative refinement. [`solve`](crate::solve) refuses a solution
     /// where it exceeds ten tolerances or 0.01.
     pub rounding: f64,
+}
+
+impl Solution {
+    /// The [`Conditioning`] of the problem with these equations at this solution: one linearisation on the mesh of the solution,
+    /// and a solve for each condition and, for κ₂, up to 64 for each state. Maxima are over the nodes.
+    ///
+    /// # Errors
+    /// Statement errors as of [`solve`](crate::solve) if the equations are not those of the solution;
+    /// [`Error::NonFiniteRhs`], [`Error::NonFiniteCondition`], [`Error::SingularNode`] or
+    /// [`Error::SingularConditions`], with the solution, if they cannot be linearised there.
+    pub fn conditioning(&self, equations: &dyn Equations) -> Result<Conditioning, Error> {
+        conditioning(equations, self)
+    }
 }
 
 /// See [`Solution::conditioning`].
