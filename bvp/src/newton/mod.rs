@@ -2,4 +2,5 @@
 
 pub(crate) mod collocation;
 pub(crate) mod evaluation;
+mod largest_correction;
 pub(crate) mod newton;

@@ -10,8 +10,9 @@
 use crate::discretisation::iterate::{Iterate, NonFinite, Residual};
 use crate::kernels::dense::max_or_nan;
 use crate::newton::collocation::{Collocation, LinearisationError};
-use crate::newton_matrix::almost_block_diagonal::Singular;
+use crate::newton::largest_correction::most_corrected;
 use crate::newton_matrix::dependence::Dependence;
+use crate::newton_matrix::singular::Singular;
 use crate::problem::unknown::Unknown;
 use crate::result::quality::{GlobalErrors, Samples};
 use crate::result::stats::Stats;
@@ -239,7 +240,7 @@ impl Newton {
     fn no_convergence(&self, collocation: &Collocation<'_>, x: &Iterate, size: Norm) -> Failure {
         Failure::NoConvergence {
             correction: size.largest,
-            largest: Unknown::most_corrected(&collocation.mesh, x, &self.delta),
+            largest: most_corrected(&collocation.mesh, x, &self.delta),
         }
     }
 

@@ -35,16 +35,8 @@ use crate::kernels::reflections::{Blocks, MANY, eliminate};
 use crate::kernels::specialise::specialise;
 use crate::newton_matrix::dependence::Dependence;
 use crate::newton_matrix::end_system::EndSystem;
+use crate::newton_matrix::singular::Singular;
 use crate::problem::problem::Segment;
-
-/// Where the Newton matrix is singular to working precision.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Singular {
-    /// The states of this node are not determined by their neighbours.
-    Node { segment: usize, node: usize },
-    /// The conditions do not determine the ends and the parameters.
-    Ends,
-}
 
 /// The transition blocks of one segment and their elimination.
 #[derive(Clone, Debug)]

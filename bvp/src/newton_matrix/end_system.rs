@@ -2,8 +2,8 @@
 
 use crate::kernels::lq::{lq_factor, lq_negative, lq_null_vector, lq_solve};
 use crate::kernels::lu::lu;
-use crate::newton_matrix::almost_block_diagonal::Singular;
 use crate::newton_matrix::dependence::Dependence;
+use crate::newton_matrix::singular::Singular;
 use crate::problem::problem::Segment;
 
 /// An equilibrated system, factored: a square one with row pivoting, one with an equation fewer

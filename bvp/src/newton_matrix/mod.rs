@@ -5,4 +5,5 @@ pub(crate) mod condensation;
 pub(crate) mod dependence;
 pub(crate) mod derivative_states;
 pub(crate) mod end_system;
+pub(crate) mod singular;
 pub(crate) mod stage_system;

@@ -2,7 +2,7 @@
 //!
 //! Row-major A is column-major Aᵀ, which is what faer factors fastest, so here P Aᵀ = L U.
 
-use super::lu::SingularRow;
+use super::singular::SingularRow;
 use crate::kernels::blocked::clear_wide_registers;
 use crate::kernels::dense::dot;
 use faer::dyn_stack::MemStack;

@@ -5,11 +5,8 @@
 //! the factors; only the functions of this module read them. Golub & Van Loan, *Matrix Computations*,
 //! 4th ed., section 3.4.
 
+use super::singular::SingularRow;
 use super::{large, panels, small};
-
-/// The matrix is singular: the pivot of this row vanishes or is not finite.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct SingularRow(pub(crate) usize);
 
 /// Matrices of at least this many rows are factored faster by blocked kernels.
 pub(crate) const LARGE: usize = 32;

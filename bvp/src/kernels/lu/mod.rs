@@ -3,4 +3,5 @@
 mod large;
 pub(crate) mod lu;
 mod panels;
+mod singular;
 mod small;

@@ -1,6 +1,6 @@
 //! LU factors of matrices of medium size, a few columns at a time.
 
-use super::lu::SingularRow;
+use super::singular::SingularRow;
 use crate::kernels::dense::{add_scaled, dot};
 use std::ops::Range;
 

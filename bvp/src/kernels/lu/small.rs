@@ -1,7 +1,7 @@
 //! LU factors of matrices of a few rows. The compiler knows their number, which makes them three to five
 //! times faster than loops of unknown length.
 
-use super::lu::SingularRow;
+use super::singular::SingularRow;
 
 /// Calls a function of this module where it is provided for n rows, or evaluates something else.
 macro_rules! of_size {

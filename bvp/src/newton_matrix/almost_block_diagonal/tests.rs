@@ -1,9 +1,10 @@
 //! The structured elimination against dense linear algebra.
 
-use super::{AlmostBlockDiagonal, Singular};
+use super::AlmostBlockDiagonal;
 use crate::discretisation::iterate::{Iterate, SegmentIterate};
 use crate::kernels::dense::max_or_nan;
 use crate::kernels::reflections::MANY;
+use crate::newton_matrix::singular::Singular;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 use proptest::prelude::*;
