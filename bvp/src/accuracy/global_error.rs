@@ -23,8 +23,8 @@ use crate::kernels::specialise::specialise;
 use crate::newton::collocation::Collocation;
 use crate::result::quality::{GlobalErrors, Samples};
 
-/// So many times the error found is reported. Where a mesh is too coarse for what is left out, of higher
-/// order, the error found is too small: over 12 000 random problems the error of some state exceeds ten
+/// The error found times this is reported. On a mesh too coarse for the neglected terms of higher order
+/// the error found is too small: over 12 000 random problems the error of some state exceeds ten
 /// times its estimate in 18 cases.
 const CAUTION: f64 = 1.5;
 
@@ -32,7 +32,7 @@ impl Collocation<'_> {
     /// The global errors of the solution `x`, which was last linearised nearby, from its defects and the
     /// local ones. `None` if one is not finite. Writes `residual` and leaves w in `w`.
     ///
-    /// Errors are looked at at the nodes and at the two collocation points in the middle of every interval:
+    /// Errors are evaluated at the nodes and at the two collocation points in the middle of every interval:
     /// D has its extrema at these points, the largest in the middle.
     pub(crate) fn global_errors(
         &mut self,
@@ -168,7 +168,7 @@ impl Largest {
         }
     }
 
-    /// Looks at the errors `e` of states `y`; returns the largest of them. Where a state has changed its
+    /// Compares the errors `e` of states `y`; returns the largest of them. Where a state has changed its
     /// sign since the last place, its error counts as it is in between where the state vanishes.
     #[inline(always)]
     fn see(&mut self, y: &[f64], e: &[f64]) -> f64 {

@@ -10,7 +10,7 @@ use crate::newton::collocation::Collocation;
 use crate::problem::problem::Segment;
 use faer::MatRef;
 
-/// An interval so many times longer than the decay length does not show a layer.
+/// An interval longer than this many decay lengths does not show a layer.
 const HIDDEN: f64 = 20.0;
 /// What the first of the inserted intervals is of the decay length, at most.
 const SHOWN: f64 = 2.0;

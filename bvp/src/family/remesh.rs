@@ -14,7 +14,7 @@ use crate::result::restored::restored_error;
 use crate::solver::failure::{check_mesh, numerical};
 use std::sync::Arc;
 
-/// A mesh is not coarsened before it has served for so many calls of [`Family::adapted`].
+/// A mesh is not coarsened before it has served for this many calls of [`Family::adapted`].
 const SETTLED: usize = 10;
 /// New meshes are made for this fraction of the tolerance, so that they serve for a stretch of the
 /// curve.

@@ -261,7 +261,7 @@ impl<'a> Collocation<'a> {
         self.stage_correction(residual, correction);
     }
 
-    /// Its nodes and parameters, which are all that a norm looks at.
+    /// Its nodes and parameters, which are all that a norm uses.
     pub(crate) fn node_correction(&mut self, residual: &Residual, correction: &mut Iterate) {
         let segments = residual.equations.iter().zip(&mut correction.segments);
         for (stages, (r, correction)) in self.stages.iter().zip(segments) {

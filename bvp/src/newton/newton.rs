@@ -31,8 +31,7 @@ const ROUNDING_FACTOR: f64 = 100.0;
 /// failure to converge.
 const LARGEST_ROUNDING: f64 = 1e-8;
 
-/// A step whose own correction is expected to be so many times less than is asked for need not be
-/// checked.
+/// A step need not be checked if its own correction is expected to be at most the limit divided by this.
 const PREDICTION_SAFETY: f64 = 10.0;
 
 /// A simplified correction that is this fraction of what is asked for is not even taken.
@@ -73,7 +72,7 @@ impl From<LinearisationError> for Failure {
 pub(crate) struct Norm {
     /// Root mean square over nodes, states and parameters: what the damping compares.
     mean: f64,
-    /// Largest entry: what the stopping test looks at.
+    /// Largest entry: what the stopping test uses.
     pub(crate) largest: f64,
 }
 

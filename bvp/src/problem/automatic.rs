@@ -183,7 +183,7 @@ fn one_pass<const W: usize>(
     specialise!(columns in [1, 2, 3, 4, 5, 6] => write(&values, value, jacobian, columns));
 }
 
-/// Writes values, and gradients with so many columns.
+/// Writes values, and gradients with `columns` columns.
 #[inline(always)]
 fn write<const W: usize>(
     from: &[Dual<W>; W],
@@ -198,7 +198,7 @@ fn write<const W: usize>(
     }
 }
 
-/// W directions per pass. Allocates: beside so many arguments two buffers cost nothing.
+/// W directions per pass. Allocates two buffers, whose cost is negligible with this many arguments.
 fn in_passes<const W: usize>(
     function: impl Fn(&[Dual<W>], &[Dual<W>], &mut [Dual<W>]),
     z: &[f64],

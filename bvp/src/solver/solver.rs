@@ -32,12 +32,12 @@ const INVISIBLE_FRACTION: f64 = 0.01;
 /// Where a mesh does not resolve the solution, the next one aims at this fraction of the largest
 /// defect that does: where nothing is resolved a defect is about one however fine the mesh is.
 const RESOLVED: f64 = 0.3;
-/// A first mesh of equal intervals has so many times fewer than stated: it tells nothing of the solution.
+/// A first mesh of equal intervals has the stated number divided by this: it tells nothing of the solution.
 const THINNED: f64 = 3.4;
 /// A mesh made for the error aims at this fraction of the tolerance, and after every one that missed it
 /// at this fraction of the aim before.
 const AIM: f64 = 0.3;
-/// A solution whose correction on another mesh is so many tolerances or less is the same there.
+/// A solution whose correction on another mesh is at most this many tolerances is the same there.
 const KEPT: f64 = 3.0;
 /// Meshes tried before the tolerance is declared out of reach.
 const MAX_MESHES: usize = 40;

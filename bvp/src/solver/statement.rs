@@ -10,7 +10,7 @@ use crate::result::error::Error;
 use crate::solver::options::Options;
 
 /// Checks that the problem is stated completely, with a condition for every state and parameter
-/// but so many `free` parameters.
+/// except for `free` parameters.
 pub(crate) fn check_statement(equations: &Held<'_>, free: usize) -> Result<(), Error> {
     let segments = equations.pieces().stated();
     if segments.is_empty() {
@@ -128,7 +128,7 @@ pub(crate) fn check_guess_shape(equations: &Held<'_>, guess: &dyn Guess) -> Resu
     Ok(())
 }
 
-/// So many equal intervals for every segment, shared among its pieces by their lengths.
+/// This number of equal intervals for every segment, shared among its pieces by their lengths.
 fn equal_intervals(pieces: &Pieces, intervals: usize) -> Mesh {
     let nodes = |segment: usize| {
         let pieces = &pieces.all()[pieces.of(segment)];

@@ -17,7 +17,7 @@ use crate::solver::options::{Control, Options};
 const FIRST_STEP: f64 = 0.25;
 /// Below this length in θ a step is not tried again after a failure.
 const SMALLEST_STEP: f64 = 1e-4;
-/// At most so many Newton steps on the average of the meshes of a solution make the next step longer.
+/// The next step is longer after at most this many Newton steps per mesh of a solution, on average.
 const EASY: usize = 7;
 /// Largest number of Newton steps on one mesh: with more, half the step is the cheaper way.
 const NEWTON_STEPS: usize = 30;
