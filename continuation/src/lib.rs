@@ -199,6 +199,8 @@ pub use options::{Options, Parameterisation, Predictor};
 pub use point::{DiscretisationError, Kind, Point};
 pub use stop::Stop;
 pub use system::dense::DenseSystem;
+#[cfg(feature = "bvp")]
+pub use system::exact::Differentiable;
 pub use system::system::{Cause, System, TwoParameter};
 pub use two_parameters::branch_point_curve::BranchPointCurve;
 pub use two_parameters::limit_point_curve::LimitPointCurve;

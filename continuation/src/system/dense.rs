@@ -1,15 +1,15 @@
 //! Small systems given by closures.
 
+use crate::system::closures::Closures;
+use crate::system::permutation::parity;
 use crate::system::system::{Cause, System, TwoParameter};
 use faer::MatRef;
 use faer::linalg::solvers::FullPivLu;
 use std::sync::Arc;
 
-/// Residual: states x, all parameters p, n values G.
-type Residual = Arc<dyn Fn(&[f64], &[f64], &mut [f64]) + Send + Sync>;
+/// Derivatives: states x, all parameters p, n × (n + parameters) derivatives of G, row-major.
+type Jacobian = Arc<dyn Fn(&[f64], &[f64], &mut [f64]) + Send + Sync>;
 
-/// What must be said before there is a second parameter.
-const SECOND: &str = "the second parameter is named by with_second";
 /// Step of central differences of sixth order relative to 1 + |z|: ε^(1/7).
 const DIFFERENCE: f64 = 5.8e-3;
 /// The differences: (multiple of the step, weight).
@@ -39,12 +39,8 @@ const WEIGHTS: [(f64, f64); 3] = [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)];
 /// ```
 #[derive(Clone)]
 pub struct DenseSystem {
-    states: usize,
-    parameters: Vec<f64>,
-    lambda: usize,
-    second: Option<usize>,
-    residual: Residual,
-    jacobian: Option<Residual>,
+    closures: Closures,
+    jacobian: Option<Jacobian>,
     /// J, n × (n + 1), row-major.
     matrix: Vec<f64>,
     /// Row-major derivative with respect to all unknowns and parameters, n × (n + parameters).
@@ -73,13 +69,8 @@ impl DenseSystem {
         lambda: usize,
         residual: impl Fn(&[f64], &[f64], &mut [f64]) + Send + Sync + 'static,
     ) -> Self {
-        assert!(lambda < parameters.len(), "one of the parameters varies");
         Self {
-            states,
-            parameters: parameters.to_vec(),
-            lambda,
-            second: None,
-            residual: Arc::new(residual),
+            closures: Closures::new(states, parameters, lambda, residual),
             jacobian: None,
             matrix: vec![0.0; states * (states + 1)],
             full: vec![0.0; states * (states + parameters.len())],
@@ -104,19 +95,18 @@ impl DenseSystem {
     /// If there is no parameter of that number.
     #[must_use]
     pub fn with_second(mut self, second: usize) -> Self {
-        assert!(second < self.parameters.len(), "one of the parameters");
-        self.second = Some(second);
+        self.closures.name_second(second);
         self
     }
 
     /// The values of all parameters; λ is that of the last evaluation.
     pub fn parameters(&self) -> &[f64] {
-        &self.parameters
+        &self.closures.parameters
     }
 
     /// Fills `matrix` by differences.
     fn difference(&mut self, z: &[f64]) {
-        let n = self.states;
+        let n = self.closures.states;
         let mut moved = z.to_vec();
         let (mut ahead, mut behind) = (vec![0.0; n], vec![0.0; n]);
         for j in 0..=n {
@@ -149,27 +139,27 @@ impl DenseSystem {
 
 impl System for DenseSystem {
     fn unknowns(&self) -> usize {
-        self.states + 1
+        self.closures.states + 1
     }
 
     fn residual(&mut self, z: &[f64], g: &mut [f64]) {
-        self.parameters[self.lambda] = z[self.states];
-        (self.residual)(&z[..self.states], &self.parameters, g);
+        self.closures.residual(z, g);
     }
 
     fn linearise(&mut self, z: &[f64]) -> Result<(), Cause> {
-        let n = self.states;
+        let n = self.closures.states;
         match &self.jacobian {
             None => self.difference(z),
             Some(jacobian) => {
-                let columns = n + self.parameters.len();
-                self.parameters[self.lambda] = z[n];
+                let Closures { lambda, .. } = self.closures;
+                let columns = n + self.closures.parameters.len();
+                let x = self.closures.read(z);
                 self.full.fill(f64::NAN);
-                jacobian(&z[..n], &self.parameters, &mut self.full);
+                jacobian(x, &self.closures.parameters, &mut self.full);
                 let rows = self.matrix.chunks_exact_mut(n + 1);
                 for (row, full) in rows.zip(self.full.chunks_exact(columns)) {
                     row[..n].copy_from_slice(&full[..n]);
-                    row[n] = full[n + self.lambda];
+                    row[n] = full[n + lambda];
                 }
             }
         }
@@ -196,11 +186,11 @@ impl System for DenseSystem {
 
 impl TwoParameter for DenseSystem {
     fn second(&self) -> f64 {
-        self.parameters[self.second.expect(SECOND)]
+        self.closures.second()
     }
 
     fn set_second(&mut self, value: f64) {
-        self.parameters[self.second.expect(SECOND)] = value;
+        self.closures.set_second(value);
     }
 }
 
@@ -274,22 +264,4 @@ fn pivot(lu: &FullPivLu<f64>, i: usize) -> f64 {
     } else {
         pivot
     }
-}
-
-/// +1 for an even permutation, −1 for an odd one.
-fn parity(permutation: &[usize]) -> f64 {
-    let mut seen = vec![false; permutation.len()];
-    let mut sign = 1.0;
-    for start in 0..permutation.len() {
-        let (mut next, mut length) = (start, 0);
-        while !seen[next] {
-            seen[next] = true;
-            next = permutation[next];
-            length += 1;
-        }
-        if length > 0 && length % 2 == 0 {
-            sign = -sign;
-        }
-    }
-    sign
 }

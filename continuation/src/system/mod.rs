@@ -2,5 +2,9 @@
 
 #[cfg(feature = "bvp")]
 mod bvp;
+mod closures;
 pub(crate) mod dense;
+#[cfg(feature = "bvp")]
+pub(crate) mod exact;
+mod permutation;
 pub(crate) mod system;

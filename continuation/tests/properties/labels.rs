@@ -4,7 +4,6 @@ use crate::systems::{circle, cusp, tank};
 use crate::{assert_close, finish, of, trace};
 use continuation::Direction::{Decreasing, Increasing};
 use continuation::{Branch, DenseSystem, Kind, Options, Predictor, Stop};
-use std::f64::consts::PI;
 
 /// A parabola λ = 1 − x².
 fn parabola() -> DenseSystem {
