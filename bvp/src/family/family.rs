@@ -80,15 +80,7 @@ impl<'a> Family<'a> {
         let problem = Held::none(equations);
         let k = problem.parameters();
         let fixed = [&[parameter], held].concat();
-        for (i, &parameter) in fixed.iter().enumerate() {
-            if parameter >= k || fixed[..i].contains(&parameter) {
-                return Err(Error::FamilyParameter {
-                    parameter,
-                    parameters: k,
-                });
-            }
-        }
-        check_statement(&problem, fixed.len())?;
+        check_indices(&problem, &fixed)?;
         check_guess_shape(&problem, guess)?;
         let mut p = vec![0.0; k];
         guess.parameters(&mut p);
@@ -373,4 +365,19 @@ impl<'a> Family<'a> {
             stats: self.stats,
         }
     }
+}
+
+/// Checks that parameters named as fixed exist, are named once, and leave as many unknown constants as
+/// there are conditions.
+pub(super) fn check_indices(problem: &Held<'_>, fixed: &[usize]) -> Result<(), Error> {
+    let parameters = problem.parameters();
+    for (i, &parameter) in fixed.iter().enumerate() {
+        if parameter >= parameters || fixed[..i].contains(&parameter) {
+            return Err(Error::FamilyParameter {
+                parameter,
+                parameters,
+            });
+        }
+    }
+    check_statement(problem, fixed.len())
 }

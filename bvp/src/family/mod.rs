@@ -3,3 +3,4 @@
 pub(crate) mod family;
 mod layout;
 mod remesh;
+mod saved;

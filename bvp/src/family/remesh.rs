@@ -47,7 +47,7 @@ impl Family<'_> {
             return Ok(None);
         };
         self.settled = 0;
-        let adapted = self.on_mesh(mesh);
+        let adapted = self.moved_to(mesh);
         let mesh = &self.collocation.mesh;
         for vector in vectors {
             let old = self.wrap(self.iterate(vector), Quality::unknown(mesh));
@@ -128,7 +128,7 @@ impl Family<'_> {
         if intervals(&finer) > limit || !is_representable(&finer) {
             return None;
         }
-        let refined = self.on_mesh(finer);
+        let refined = self.moved_to(finer);
         for vector in vectors {
             let x = restrict(tableau, equations.segments(), mesh, &self.iterate(vector));
             *vector = refined.flat(&x);
@@ -137,7 +137,7 @@ impl Family<'_> {
     }
 
     /// The same family on another mesh.
-    fn on_mesh(&self, mesh: Mesh) -> Self {
+    fn moved_to(&self, mesh: Mesh) -> Self {
         let Collocation {
             equations, tableau, ..
         } = &self.collocation;

@@ -64,7 +64,7 @@ pub(crate) fn restored(equations: &Held<'_>, solution: Solution) -> Solution {
 }
 
 /// The nodes of a segment from those of its pieces.
-fn joined_nodes(pieces: &Pieces, segment: usize, mesh: &[Vec<f64>]) -> Vec<f64> {
+pub(crate) fn joined_nodes(pieces: &Pieces, segment: usize, mesh: &[Vec<f64>]) -> Vec<f64> {
     let of = pieces.of(segment);
     let (_, sign) = pieces.origin(of.start);
     let first = mesh[of.start][0];

@@ -75,25 +75,7 @@ pub(crate) fn first_mesh(
     let mesh = match guess.mesh() {
         None => equal_intervals(pieces, options.initial_intervals),
         Some(mesh) => {
-            for (index, segment) in segments.iter().enumerate() {
-                let is_onward = |pair: &[f64]| match segment.is_reversed() {
-                    true => pair[0] > pair[1],
-                    false => pair[0] < pair[1],
-                };
-                let fits = mesh.get(index).is_some_and(|nodes| {
-                    nodes.len() >= 2
-                        && nodes.first() == Some(&segment.from)
-                        && nodes.last() == Some(&segment.to)
-                        && nodes.windows(2).all(is_onward)
-                });
-                if !fits || mesh.len() != segments.len() {
-                    return Err(Error::GuessMesh {
-                        segment: index,
-                        from: segment.from,
-                        to: segment.to,
-                    });
-                }
-            }
+            check_nodes(segments, &mesh)?;
             pieces.divide(&mesh)
         }
     };
@@ -141,6 +123,30 @@ fn equal_intervals(pieces: &Pieces, intervals: usize) -> Mesh {
         pieces.iter().map(of_piece).collect::<Mesh>()
     };
     (0..pieces.stated().len()).flat_map(nodes).collect()
+}
+
+/// Checks that a mesh which was given divides the segments.
+pub(crate) fn check_nodes(segments: &[Segment], mesh: &Mesh) -> Result<(), Error> {
+    for (index, segment) in segments.iter().enumerate() {
+        let is_onward = |pair: &[f64]| match segment.is_reversed() {
+            true => pair[0] > pair[1],
+            false => pair[0] < pair[1],
+        };
+        let fits = mesh.get(index).is_some_and(|nodes| {
+            nodes.len() >= 2
+                && nodes.first() == Some(&segment.from)
+                && nodes.last() == Some(&segment.to)
+                && nodes.windows(2).all(is_onward)
+        });
+        if !fits || mesh.len() != segments.len() {
+            return Err(Error::GuessMesh {
+                segment: index,
+                from: segment.from,
+                to: segment.to,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Checks that a guess is finite.
