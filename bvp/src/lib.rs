@@ -207,3 +207,8 @@ pub use solver::conditioning::Conditioning;
 pub use solver::embedding::{Embedding, solve_embedded};
 pub use solver::options::{Control, Options};
 pub use solver::solver::solve;
+
+/// The examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -204,3 +204,8 @@ pub use system::exact::Differentiable;
 pub use system::system::{Cause, System, TwoParameter};
 pub use two_parameters::branch_point_curve::BranchPointCurve;
 pub use two_parameters::limit_point_curve::LimitPointCurve;
+
+/// The examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
