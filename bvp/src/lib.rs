@@ -161,6 +161,10 @@
 //!
 //! # Features
 //!
+//! `serde` writes and reads a [`Solution`], which then is a guess as before, and [`Options`], whose missing
+//! fields have their defaults. The format must keep every digit, as `serde_json` does with its feature
+//! `float_roundtrip`.
+//!
 //! `parallel` shares the intervals of large problems among the threads of
 //! [rayon](https://docs.rs/rayon)'s pool: right-hand sides, Jacobians, the condensation of the stages, not
 //! the elimination of the nodes. A solution is the same to the last bit. Without it a call uses one thread;

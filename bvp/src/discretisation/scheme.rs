@@ -15,6 +15,7 @@ pub(crate) const MAX_STAGES: usize = 7;
 /// Ascher, Mattheij & Russell, *Numerical Solution of Boundary Value Problems for Ordinary
 /// Differential Equations* (SIAM 1995), section 5.4.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Scheme {
     /// Lobatto IIIA: both ends of the interval are collocation points, so the solution is
     /// continuously differentiable. Order 2m − 2 at the nodes.

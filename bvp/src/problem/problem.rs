@@ -8,6 +8,7 @@ use crate::problem::real::{LeftOf, Real};
 /// multipoint, interface and free-length problems are stated the same way. An unknown length is
 /// an unknown parameter: keep s in \[0, 1\] and multiply the right-hand side by the length.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Segment {
     /// Number of states n ≥ 1 of this segment.
     pub states: usize,
@@ -78,6 +79,18 @@ impl Segment {
     /// Whether s descends.
     pub(crate) fn is_reversed(&self) -> bool {
         self.from > self.to
+    }
+
+    /// Whether these nodes run from its start to its end without turning back.
+    pub(crate) fn has_mesh(&self, nodes: &[f64]) -> bool {
+        let is_onward = |pair: &[f64]| match self.is_reversed() {
+            true => pair[0] > pair[1],
+            false => pair[0] < pair[1],
+        };
+        nodes.len() >= 2
+            && nodes.first() == Some(&self.from)
+            && nodes.last() == Some(&self.to)
+            && nodes.windows(2).all(is_onward)
     }
 
     /// Number of values at its ends and joined points: two of every piece.

@@ -6,3 +6,5 @@ pub(crate) mod report;
 pub(crate) mod restored;
 pub(crate) mod solution;
 pub(crate) mod stats;
+#[cfg(feature = "serde")]
+pub(crate) mod stored;

@@ -2,6 +2,7 @@
 
 /// The cost of a solution, over all meshes and including its error estimate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Stats {
     /// Evaluations of the right-hand side at one point, with or without derivatives.

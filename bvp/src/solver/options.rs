@@ -9,6 +9,8 @@ use crate::result::error::Error;
 /// let options = bvp::Options { tolerance: 1e-9, ..bvp::Options::default() };
 /// ```
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(default, deny_unknown_fields))]
 pub struct Options {
     /// The estimated global error relative to 1 + |y| is brought to at most this number, or, where the
     /// defect is controlled alone, the defect in the differential equations relative to 1 + |f|; and so are
@@ -38,6 +40,7 @@ pub struct Options {
 
 /// What the tolerance bounds, and what the mesh is chosen for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Control {
     /// The global error, estimated by defect correction.
     Error,

@@ -128,16 +128,7 @@ fn equal_intervals(pieces: &Pieces, intervals: usize) -> Mesh {
 /// Checks that a mesh which was given divides the segments.
 pub(crate) fn check_nodes(segments: &[Segment], mesh: &Mesh) -> Result<(), Error> {
     for (index, segment) in segments.iter().enumerate() {
-        let is_onward = |pair: &[f64]| match segment.is_reversed() {
-            true => pair[0] > pair[1],
-            false => pair[0] < pair[1],
-        };
-        let fits = mesh.get(index).is_some_and(|nodes| {
-            nodes.len() >= 2
-                && nodes.first() == Some(&segment.from)
-                && nodes.last() == Some(&segment.to)
-                && nodes.windows(2).all(is_onward)
-        });
+        let fits = mesh.get(index).is_some_and(|nodes| segment.has_mesh(nodes));
         if !fits || mesh.len() != segments.len() {
             return Err(Error::GuessMesh {
                 segment: index,

@@ -25,5 +25,6 @@ mod reports;
 mod reversed;
 mod scalars;
 mod statements;
+mod stored;
 mod work;
 mod wright;
