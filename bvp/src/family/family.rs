@@ -64,12 +64,12 @@ impl<'a> Family<'a> {
     ///
     /// `parameter` is the index in p of the parameter λ of the family, `held` are the indices of the
     /// f − 1 parameters that are held. With all of these at the values of the guess the problem is
-    /// solved by [`solve`]; the family starts on the mesh of that solution.
+    /// solved by [`solve`](crate::solve); the family starts on the mesh of that solution.
     ///
     /// # Errors
     /// [`Error::FamilyParameter`] if an index is out of range or named twice,
     /// [`Error::ConditionCount`] if the number of conditions is not Σ nᵢ + k − f, and those of
-    /// [`solve`].
+    /// [`solve`](crate::solve).
     pub fn new(
         equations: &'a dyn Equations,
         parameter: usize,

@@ -25,7 +25,7 @@
 //!
 //! # Look at the best iterate
 //!
-//! Every numerical failure carries its last iterate, a [`Solution`](crate::Solution) that can be plotted
+//! Every numerical failure carries its last iterate, a [`Solution`] that can be plotted
 //! and that is also a [`Guess`](crate::Guess). If it grows without bounds, there may be no solution. If it
 //! has steps between neighbouring nodes, there is a layer. If it looks right, only the limits were too
 //! tight:
@@ -105,7 +105,7 @@
 //!    say so.
 //! 3. The right shape: the right number of waves, a layer roughly in its place.
 //! 4. The solution of a simpler problem: linearised, with a larger ε, a smaller load, on half of the
-//!    interval. A [`Solution`](crate::Solution) is a guess for any problem with the same segments;
+//!    interval. A [`Solution`] is a guess for any problem with the same segments;
 //!    [`Function`](crate::Function) makes one from whatever else is known.
 //! 5. Each of these in steps: [`solve_embedded`].
 //!

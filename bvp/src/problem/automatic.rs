@@ -111,7 +111,7 @@ fn differentiate(
         7..=10 => one_pass::<10>(|z, p, v| function.evaluate(z, p, v), z, p, value, jacobian),
         11..=16 => one_pass::<16>(|z, p, v| function.evaluate(z, p, v), z, p, value, jacobian),
         _ => {
-            differentiate_by::<WIDEST>(|z, p, v| function.evaluate(z, p, v), z, p, value, jacobian)
+            differentiate_by::<WIDEST>(|z, p, v| function.evaluate(z, p, v), z, p, value, jacobian);
         }
     }
 }

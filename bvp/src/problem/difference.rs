@@ -51,12 +51,7 @@ pub struct FiniteDifferences<F, G> {
 impl FiniteDifferences<(), ()> {
     /// The values of other equations with their Jacobians replaced by central differences, to
     /// [compare](crate::check_jacobians) the originals with.
-    pub fn of(
-        equations: &dyn Equations,
-    ) -> FiniteDifferences<
-        impl Fn(usize, f64, &[f64], &[f64], &mut [f64]) + Sync,
-        impl Fn(Ends<'_, f64>, &[f64], &mut [f64]) + Sync,
-    > {
+    pub fn of(equations: &dyn Equations) -> impl Equations {
         let shape = equations.shape();
         FiniteDifferences {
             segments: shape.segments,

@@ -160,7 +160,7 @@ pub trait LeftOf<T>:
 }
 
 impl<T> LeftOf<T> for f64 where
-    f64: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T>
+    Self: Add<T, Output = T> + Sub<T, Output = T> + Mul<T, Output = T> + Div<T, Output = T>
 {
 }
 
@@ -248,7 +248,7 @@ impl Real for f64 {
     fn erf(self) -> Self {
         libm::erf(self)
     }
-    fn apply(self, function: impl FnOnce(f64) -> (f64, f64)) -> Self {
+    fn apply(self, function: impl FnOnce(Self) -> (Self, Self)) -> Self {
         function(self).0
     }
 }

@@ -1,13 +1,12 @@
 //! A solution as it is written and read: its numbers, without the tableau of its scheme.
 
-use crate::accuracy::defect::Defects;
-use crate::accuracy::global_error::GlobalErrors;
 use crate::discretisation::iterate::{Iterate, SegmentIterate};
 use crate::discretisation::scheme::Scheme;
 use crate::discretisation::tableau::Tableau;
 use crate::problem::problem::Segment;
 use crate::result::error::Error;
-use crate::result::solution::{Quality, Solution};
+use crate::result::quality::{Defects, GlobalErrors, Quality};
+use crate::result::solution::Solution;
 use crate::result::stats::Stats;
 
 /// The numbers of a solution. What is not known or not finite of its accuracy is left out, since some

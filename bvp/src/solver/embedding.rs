@@ -88,7 +88,7 @@ pub struct Embedding {
 /// # Errors
 /// [`Error::Embedding`] if there is no such parameter or one of the values is not finite;
 /// [`Error::Unreached`] if the way ends before `to`, with the value that was reached and the solution
-/// there; the error of [`solve`] if the problem has no solution from the guess even at `from`.
+/// there; the error of [`solve`](crate::solve) if the problem has no solution from the guess even at `from`.
 pub fn solve_embedded(
     equations: &dyn Equations,
     embedding: &Embedding,
