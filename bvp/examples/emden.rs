@@ -14,7 +14,7 @@
 //!
 //! Run with `cargo run -p bvp --example emden`.
 
-use bvp::{Constant, Ends, Error, Options, Problem, Real, Segment, solve};
+use bvp::{Constant, Ends, Error, LeftOf, Options, Problem, Real, Segment, solve};
 
 /// States y and y′.
 struct Emden;
@@ -24,9 +24,12 @@ impl Problem for Emden {
         vec![Segment::new(2)]
     }
 
-    fn rhs<T: Real>(&self, _segment: usize, x: T, y: &[T], _p: &[T], dy: &mut [T]) {
+    fn rhs<T: Real>(&self, _segment: usize, x: T, y: &[T], _p: &[T], dy: &mut [T])
+    where
+        f64: LeftOf<T>,
+    {
         dy[0] = y[1];
-        dy[1] = -y[1] / x * 2.0 - y[0].powi(5);
+        dy[1] = -2.0 / x * y[1] - y[0].powi(5);
     }
 
     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {

@@ -23,7 +23,7 @@
 //!
 //! Run with `cargo run -p bvp --example front`.
 
-use bvp::{Ends, Error, Function, Options, Problem, Real, Segment, Solution, solve};
+use bvp::{Ends, Error, Function, LeftOf, Options, Problem, Real, Segment, Solution, solve};
 use std::f64::consts::SQRT_2;
 
 const TOLERANCE: f64 = 1e-10;
@@ -61,11 +61,14 @@ impl Problem for Front {
         dy[1] = -p[0] * y[1] - u * (-u + 1.0) * (u - self.a);
     }
 
-    fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]) {
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T])
+    where
+        f64: LeftOf<T>,
+    {
         let (left, right) = (at.start(0), at.end(1));
         let root = |product: f64| (p[0] * p[0] + 4.0 * product).sqrt();
-        let growth = (root(1.0 - self.a) - p[0]) * 0.5;
-        let decay = -(root(self.a) + p[0]) * 0.5;
+        let growth = 0.5 * (root(1.0 - self.a) - p[0]);
+        let decay = -0.5 * (root(self.a) + p[0]);
         r[0] = left[0] - 1.0;
         r[1] = right[0];
         if self.projected {

@@ -10,7 +10,7 @@
 //!
 //! Run with `cargo run -p bvp --example mathieu`.
 
-use bvp::{Ends, Error, Function, Options, Problem, Real, Segment, Solution, solve};
+use bvp::{Ends, Error, Function, LeftOf, Options, Problem, Real, Segment, Solution, solve};
 use std::f64::consts::PI;
 
 /// States y and y'; the characteristic value a is an unknown parameter, so there are three
@@ -28,9 +28,12 @@ impl Problem for Mathieu {
         1
     }
 
-    fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
+    fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T])
+    where
+        f64: LeftOf<T>,
+    {
         dy[0] = y[1];
-        dy[1] = -(p[0] - (s * 2.0).cos() * (2.0 * self.q)) * y[0];
+        dy[1] = -(p[0] - 2.0 * self.q * (2.0 * s).cos()) * y[0];
     }
 
     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {

@@ -18,7 +18,7 @@
 //!
 //! Run with `cargo run -p bvp --example rotating_disk`.
 
-use bvp::{Ends, Error, Function, Options, Problem, Real, Segment, solve};
+use bvp::{Ends, Error, Function, LeftOf, Options, Problem, Real, Segment, solve};
 
 /// The length L.
 const LENGTH: f64 = 2.0;
@@ -31,13 +31,16 @@ impl Problem for Disk {
         vec![Segment::new(5)]
     }
 
-    fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {
+    fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], _p: &[T], dy: &mut [T])
+    where
+        f64: LeftOf<T>,
+    {
         let [radial, d_radial, circular, d_circular, axial] = [0, 1, 2, 3, 4].map(|i| y[i]);
         dy[0] = d_radial;
         dy[1] = radial * radial - circular * circular + axial * d_radial;
         dy[2] = d_circular;
-        dy[3] = radial * circular * 2.0 + axial * d_circular;
-        dy[4] = -radial * 2.0;
+        dy[3] = 2.0 * radial * circular + axial * d_circular;
+        dy[4] = -2.0 * radial;
         let stretch = (-s + 1.0).powi(-2) * LENGTH;
         dy.iter_mut().for_each(|dy| *dy *= stretch);
     }

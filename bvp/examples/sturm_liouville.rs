@@ -21,7 +21,7 @@
 //!
 //! Run with `cargo run -p bvp --example sturm_liouville`.
 
-use bvp::{Ends, Error, Function, Options, Problem, Real, Segment, Solution, solve};
+use bvp::{Ends, Error, Function, LeftOf, Options, Problem, Real, Segment, Solution, solve};
 use std::f64::consts::FRAC_PI_2;
 
 /// The angle θ; the parameter is λ.
@@ -40,9 +40,12 @@ impl Problem for Pruefer {
         1
     }
 
-    fn rhs<T: Real>(&self, _segment: usize, x: T, y: &[T], p: &[T], dy: &mut [T]) {
+    fn rhs<T: Real>(&self, _segment: usize, x: T, y: &[T], p: &[T], dy: &mut [T])
+    where
+        f64: LeftOf<T>,
+    {
         let scale = self.beta.max(f64::from(self.k + 1));
-        let (sin2x, cos2x) = (x * 2.0).sin_cos();
+        let (sin2x, cos2x) = (2.0 * x).sin_cos();
         let q = (sin2x * self.beta).powi(2) - cos2x * (2.0 * self.beta);
         let (sin, cos) = y[0].sin_cos();
         dy[0] = cos * cos * scale + (p[0] - q) / scale * sin * sin;

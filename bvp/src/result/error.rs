@@ -287,7 +287,8 @@ pub enum Error {
     /// where they act, shift the problem away, state it for other unknowns such as the difference
     /// from a known solution, or ask for a larger tolerance.
     #[error(
-        "ill-conditioned: rounding errors change the solution by {rounding:.1e} relative to 1 + |y|, tolerance {tolerance:.1e} (amplified {condition:.0e} times); other conditions, another formulation or a larger tolerance may help, a finer mesh cannot"
+        "ill-conditioned: {}, tolerance {tolerance:.1e}; other conditions, another formulation or a larger tolerance may help, a finer mesh cannot",
+        amplified(*.rounding, *.condition)
     )]
     IllConditioned {
         /// Estimated rounding error relative to 1 + |y|. From 0.01 on no digit of the solution is
@@ -333,6 +334,21 @@ fn estimate(error: f64) -> String {
         format!("{error:.1e}")
     } else {
         "not known".to_owned()
+    }
+}
+
+/// From this size on an estimate of the rounding error tells only that no digit is known: it is the
+/// rounding of the estimate itself.
+const NO_DIGIT: f64 = 1.0;
+
+/// What rounding does to a solution.
+fn amplified(rounding: f64, condition: f64) -> String {
+    if rounding < NO_DIGIT {
+        format!(
+            "rounding errors change the solution by {rounding:.1e} relative to 1 + |y| (amplified {condition:.0e} times)"
+        )
+    } else {
+        "rounding errors leave no digit of the solution".to_owned()
     }
 }
 

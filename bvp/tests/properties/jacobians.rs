@@ -97,7 +97,7 @@ fn by_differences() -> impl Equations {
             ByHand.evaluate_rhs(segment, s, y, p, dy);
         },
         conditions: |at: Ends<'_, f64>, p: &[f64], r: &mut [f64]| {
-            ByHand.evaluate_conditions(at, p, r)
+            ByHand.evaluate_conditions(at, p, r);
         },
     }
 }
