@@ -16,6 +16,9 @@ const SMALLEST_CUT: f64 = 0.2;
 pub(crate) const GRADING: f64 = 2.5;
 /// The same where the mesh is made for the error.
 pub(crate) const GRADING_BY_ERROR: f64 = 3.0;
+/// No mesh is made with more intervals than this on a segment, 128 megabytes of nodes; the mesh limit then
+/// refuses it. Grading beside an interval of length 1e-20 asks for 1e19.
+const MOST: usize = 1 << 24;
 /// Where at most this share of the intervals is too long, only they are cut.
 const FEW: f64 = 0.12;
 
@@ -53,7 +56,7 @@ pub(crate) fn next_mesh(
             .zip(nodes.windows(2))
             .map(|(density, pair)| density * (pair[1] - pair[0]))
             .sum();
-        equidistribute(nodes, &density, ceil(total).max(2))
+        equidistribute(nodes, &density, ceil(total).clamp(2, MOST))
     };
     mesh.iter().zip(defects).map(next).collect()
 }

@@ -81,9 +81,13 @@ pub(crate) fn equidistribute(nodes: &[f64], density: &[f64], intervals: usize) -
     placed
 }
 
-/// Whether every interval is long enough for floating-point numbers.
+/// Whether every interval is long enough for floating-point numbers: its collocation points stay apart
+/// and its density of nodes is finite.
 pub(crate) fn is_representable(mesh: &Mesh) -> bool {
-    let spacing = |pair: &[f64]| f64::EPSILON * pair[0].abs().max(pair[1].abs());
+    let spacing = |pair: &[f64]| {
+        let largest = pair[0].abs().max(pair[1].abs());
+        (f64::EPSILON * largest).max(f64::MIN_POSITIVE)
+    };
     let resolved = |pair: &[f64]| pair[1] - pair[0] > FEWEST_SPACINGS * spacing(pair);
     mesh.iter().all(|nodes| nodes.windows(2).all(resolved))
 }
@@ -120,6 +124,7 @@ mod tests {
     #[test]
     fn intervals_at_the_spacing_of_numbers_are_not_representable() {
         assert!(is_representable(&vec![vec![0.0, 1e-300, 1.0]]));
+        assert!(!is_representable(&vec![vec![0.0, 1e-307, 1.0]]));
         assert!(is_representable(&vec![vec![1.0, 1.0 + 1e-13, 2.0]]));
         assert!(!is_representable(&vec![vec![1.0, 1.0 + 1e-15, 2.0]]));
         assert!(!is_representable(&vec![

@@ -30,9 +30,10 @@ pub(crate) fn check_statement(equations: &Held<'_>, free: usize) -> Result<(), E
         }
         check_joined(index, segment)?;
     }
-    let states = segments.iter().map(|segment| segment.states).sum();
+    let counts = segments.iter().map(|segment| segment.states);
+    let states = counts.fold(0, usize::saturating_add);
     let parameters = equations.parameters() - free;
-    let unknowns = states + parameters;
+    let unknowns = states.saturating_add(parameters);
     let conditions = equations.own_conditions() + equations.held_count();
     if conditions != unknowns {
         return Err(Error::ConditionCount {
@@ -72,18 +73,24 @@ pub(crate) fn first_mesh(
 ) -> Result<Mesh, Error> {
     let pieces = equations.pieces();
     let segments = pieces.stated();
+    let limit = options.max_intervals;
+    let allow = |intervals| match intervals > limit {
+        true => Err(Error::FirstMesh { intervals, limit }),
+        false => Ok(()),
+    };
     let mesh = match guess.mesh() {
-        None => equal_intervals(pieces, options.initial_intervals),
+        None => {
+            // Before so many nodes are made.
+            allow(options.initial_intervals.saturating_mul(segments.len()))?;
+            equal_intervals(pieces, options.initial_intervals)
+        }
         Some(mesh) => {
             check_nodes(segments, &mesh)?;
             pieces.divide(&mesh)
         }
     };
     check_guess_shape(equations, guess)?;
-    let (intervals, limit) = (intervals(&mesh), options.max_intervals);
-    if intervals > limit {
-        return Err(Error::FirstMesh { intervals, limit });
-    }
+    allow(intervals(&mesh))?;
     Ok(mesh)
 }
 
