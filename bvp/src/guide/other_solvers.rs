@@ -76,8 +76,12 @@
 //! * Equations of higher order are written as systems of the first, as in MATLAB and Python and unlike
 //!   COLNEW.
 //! * The right-hand side is generic in its scalar [`Real`]; that is what makes the Jacobians exact.
-//!   Numbers of type `f64` stand on the right, `y[0] * 2.0 - 1.0`; a constant of type `T` is
-//!   `T::from(2.0)`; powers are `powi` and `powf`.
+//!   Numbers of type `f64` stand on the right, `y[0] * 2.0 - 1.0`, and on the left, `2.0 * y[0]`, where a
+//!   function says `where f64: `[`LeftOf`](crate::LeftOf)`<T>`. A constant of type `T` is `T::from(2.0)`;
+//!   powers are `powi`, `powf` and, with an unknown exponent, `pow`; any other function enters by
+//!   [`Real::apply`].
+//! * A condition at an interior point needs no segment of its own, but a [joined
+//!   point](crate::Segment::joined).
 //! * Given constants are fields of the struct; unknown ones are [`Problem::parameters`].
 //! * Every entry of `dy` and `r` must be written, zeros too: one that is not is reported.
 //! * Indices start at zero, those of segments too.
