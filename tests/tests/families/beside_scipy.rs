@@ -1,4 +1,4 @@
-//! The same problems solved by SciPy, which asks this program for every right-hand side.
+//! The same problems solved by `SciPy`, which asks this program for every right-hand side.
 
 use crate::trial::Trial;
 use bvp::{Ends, Equations, Guess, Segment};
@@ -6,17 +6,17 @@ use std::io::{BufRead, BufReader, Read, Result, Write};
 use std::path::PathBuf;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
-/// Nodes of the mesh that SciPy begins with: the ten intervals of `bvp::Options`.
+/// Nodes of the mesh that `SciPy` begins with: the ten intervals of `bvp::Options`.
 const NODES: usize = 11;
 
-/// A process with SciPy; see benches/scipy/served.py.
+/// A process with `SciPy`; see benches/scipy/served.py.
 pub(crate) struct SciPy {
     child: Child,
     input: ChildStdin,
     output: BufReader<ChildStdout>,
 }
 
-/// A solution of SciPy: cubic between the nodes.
+/// A solution of `SciPy`: cubic between the nodes.
 struct Cubic {
     nodes: Vec<f64>,
     /// States and slopes, a row of nodes for every state.
@@ -76,7 +76,7 @@ impl SciPy {
         })
     }
 
-    /// Solves a problem of one segment; `None` where SciPy reports a failure.
+    /// Solves a problem of one segment; `None` where `SciPy` reports a failure.
     pub(crate) fn solve(
         &mut self,
         trial: &Trial,

@@ -17,7 +17,7 @@ use std::fs;
 
 /// Problems of every family: 100 000 in all.
 const MANY: u32 = 11_112;
-/// The same for the comparison with SciPy: 2000 in all.
+/// The same for the comparison with `SciPy`: 2000 in all.
 const SAMPLE: u32 = 223;
 
 const HEAD_OF_MANY: &str = "

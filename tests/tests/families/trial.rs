@@ -25,6 +25,9 @@ pub(crate) struct Trial {
     pub(crate) places: Vec<f64>,
 }
 
+/// The error of a candidate, relative to 1 + |y|.
+pub(crate) type Measure = dyn Fn(&dyn Guess) -> f64 + Send + Sync;
+
 /// What is known of the solutions of a problem.
 pub(crate) enum Truth {
     /// All isolated solutions: none where there is no solution or only families of them.
@@ -32,7 +35,7 @@ pub(crate) enum Truth {
     /// One isolated solution; there may be others.
     OneOf(Known),
     /// The error of a candidate.
-    Measured(Box<dyn Fn(&dyn Guess) -> f64 + Send + Sync>),
+    Measured(Box<Measure>),
 }
 
 /// What came of a trial.
