@@ -236,3 +236,55 @@ fn joined_points_that_are_none() {
         assert!((solution.end(0)[0] - (-1f64).exp()).abs() < 1e-5);
     }
 }
+
+#[test]
+fn values_at_the_ends_of_the_range_of_numbers() {
+    for value in [
+        1e300,
+        -1e300,
+        f64::MAX,
+        1e-300,
+        f64::MIN_POSITIVE,
+        f64::from_bits(1),
+    ] {
+        let asked = Plain {
+            value,
+            ..Plain::default()
+        };
+        if let Ok(solution) = asked.solved() {
+            let exact = value * (-1f64).exp();
+            assert!(
+                (solution.end(0)[0] - exact).abs() <= 1e-5 * (1.0 + exact.abs()),
+                "{value}"
+            );
+        }
+        let plain = Plain::default();
+        if let Ok(solution) = solve(&plain, &plain.guess(value), &Options::default()) {
+            assert!(
+                (solution.end(0)[0] - (-1f64).exp()).abs() < 1e-5,
+                "from {value}"
+            );
+        }
+        let weighted = Plain {
+            weight: value,
+            ..Plain::default()
+        };
+        if let Ok(solution) = weighted.solved() {
+            assert!(
+                (solution.end(0)[0] - (-1f64).exp()).abs() < 1e-5,
+                "weighted by {value}"
+            );
+        }
+        let fast = Plain {
+            size: value,
+            ..Plain::default()
+        };
+        if let Ok(solution) = fast.solved() {
+            let exact = (-value).exp();
+            assert!(
+                (solution.end(0)[0] - exact).abs() < 1e-5 * (1.0 + exact),
+                "rate {value}"
+            );
+        }
+    }
+}
