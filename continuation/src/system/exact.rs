@@ -65,8 +65,8 @@ fn derivatives(equations: &impl Differentiable, x: &[f64], p: &[f64], j: &mut [f
     let mut g = vec![constant(&f64::NAN); n];
     for first in (0..columns).step_by(WIDTH) {
         let last = (first + WIDTH).min(columns);
-        for column in first..last {
-            unknowns[column].gradient[column - first] = 1.0;
+        for (direction, unknown) in unknowns[first..last].iter_mut().enumerate() {
+            unknown.gradient[direction] = 1.0;
         }
         let (x, p) = unknowns.split_at(n);
         equations.residual(x, p, &mut g);
