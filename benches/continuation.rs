@@ -313,10 +313,7 @@ fn points(criterion: &mut Criterion) {
         step: 1.0,
         length: 29.0,
     };
-    let (name, system) = (
-        format!("points, {points} equations"),
-        banded::Bratu::new(points),
-    );
+    let (name, system) = (format!("points, {points} equations"), banded::bratu(points));
     let mut task = Task::new(name, system, 3.513_828_891_029_4, auto, points as f64);
     task.bench(criterion, "as AUTO, 1e-7", &task.as_auto(1e-7));
     task.bench(criterion, "own steps", &task.own());

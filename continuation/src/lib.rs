@@ -201,6 +201,8 @@ pub use stop::Stop;
 pub use system::dense::DenseSystem;
 #[cfg(feature = "bvp")]
 pub use system::exact::Differentiable;
+#[cfg(feature = "sparse")]
+pub use system::sparse::SparseSystem;
 pub use system::system::{Cause, System, TwoParameter};
 pub use two_parameters::branch_point_curve::BranchPointCurve;
 pub use two_parameters::limit_point_curve::LimitPointCurve;

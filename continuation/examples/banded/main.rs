@@ -1,15 +1,15 @@
-//! A system that solves its own equations: 999 points of Bratu's problem, followed round the limit
-//! point at the cost of a few tridiagonal eliminations per step.
+//! A banded system: 999 points of Bratu's problem, followed round the limit point at the cost of a few
+//! sparse eliminations per step.
 
 mod bratu;
 
-use bratu::Bratu;
+use bratu::bratu;
 use continuation::{Branch, Direction, Error, Kind, Options};
 
 const POINTS: usize = 999;
 
 fn main() -> Result<(), Error> {
-    let mut system = Bratu::new(POINTS);
+    let mut system = bratu(POINTS);
     let options = Options {
         targets: vec![1.0],
         ..Options::within(0.0, 4.0)

@@ -7,4 +7,8 @@ pub(crate) mod dense;
 #[cfg(feature = "bvp")]
 pub(crate) mod exact;
 mod permutation;
+#[cfg(feature = "sparse")]
+pub(crate) mod sparse;
+#[cfg(feature = "sparse")]
+mod sparse_lu;
 pub(crate) mod system;

@@ -1,6 +1,6 @@
 //! The arclength measures the curve, not the way its equations are written.
 
-use crate::bratu::Bratu;
+use crate::bratu::bratu;
 use crate::{assert_close, of, trace};
 use continuation::Direction::Increasing;
 use continuation::{DenseSystem, Kind, Options, Point};
@@ -79,7 +79,7 @@ fn samples_of_a_function_count_as_one() {
             ..Options::within(-1.0, 4.0)
         };
         trace(
-            &mut Bratu::new(points),
+            &mut bratu(points),
             &start,
             Increasing,
             &Options {

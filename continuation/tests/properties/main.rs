@@ -11,6 +11,7 @@ mod labels;
 mod refinement;
 mod saving;
 mod solutions;
+mod sparse;
 mod special_points;
 mod switching;
 mod systems;

@@ -1,6 +1,6 @@
 //! What a branch costs.
 
-use crate::bratu::Bratu;
+use crate::bratu::bratu;
 use crate::counting::{Counting, Counts};
 use crate::systems::tank;
 use crate::{assert_close, of, steps};
@@ -18,7 +18,7 @@ const DIFFERENCES: [(usize, f64); 4] = [
 const EXACT: f64 = 3.513_830_719_125_161;
 
 fn limit_point(points: usize) -> (Point, usize) {
-    let mut system = Bratu::new(points);
+    let mut system = bratu(points);
     let start = vec![0.0; points + 1];
     let branch = Branch::new(&mut system, &start, Increasing, &Options::within(0.0, 4.0)).unwrap();
     let mut passed = Vec::new();
@@ -87,7 +87,7 @@ fn work<S: System>(system: S, start: &[f64], options: &Options) -> (Counts, usiz
 fn a_step_takes_about_one_linearisation() {
     let points = 999;
     let start = vec![0.0; points + 1];
-    let (counts, steps) = work(Bratu::new(points), &start, &Options::within(0.0, 3.4));
+    let (counts, steps) = work(bratu(points), &start, &Options::within(0.0, 3.4));
     println!("bratu: {steps} steps, {counts:?}");
     assert!(
         counts.linearisations <= 2 * steps,
