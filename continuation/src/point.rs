@@ -16,6 +16,11 @@ pub struct Point {
     pub kind: Kind,
     /// Unit tangent of the other branch, at branch points that have one.
     pub other: Option<Vec<f64>>,
+    /// Whether a limit point or branch point is only indicated on a very short step: its defining
+    /// conditions could not be verified, for instance because of noise in G or because more than two
+    /// curves cross. Its place is known to about 1e-5 in the arclength norm.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub approximate: bool,
     /// Discretisation error of a labelled point, where the system can be refined.
     pub error: Option<DiscretisationError>,
 }

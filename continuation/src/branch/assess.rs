@@ -114,7 +114,8 @@ impl<S: System> Branch<'_, S> {
     ) -> Result<Vec<f64>, Difficulty> {
         let (z, tangent, kind) = (&point.z[..], &point.tangent[..], point.kind);
         let n = z.len() - 1;
-        let mut corrector = Corrector::within(self.options.bounds);
+        let bounded = Corrector::within(self.options.bounds);
+        let mut corrector = bounded.clone();
         let mut to = |system: &mut S, mut z: Vec<f64>, condition: &Condition| {
             let accuracy = Accuracy::Rounding;
             corrector
@@ -133,8 +134,8 @@ impl<S: System> Branch<'_, S> {
             Kind::Regular | Kind::Closed => {
                 to(system, z.to_vec(), &Condition::plane(metric, tangent, z))
             }
-            Kind::BranchPoint => column(system, metric, z).and_then(|column| {
-                let mut corrector = Corrector::anywhere();
+            Kind::BranchPoint => column(system, &bounded, metric, z).and_then(|column| {
+                let mut corrector = bounded.clone();
                 branch_point(system, &mut corrector, metric, z, &column).map(|found| found.z)
             }),
             Kind::LimitPoint | Kind::Cusp | Kind::Event(_) => {
@@ -173,7 +174,7 @@ impl<S: System> Branch<'_, S> {
         if self.unoriented && self.history.arclengths.is_empty() {
             // A branch point, located already.
             self.metric.normalise(&mut self.node.tangent);
-            self.column = column(self.system, &self.metric, &self.node.z)?;
+            self.column = column(self.system, &self.corrector, &self.metric, &self.node.z)?;
             return Ok(());
         }
         let mut z = self.node.z.clone();

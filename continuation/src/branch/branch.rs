@@ -52,6 +52,8 @@ pub struct Branch<'a, S: System> {
     pub(crate) history: History,
     /// The first point and its tangent.
     pub(crate) home: Node,
+    /// Whether the first point is a branch point.
+    pub(crate) from_branch_point: bool,
     /// Whether orientation and rates at the last node mean nothing: it is a branch point.
     pub(crate) unoriented: bool,
     /// The rate of the height of the null space over the last step.
@@ -96,10 +98,10 @@ impl<'a, S: System> Branch<'a, S> {
         branch.node.tangent.clone_from(&point.tangent);
         branch.metric.reach(&point.tangent);
         if point.kind == Kind::BranchPoint {
-            branch.unoriented = true;
+            (branch.unoriented, branch.from_branch_point) = (true, true);
             branch.metric.normalise(&mut branch.node.tangent);
-            branch.column =
-                column(branch.system, &branch.metric, &point.z).map_err(Error::Start)?;
+            branch.column = column(branch.system, &branch.corrector, &branch.metric, &point.z)
+                .map_err(Error::Start)?;
             branch.set_out(true);
         } else {
             branch
@@ -132,6 +134,7 @@ impl<'a, S: System> Branch<'a, S> {
             home: node.clone(),
             node,
             history: History::default(),
+            from_branch_point: false,
             unoriented: false,
             trend: None,
             step: options.first_step.min(options.largest_step),
@@ -190,8 +193,16 @@ impl<'a, S: System> Branch<'a, S> {
     /// Chooses the column for the test function for branch points and gives the node, where the system
     /// was linearised last, its second null vector.
     pub(crate) fn watch_branch_points(&mut self) -> Result<(), Difficulty> {
-        self.column = column(self.system, &self.metric, &self.node.z)?;
-        self.node.second = self.second_vector(&self.node.tangent.clone())?;
+        self.column = column(self.system, &self.corrector, &self.metric, &self.node.z)?;
+        let tangent = self.node.tangent.clone();
+        let second = self.second_vector(&tangent)?;
+        // The second vector is (v, −1) up to its length, with J v = b: b is enlarged until v has length
+        // one. With a short v the component η outweighs it, and pairs of branch points are missed.
+        let eta = second.last().map_or(1.0, |eta| eta.abs());
+        let length = (1.0 - eta * eta).sqrt() / eta;
+        let scale = if length > 0.0 { length.min(1.0) } else { 1.0 };
+        self.column.iter_mut().for_each(|b| *b /= scale);
+        self.node.second = self.second_vector(&tangent)?;
         self.trend = None;
         Ok(())
     }

@@ -6,6 +6,7 @@ use crate::error::Difficulty;
 use crate::point::{Kind, Point};
 use crate::special_points::span::{Located, Node, RESOLVED, Span};
 use crate::system::system::System;
+use std::f64::consts::FRAC_PI_2;
 
 /// Where λ turns more slowly than this at a branch point or cusp, it turns because of it.
 const COINCIDENT: f64 = 1e-5;
@@ -15,6 +16,14 @@ const FEWEST_STEPS: usize = 3;
 const NEAR: f64 = 0.3;
 /// ... and is met with this accuracy, or to that of the discretisation.
 const MET: f64 = 1e-6;
+/// On steps that are this share of the largest, limit points that cannot be verified are approximate, and
+/// other labelled points that cannot be found are passed over.
+const PASSED: f64 = 1e-4;
+/// On steps that are this share of the largest, branch points that cannot be verified are approximate. It is
+/// as small as steps can well be, because the same signs tell of a jump to another branch.
+pub(crate) const UNVERIFIED: f64 = 1e-6;
+/// The cusp function of a cusp is this share of that at the ends of the step, at most.
+const CUSP: f64 = 1e-4;
 /// Labelled points this close to the first point, as a share of the step, are those at the first one.
 const AT_HOME: f64 = 1e-6;
 
@@ -23,38 +32,74 @@ pub(crate) struct Found {
     pub(crate) at: Located,
     pub(crate) kind: Kind,
     pub(crate) other: Option<Vec<f64>>,
+    /// Whether its defining conditions could not be verified.
+    pub(crate) approximate: bool,
 }
 
 impl Found {
     fn new(at: Located, kind: Kind) -> Self {
-        let other = None;
-        Self { at, kind, other }
+        Self {
+            at,
+            kind,
+            other: None,
+            approximate: false,
+        }
+    }
+
+    /// The point as a node, with the orientation behind it.
+    fn node(&self) -> Node {
+        let mut node = Node::new(self.at.z.clone(), self.at.tangent.clone());
+        node.along = self.at.along;
+        node
+    }
+
+    /// A point that is indicated at 0 ≤ u ≤ 1 of the secant of a short step, but not verified.
+    fn approximate(from: &Node, to: &Node, u: f64, kind: Kind) -> Self {
+        let between = |a: &[f64], b: &[f64]| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| a + u * (b - a)).collect()
+        };
+        let z = between(&from.z, &to.z);
+        let tangent = between(&from.tangent, &to.tangent);
+        Self {
+            approximate: true,
+            ..Self::new(
+                Located {
+                    u,
+                    z,
+                    tangent,
+                    along: to.along,
+                },
+                kind,
+            )
+        }
     }
 }
 
 impl<S: System> Branch<'_, S> {
-    /// All labelled points on the step to `to`, in order. Where a point is indicated but not found,
-    /// an error if `strict`; else it is passed over.
-    pub(crate) fn specials(&mut self, to: &Node, strict: bool) -> Result<Vec<Found>, Difficulty> {
+    /// All labelled points on the step to `to`, in order; the step is this `share` of the largest. Where
+    /// a point is indicated but not verified, the step is to be repeated shorter; on the shortest ones a
+    /// limit point or branch point is then approximate, and others are passed over.
+    pub(crate) fn specials(&mut self, to: &Node, share: f64) -> Result<Vec<Found>, Difficulty> {
+        let strict = share > PASSED;
         let pass = |outcome: Result<Vec<Found>, Difficulty>| match outcome {
             Err(difficulty) if strict => Err(difficulty),
             outcome => Ok(outcome.unwrap_or_default()),
         };
-        let mut found = pass(self.branch_points(to))?;
+        let mut found = self.branch_points(to, share)?;
         found.extend(pass(self.cusps(to))?);
-        let limits = pass(self.limit_points(to, &found))?;
+        let limits = self.limit_points(to, &found, share)?;
         found.extend(limits);
         for index in 0..self.events.len() {
             found.extend(pass(self.event_points(index, to))?);
         }
         let mut corners = vec![self.node.clone()];
         let turns = found.iter().filter(|found| found.kind == Kind::LimitPoint);
-        corners.extend(turns.map(|found| Node::new(found.at.z.clone(), found.at.tangent.clone())));
+        corners.extend(turns.map(Found::node));
         corners.push(to.clone());
         for target in self.options.targets.clone() {
             found.extend(pass(self.target_points(target, &corners, to))?);
         }
-        if let Some(home) = self.home_on(to) {
+        if let Some(home) = self.home_among(&found).or_else(|| self.home_on(to)) {
             found.retain(|found| found.at.u < home.u - AT_HOME);
             found.push(Found::new(home, Kind::Closed));
         }
@@ -67,17 +112,35 @@ impl<S: System> Branch<'_, S> {
         tangent[tangent.len() - 1] / self.metric.range()
     }
 
-    /// A branch point, where the system turns the orientation of its null vector.
-    fn branch_points(&mut self, to: &Node) -> Result<Vec<Found>, Difficulty> {
-        if self.unoriented || to.along == self.node.along {
+    /// A branch point, where the orientation of the null vector changes. On the shortest steps
+    /// also one of even multiplicity, where it does not but the second vector turns over.
+    fn branch_points(&mut self, to: &Node, share: f64) -> Result<Vec<Found>, Difficulty> {
+        if self.unoriented {
             return Ok(Vec::new());
         }
-        let (at, crossing) = self.span(to).crossing()?;
+        let kind = Kind::BranchPoint;
+        let [before, after] = [&self.node, to].map(|node| node.height().abs());
+        let u = before / (before + after);
+        if to.along == self.node.along {
+            let turned = self.node.second_angle(to, &self.metric) > FRAC_PI_2;
+            let even = turned && share <= UNVERIFIED;
+            let found = even.then(|| Found::approximate(&self.node, to, u, kind));
+            return Ok(found.into_iter().collect());
+        }
+        let (at, crossing) = match self.span(to).crossing() {
+            Ok(found) => found,
+            Err(_) if share <= UNVERIFIED => {
+                return Ok(vec![Found::approximate(&self.node, to, u, kind)]);
+            }
+            Err(difficulty) => return Err(difficulty),
+        };
         let aligned = |t: &[f64]| self.metric.dot(t, &at.tangent).abs();
         let least = |[a, b]: [Vec<f64>; 2]| if aligned(&a) < aligned(&b) { a } else { b };
         let other = crossing.tangents.map(least);
-        let kind = Kind::BranchPoint;
-        Ok(vec![Found { at, kind, other }])
+        Ok(vec![Found {
+            other,
+            ..Found::new(at, kind)
+        }])
     }
 
     /// A cusp, where the cusp function of the system changes its sign.
@@ -94,22 +157,76 @@ impl<S: System> Branch<'_, S> {
         }
     }
 
-    /// Limit points. At the branch points and cusps `found` on the step, and at a branch point at its
-    /// beginning, the rate of λ may change its sign without a limit point.
-    fn limit_points(&mut self, to: &Node, found: &[Found]) -> Result<Vec<Found>, Difficulty> {
-        let turned = found
-            .iter()
-            .any(|found| self.rate(&found.at.tangent).abs() < COINCIDENT);
-        let [before, after] = [&self.node, to].map(|node| self.rate(&node.tangent).abs());
-        let at_rest = before.max(after) < TURNING;
-        if turned || at_rest || self.unoriented && before < COINCIDENT {
-            return Ok(Vec::new());
+    /// Limit points, between the branch points and cusps `found` on the step. At these, and at a branch
+    /// point at its beginning, the rate of λ may change its sign without a limit point.
+    fn limit_points(
+        &mut self,
+        to: &Node,
+        found: &[Found],
+        share: f64,
+    ) -> Result<Vec<Found>, Difficulty> {
+        let rest = |rate: f64, special: bool| special && rate.abs() < COINCIDENT;
+        let mut from = (self.node.clone(), self.unoriented);
+        let mut ends: Vec<(Node, bool)> = found.iter().map(|found| (found.node(), true)).collect();
+        ends.push((to.clone(), false));
+        let mut limits = Vec::new();
+        for end in ends {
+            let rates = [&from, &end].map(|(node, _)| self.rate(&node.tangent));
+            let at_rest = rest(rates[0], from.1) || rest(rates[1], end.1);
+            if !at_rest && rates[0].abs().max(rates[1].abs()) >= TURNING {
+                limits.extend(self.limit_points_between(&from.0, &end.0, share)?);
+            }
+            from = end;
         }
-        let limits = self.span(to).limit_points()?;
-        Ok(limits
-            .into_iter()
-            .map(|at| Found::new(at, Kind::LimitPoint))
-            .collect())
+        for limit in &mut limits {
+            limit.at.u = self.span(to).place(&limit.at.z);
+            self.recognise_cusp(limit, to)?;
+        }
+        Ok(limits)
+    }
+
+    /// Limit points between two points of a step, with the place between these.
+    fn limit_points_between(
+        &mut self,
+        from: &Node,
+        to: &Node,
+        share: f64,
+    ) -> Result<Vec<Found>, Difficulty> {
+        // Up to a branch point the orientation is that before it.
+        let mut end = to.clone();
+        end.along = from.along;
+        let to = &end;
+        let kind = Kind::LimitPoint;
+        let mut piece = Span {
+            from,
+            ..self.span(to)
+        };
+        match piece.limit_points() {
+            Ok(limits) => Ok(limits.into_iter().map(|at| Found::new(at, kind)).collect()),
+            Err(difficulty) if share > PASSED => Err(difficulty),
+            Err(_) => {
+                let [before, after] = [from, to].map(|node| self.rate(&node.tangent));
+                let u = before / (before - after);
+                let indicated = before * after < 0.0;
+                let found = indicated.then(|| Found::approximate(from, to, u, kind));
+                Ok(found.into_iter().collect())
+            }
+        }
+    }
+
+    /// Tells a cusp from a limit point where two of them share a step, at whose ends the cusp
+    /// function then has the same sign.
+    fn recognise_cusp(&mut self, limit: &mut Found, to: &Node) -> Result<(), Difficulty> {
+        let (Some(before), Some(after)) = (self.node.cusp, to.cusp) else {
+            return Ok(());
+        };
+        let (system, metric) = (&mut *self.system, &self.metric);
+        self.corrector.tangent(system, metric, &limit.at.z)?;
+        let value = self.system.cusp_function().unwrap_or(f64::NAN);
+        if value.abs() <= CUSP * before.abs().max(after.abs()) {
+            limit.kind = Kind::Cusp;
+        }
+        Ok(())
     }
 
     /// A zero of an event function. Where the function changes its sign through a pole, or is
@@ -166,6 +283,33 @@ impl<S: System> Branch<'_, S> {
         Ok(found)
     }
 
+    /// The first point, if it is a branch point and among the ones `found`, met in the direction in
+    /// which it was left.
+    fn home_among(&mut self, found: &[Found]) -> Option<Located> {
+        if self.steps < FEWEST_STEPS || !self.from_branch_point {
+            return None;
+        }
+        let (home, metric) = (&self.home, &self.metric);
+        let allowed = self.met();
+        let mut crossings = found.iter().filter(|found| found.kind == Kind::BranchPoint);
+        let same = crossings.find(|found| {
+            metric.distance(&found.at.z, &home.z) <= allowed
+                && metric.dot(&found.at.tangent, &home.tangent) > 0.5 * metric.norm(&home.tangent)
+        });
+        same.map(|found| Located {
+            u: found.at.u,
+            z: home.z.clone(),
+            tangent: home.tangent.clone(),
+            along: home.along,
+        })
+    }
+
+    /// How far from the first point a closed curve may end.
+    fn met(&self) -> f64 {
+        let tolerance = Some(self.system.tolerance()).filter(|t| t.is_finite());
+        MET.max(10.0 * tolerance.unwrap_or(0.0))
+    }
+
     /// The first point, if the step passes it in the direction in which it was left.
     fn home_on(&mut self, to: &Node) -> Option<Located> {
         if self.steps < FEWEST_STEPS {
@@ -181,29 +325,38 @@ impl<S: System> Branch<'_, S> {
         let secant: Vec<f64> = ends.clone().map(|(a, b)| b - a).collect();
         let near: Vec<f64> = ends.map(|(a, b)| a + u * (b - a)).collect();
         let length = span.metric.norm(&secant);
-        let ahead = span.metric.dot(&home.tangent, &secant) > 0.5 * length;
+        let start = span.cubic(u);
+        let ahead = 0.5 * length * span.metric.norm(&home.tangent);
+        let ahead = span.metric.dot(&home.tangent, &secant) > ahead;
         if !ahead || span.metric.distance(&near, &home.z) > NEAR * length {
             return None;
         }
-        let met = span.across(&near, &home.tangent, &home.z).ok()?;
+        let met = span.across(&start, &home.tangent, &home.z).ok()?;
         let missed = span.metric.distance(&met, &home.z);
-        let tolerance = span.system.tolerance();
-        let allowed = if tolerance.is_finite() {
-            MET.max(10.0 * tolerance)
-        } else {
-            MET
+        let allowed = self.met();
+        let (z, tangent, along) = (home.z, home.tangent, home.along);
+        let at = Located {
+            u,
+            z,
+            tangent,
+            along,
         };
-        let (z, tangent) = (home.z, home.tangent);
-        (missed <= allowed).then_some(Located { u, z, tangent })
+        (missed <= allowed).then_some(at)
     }
 
     /// A labelled point as it is yielded.
     pub(crate) fn labelled(&self, found: Found) -> Point {
-        let Found { at, kind, other } = found;
+        let Found {
+            at,
+            kind,
+            other,
+            approximate,
+        } = found;
         let mut node = Node::new(at.z, at.tangent);
         node.arclength = self.node.arclength + self.node.length_to(&node, &self.metric);
         Point {
             other,
+            approximate,
             ..node.point(kind)
         }
     }

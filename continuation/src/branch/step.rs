@@ -2,13 +2,12 @@
 
 use crate::branch::branch::Branch;
 use crate::branch::branch::reverse;
-use crate::branch::labels::Found;
+use crate::branch::labels::{Found, UNVERIFIED};
 use crate::curve::corrector::{Accuracy, Condition, Correction};
 use crate::curve::predictor::History;
 use crate::error::Difficulty;
 use crate::options::{Parameterisation, Predictor};
 use crate::point::Kind;
-use crate::special_points::null_space;
 use crate::special_points::span::{Node, Span};
 use crate::stop::Stop;
 use crate::system::system::System;
@@ -44,8 +43,6 @@ const SHIFT: f64 = 0.1;
 const SHARE_OF_TOLERANCE: f64 = 0.01;
 /// The most changes of the discretisation at one point.
 const ADAPTATIONS: usize = 3;
-/// An imperfect crossing shortens steps down to this share of the largest, then it is passed.
-const CROSSING: f64 = 1e-3;
 
 /// A step that has succeeded.
 struct Taken {
@@ -207,8 +204,7 @@ impl<S: System> Branch<'_, S> {
         }
         node.second = self.second_vector(&node.tangent)?;
         let second = self.second_angle(&node, h)?;
-        let strict = h > CROSSING * self.options.largest_step;
-        let found = self.specials(&node, strict)?;
+        let found = self.specials(&node, h / self.options.largest_step)?;
         let turn = (angle / self.options.angle).max(second / SECOND);
         let growth = growth(&report, h, turn);
         Ok(Taken {
@@ -362,17 +358,14 @@ impl<S: System> Branch<'_, S> {
         if self.unoriented {
             return Ok(0.0);
         }
-        let dot = |a: &[f64], b: &[f64]| null_space::dot(&self.metric, a, b);
-        let (a, b) = (&self.node.second, &node.second);
-        let cosine = dot(a, b).abs() / (dot(a, a) * dot(b, b)).sqrt();
-        let (mut angle, limit) = (cosine.min(1.0).acos(), 2.0 * SECOND);
+        let (mut angle, limit) = (self.node.second_angle(node, &self.metric), 2.0 * SECOND);
         let height = self.node.height();
         let expected = 1.0 + self.trend.unwrap_or(0.0) * h / height;
         let reflected = expected < -REFLECTED && node.along == self.node.along;
         if reflected && h > TOUCHING * self.options.largest_step {
             angle = PI;
         }
-        if angle <= limit {
+        if angle <= limit || h <= UNVERIFIED * self.options.largest_step {
             Ok(angle)
         } else {
             Err(Difficulty::Turn { angle, limit })

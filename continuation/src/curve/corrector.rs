@@ -121,6 +121,7 @@ impl Corrector {
             contraction: 0.0,
             drift: 0.0,
         };
+        z[n] = z[n].clamp(self.walls[0], self.walls[1]);
         let wanted = match accuracy {
             Accuracy::Length(length) => length,
             Accuracy::Rounding => 0.0,
@@ -185,10 +186,26 @@ impl Corrector {
         }
     }
 
+    /// Evaluates G, which beyond the walls is taken for undefined.
+    pub(crate) fn residual<S: System>(&self, system: &mut S, z: &[f64], g: &mut [f64]) {
+        g.fill(f64::NAN);
+        let [low, high] = self.walls;
+        if (low..=high).contains(&z[z.len() - 1]) {
+            system.residual(z, g);
+        }
+    }
+
+    /// λ, or its mirror image at the wall that it lies beyond.
+    pub(crate) fn reflected(&self, lambda: f64) -> f64 {
+        let [low, high] = self.walls;
+        2.0 * lambda.clamp(low, high) - lambda
+    }
+
     /// Evaluates the residual at `z` into the buffer.
     fn evaluate<S: System>(&mut self, system: &mut S, z: &[f64]) -> Result<(), Difficulty> {
-        self.residual.fill(f64::NAN);
-        system.residual(z, &mut self.residual);
+        let mut residual = std::mem::take(&mut self.residual);
+        self.residual(system, z, &mut residual);
+        self.residual = residual;
         match self.residual.iter().position(|g| !g.is_finite()) {
             Some(equation) => Err(Difficulty::NotFinite {
                 equation,
@@ -217,7 +234,7 @@ impl Corrector {
         finite(&self.particular)?;
         let c = &condition.row;
         let across = dot(c, &self.null);
-        if across.abs() <= PARALLEL * (dot(c, c) * dot(&self.null, &self.null)).sqrt() {
+        if across.abs() <= PARALLEL * metric.norm_of_row(c) * metric.norm(&self.null) {
             return Err(Difficulty::Singular);
         }
         let alpha = (condition.value - dot(c, z) - dot(c, &self.particular)) / across;

@@ -7,7 +7,7 @@ use crate::system::system::System;
 const NEGLIGIBLE: f64 = 1e-8;
 
 /// Tangents that reach further than this many times the largest size, or one, are vertical.
-const FARTHEST: f64 = 1e6;
+const FARTHEST: f64 = 1e12;
 
 /// The weighted inner product ⟨a, b⟩ = Σ wᵢ aᵢ bᵢ.
 ///
@@ -178,6 +178,13 @@ impl Metric {
     /// The functional ⟨a, ·⟩ as a row.
     pub(crate) fn row(&self, a: &[f64]) -> Vec<f64> {
         self.weights.iter().zip(a).map(|(w, a)| w * a).collect()
+    }
+
+    /// The largest value of a functional, given as a row, on vectors of length one. Unknowns that do not
+    /// count in the length are left out.
+    pub(crate) fn norm_of_row(&self, row: &[f64]) -> f64 {
+        let counted = self.weights.iter().zip(row).filter(|(w, _)| **w > 0.0);
+        counted.map(|(w, r)| r * r / w).sum::<f64>().sqrt()
     }
 
     /// Scales `t` to length one; false where it has none.

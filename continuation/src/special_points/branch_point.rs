@@ -23,8 +23,11 @@ use crate::system::system::System;
 
 /// Newton steps shorter than this that no longer shrink are rounding.
 const ROUNDING: f64 = 1e-7;
-/// Branches that come closer than this, in the arclength norm, meet.
-const MEETING: f64 = 1e-5;
+/// Branches that come closer than this, in the arclength norm, meet, if their system has a
+/// discretisation error, which parts them, ...
+const MEETING_DISCRETISED: f64 = 1e-5;
+/// ... or none: the gap is the root of the residual there, whose rounding is about 1e-16.
+const MEETING: f64 = 1e-7;
 /// Changes of all unknowns tried for the sizes of the equations, relative to the sizes of the
 /// unknowns.
 const CHANGES: [f64; 3] = [0.1, 1e-3, 1e-6];
@@ -44,17 +47,18 @@ pub(crate) struct Crossing {
 /// equation whose derivatives all vanish at the branch point responds too.
 pub(crate) fn column<S: System>(
     system: &mut S,
+    corrector: &Corrector,
     metric: &Metric,
     z: &[f64],
 ) -> Result<Vec<f64>, Difficulty> {
     let n = z.len() - 1;
     let (mut here, mut there) = (vec![f64::NAN; n], vec![f64::NAN; n]);
-    system.residual(z, &mut here);
+    corrector.residual(system, z, &mut here);
     for share in CHANGES {
         let change = |(i, z): (usize, &f64)| z + share * irregular(i) * metric.scale(i);
-        let moved: Vec<f64> = z.iter().enumerate().map(change).collect();
-        there.fill(f64::NAN);
-        system.residual(&moved, &mut there);
+        let mut moved: Vec<f64> = z.iter().enumerate().map(change).collect();
+        moved[n] = corrector.reflected(moved[n]);
+        corrector.residual(system, &moved, &mut there);
         let pairs = here.iter().zip(&there);
         let response: Vec<f64> = pairs.map(|(a, b)| ((b - a) / share).abs()).collect();
         let mean = response.iter().sum::<f64>() / n as f64;
@@ -95,15 +99,14 @@ pub(crate) fn branch_point<S: System>(
     let mut saddle = None;
     for count in 0.. {
         let space = NullSpace::at(system, corrector, metric, &z, b)?;
-        residual.fill(f64::NAN);
-        system.residual(&z, &mut residual);
+        corrector.residual(system, &z, &mut residual);
         let right: Vec<f64> = residual
             .iter()
             .zip(b)
             .map(|(g, b)| -(g + eta * b))
             .collect();
         let onto = space.shortest(system, metric, b, &right);
-        let (hessian, change) = slopes(system, metric, &z, b, &space, &onto[..=n])?;
+        let (hessian, change) = slopes(system, corrector, metric, &z, b, &space, &onto[..=n])?;
         let gradient = [change[0], space.last(1) + change[1]];
         let a = solve(hessian, gradient.map(|g| -g)).ok_or(Difficulty::Singular)?;
         let along = space.combine(a);
@@ -133,7 +136,12 @@ pub(crate) fn branch_point<S: System>(
         .flatten()
         .fold(0.0, |m: f64, h| m.max(h.abs()));
     let gap = (2.0 * eta.abs() / steepest).sqrt();
-    if gap.is_nan() || gap > MEETING {
+    let meeting = if system.tolerance().is_finite() {
+        MEETING_DISCRETISED
+    } else {
+        MEETING
+    };
+    if gap.is_nan() || gap > meeting {
         return Err(Difficulty::Imperfect { gap });
     }
     let tangents = null_directions(hessian).map(|directions| {
@@ -150,6 +158,7 @@ pub(crate) fn branch_point<S: System>(
 /// The derivatives D of φ along the basis of `space`, column by column, and its change by `onto`.
 fn slopes<S: System>(
     system: &mut S,
+    corrector: &Corrector,
     metric: &Metric,
     z: &[f64],
     b: &[f64],
@@ -159,7 +168,7 @@ fn slopes<S: System>(
     let mut bend = |direction: &[f64], rule: &Rule| {
         let residual = |s: f64, g: &mut [f64]| {
             let moved: Vec<f64> = z.iter().zip(direction).map(|(z, d)| z + s * d).collect();
-            system.residual(&moved, g);
+            corrector.residual(system, &moved, g);
         };
         bending(residual, z.len() - 1, rule)
     };

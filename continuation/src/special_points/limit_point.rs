@@ -8,6 +8,9 @@ use crate::system::system::System;
 const SUSPICIOUS: f64 = 0.25;
 /// ... so many times.
 const LOOKS: usize = 4;
+/// At a limit point the rate of λ is at most this share of that at the nodes. It is located to
+/// rounding; noise in G of 1e-8 leaves about 1e-6.
+const AT_REST: f64 = 1e-4;
 
 impl<S: System> Span<'_, S> {
     /// The limit points: one where the rate of λ changes its sign from node to node, two where it does
@@ -17,12 +20,14 @@ impl<S: System> Span<'_, S> {
         let [before, after] = [self.from, self.to].map(|node| node.tangent[n]);
         let mut rate = |_: &mut S, _: &[f64], tangent: &[f64]| tangent[n];
         if before * after < 0.0 {
-            return Ok(vec![self.zero(&mut rate, [before, after], RESOLVED)?]);
+            let at = self.zero(&mut rate, [before, after], RESOLVED)?;
+            return Ok(vec![self.verified(at, before.abs().max(after.abs()))?]);
         }
         let Some(between) = self.turned_between()? else {
             return Ok(Vec::new());
         };
-        let middle = Node::new(between.z, between.tangent);
+        let mut middle = Node::new(between.z, between.tangent);
+        middle.along = between.along;
         let mut found = Vec::new();
         for [from, to] in [[self.from, &middle], [&middle, self.to]] {
             let mut half = Span {
@@ -33,11 +38,26 @@ impl<S: System> Span<'_, S> {
                 ..*self
             };
             let values = [from, to].map(|node| node.tangent[n]);
-            let mut at = half.zero(&mut rate, values, RESOLVED)?;
+            let at = half.zero(&mut rate, values, RESOLVED)?;
+            let largest = before.abs().max(after.abs());
+            let mut at = half.verified(at, largest)?;
             at.u = self.place(&at.z);
             found.push(at);
         }
         Ok(found)
+    }
+
+    /// A located limit point, if it is one of this branch: the rate of λ is zero there, not only of
+    /// another sign on either side, and the tangent leads from node to node.
+    fn verified(&self, at: Located, largest: f64) -> Result<Located, Difficulty> {
+        let rate = at.tangent[at.tangent.len() - 1].abs();
+        if rate <= AT_REST * largest && self.leads_through(&at.tangent) {
+            Ok(at)
+        } else {
+            let angle = (rate / largest).min(1.0).asin();
+            let limit = AT_REST;
+            Err(Difficulty::Turn { angle, limit })
+        }
     }
 
     /// A point between nodes with the same sign of the rate of λ where it has the other one. It is

@@ -11,6 +11,7 @@
 //! persists; where it does not, the saddle goes on with η ≠ 0 and the branches part.
 
 use crate::branch::branch::check_length;
+use crate::curve::corrector::Corrector;
 use crate::error::{Difficulty, Error};
 use crate::special_points::branch_point;
 use crate::special_points::null_space::{NullSpace, solve};
@@ -51,7 +52,9 @@ impl<S: TwoParameter + Clone> BranchPointCurve<S> {
         let unknowns = system.unknowns();
         check_length(z, unknowns)?;
         let kind = "branch point";
-        let column = |system: &mut S, metric: &_| branch_point::column(system, metric, z).map(Some);
+        let column = |system: &mut S, metric: &_| {
+            branch_point::column(system, &Corrector::anywhere(), metric, z).map(Some)
+        };
         let surface = Surface::new(system, z, column)
             .map_err(|difficulty| Error::NotSpecial { kind, difficulty })?;
         Ok(Self {
@@ -186,7 +189,7 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
             return Err("the branch point does not persist: its branches part".into());
         }
         let column = |system: &mut S, metric: &_, z: &[f64]| {
-            branch_point::column(system, metric, z).map(Some)
+            branch_point::column(system, &Corrector::anywhere(), metric, z).map(Some)
         };
         if let Some(surface) = self.surface.adapted(vectors, 2, column)? {
             let unknowns = surface.base.unknowns() + 2;
