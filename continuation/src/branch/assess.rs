@@ -27,7 +27,7 @@ impl<S: System> Branch<'_, S> {
     /// system. Where the error exceeds the tolerance of the system, the branch goes over to the
     /// refined one.
     pub(crate) fn assessed(&mut self, mut point: Point) -> Point {
-        if point.kind == Kind::Regular {
+        if point.kind == Kind::Regular || point.approximate {
             return point;
         }
         let tolerance = self.system.tolerance();

@@ -1,7 +1,6 @@
 //! The labelled points of a step.
 
 use crate::branch::branch::Branch;
-use crate::branch::branch::TURNING;
 use crate::error::Difficulty;
 use crate::point::{Kind, Point};
 use crate::special_points::span::{Located, Node, RESOLVED, Span};
@@ -22,6 +21,10 @@ const PASSED: f64 = 1e-4;
 /// On steps that are this share of the largest, branch points that cannot be verified are approximate. It is
 /// as small as steps can well be, because the same signs tell of a jump to another branch.
 pub(crate) const UNVERIFIED: f64 = 1e-6;
+/// Where its rate is below this at both ends of a step, with its range as unit, λ is constant but for
+/// rounding, as on the branches of linear eigenproblems: the signs of 1e-11 were taken for limit points
+/// there.
+const CONSTANT: f64 = 1e-9;
 /// The cusp function of a cusp is this share of that at the ends of the step, at most.
 const CUSP: f64 = 1e-4;
 /// Labelled points this close to the first point, as a share of the step, are those at the first one.
@@ -173,7 +176,8 @@ impl<S: System> Branch<'_, S> {
         for end in ends {
             let rates = [&from, &end].map(|(node, _)| self.rate(&node.tangent));
             let at_rest = rest(rates[0], from.1) || rest(rates[1], end.1);
-            if !at_rest && rates[0].abs().max(rates[1].abs()) >= TURNING {
+            let largest = rates[0].abs().max(rates[1].abs());
+            if !at_rest && largest >= CONSTANT {
                 limits.extend(self.limit_points_between(&from.0, &end.0, share)?);
             }
             from = end;
