@@ -12,7 +12,7 @@
 //! factors of the last Newton step solve it: residuals of the stages are J D, those of the continuity
 //! D at the right ends. d is sampled at the m + 1 Gauss points of the defect, whose rule integrates
 //! over an interval even what makes the nodes superconvergent, of degree 2m. What is left of Newton's
-//! corrections is in d, too. H. J. Stetter, "The defect correction principle and discretization
+//! corrections is in d, too, and what S jumps by at the nodes is added to D at the right ends. H. J. Stetter, "The defect correction principle and discretization
 //! methods", Numer. Math. 29 (1978) 425-443; with integrals of the defect, A. Dutt, L. Greengard & V.
 //! Rokhlin, "Spectral deferred correction methods for ordinary differential equations", BIT 40 (2000)
 //! 241-266.
@@ -28,26 +28,26 @@ use crate::result::quality::{GlobalErrors, Samples};
 /// times its estimate in 18 cases.
 const CAUTION: f64 = 1.5;
 
+/// A sum of m ≤ 7 products and a state is rounded by no more than this, relative to its largest term.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 impl Collocation<'_> {
     /// The global errors of the solution `x`, which was last linearised nearby, from its defects and the
-    /// local ones. `None` if one is not finite. Writes `residual` and leaves w in `w`.
+    /// local ones, and from what it jumps by at the nodes if `jumps`. `None` if one is not finite. Writes `residual` and leaves w in `w`.
     ///
     /// Errors are evaluated at the nodes and at the two collocation points in the middle of every interval:
     /// D has its extrema at these points, the largest in the middle.
     pub(crate) fn global_errors(
         &mut self,
         x: &Iterate,
-        samples: &Samples,
-        local: &[Vec<f64>],
+        (samples, local, jumps): (&Samples, &[Vec<f64>], bool),
         residual: &mut Residual,
         w: &mut Iterate,
     ) -> Option<GlobalErrors> {
-        let (m, k) = (self.tableau.stages, x.p.len());
-        for (index, samples) in samples.iter().enumerate() {
-            let n = self.equations.segments()[index].states;
-            let to = &mut residual.equations[index];
-            specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
-                self.integrate([m, n, k], index, samples, to)));
+        let m = self.tableau.stages;
+        self.integrate_defects(samples, residual);
+        if jumps {
+            self.add_jumps(x, residual);
         }
         self.conditions(x, &mut residual.conditions).ok()?;
         self.correction(residual, w);
@@ -63,6 +63,36 @@ impl Collocation<'_> {
             parameters: parameters.map(|(&p, &e)| relative(p, e)).collect(),
         };
         errors.largest().is_finite().then_some(errors)
+    }
+
+    /// The residuals of the equation of w that defects make, but for those of the conditions.
+    pub(crate) fn integrate_defects(&self, samples: &Samples, residual: &mut Residual) {
+        let (m, k) = (self.tableau.stages, self.equations.parameters());
+        for (index, samples) in samples.iter().enumerate() {
+            let n = self.equations.segments()[index].states;
+            let to = &mut residual.equations[index];
+            specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                self.integrate([m, n, k], index, samples, to)));
+        }
+    }
+
+    /// Adds what S jumps by at the nodes beyond its own rounding: what that of long Newton steps leaves.
+    fn add_jumps(&self, x: &Iterate, residual: &mut Residual) {
+        let t = &*self.tableau;
+        for (index, segment) in self.equations.segments().iter().enumerate() {
+            let n = segment.states;
+            let mut jump = vec![0.0; n];
+            let to = residual.equations[index].nodes[n..].chunks_exact_mut(n);
+            for (i, (ends, to)) in self.mesh[index].windows(2).zip(to).enumerate() {
+                let interval = Interval::new(&x.segments[index], n, t, i, ends);
+                interval.continuity(t, &mut jump);
+                for (component, (to, jump)) in to.iter_mut().zip(&jump).enumerate() {
+                    if jump.abs() > ROUNDING * interval.size(component) {
+                        *to += jump;
+                    }
+                }
+            }
+        }
     }
 
     /// Residuals from the defects of a segment with n states and k parameters.
@@ -191,7 +221,7 @@ impl Largest {
 
 /// x −= factor Σ weights · samples.
 #[inline(always)]
-fn subtract_sum(x: &mut [f64], factor: f64, weights: &[f64], samples: &[f64]) {
+pub(crate) fn subtract_sum(x: &mut [f64], factor: f64, weights: &[f64], samples: &[f64]) {
     for (weight, sample) in weights.iter().zip(samples.chunks_exact(x.len())) {
         add_scaled(x, -factor * weight, sample);
     }

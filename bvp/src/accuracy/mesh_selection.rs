@@ -12,6 +12,10 @@ pub(crate) const UNRESOLVED: f64 = 0.5;
 const LARGEST_CUT: f64 = 8.0;
 /// Nor to grow more than by the inverse of this.
 const SMALLEST_CUT: f64 = 0.2;
+/// Where an interval is not shorter than this share of the one before, its order does not show.
+const SHORTER: f64 = 0.7;
+/// Rough intervals count if their local defect is at least this share of the largest.
+const ROUGH: f64 = 1e-2;
 /// Neighbouring intervals may differ in length by about this factor.
 pub(crate) const GRADING: f64 = 2.5;
 /// The same where the mesh is made for the error.
@@ -59,6 +63,41 @@ pub(crate) fn next_mesh(
         equidistribute(nodes, &density, ceil(total).clamp(2, MOST))
     };
     mesh.iter().zip(defects).map(next).collect()
+}
+
+/// Raises the defects of intervals in which the solution does not show the order of its scheme, as where the
+/// right-hand side jumps, so that they are cut into as many parts as are allowed at once; returns whether
+/// there are any. `before` are an earlier mesh and the defects there, which should be ∝ hᵐ.
+///
+/// An interval is rough if it is θ times as long as the one before at its place and has more than θ^`least`
+/// times its defect.
+pub(crate) fn amplify_rough(
+    defects: &mut [Vec<f64>],
+    mesh: &Mesh,
+    before: &(Mesh, Vec<Vec<f64>>),
+    m: usize,
+    least: i32,
+) -> bool {
+    let mut any = false;
+    let largest = defects.iter().flatten().copied().fold(0.0, f64::max);
+    let cut = LARGEST_CUT.powf(m as f64);
+    let before = before.0.iter().zip(&before.1);
+    for ((defects, nodes), (old_nodes, old)) in defects.iter_mut().zip(mesh).zip(before) {
+        let mut j = 0;
+        for (defect, pair) in defects.iter_mut().zip(nodes.windows(2)) {
+            let middle = 0.5 * (pair[0] + pair[1]);
+            while j + 2 < old_nodes.len() && old_nodes[j + 1] <= middle {
+                j += 1;
+            }
+            let share = (pair[1] - pair[0]) / (old_nodes[j + 1] - old_nodes[j]);
+            let slow = *defect > old[j] * share.powi(least);
+            if share < SHORTER && slow && *defect > ROUGH * largest {
+                *defect *= cut;
+                any = true;
+            }
+        }
+    }
+    any
 }
 
 /// Whether these defects, all within the tolerance, want fewer than half of the intervals.

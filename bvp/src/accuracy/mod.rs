@@ -1,7 +1,9 @@
 //! Everything that decides whether a solution is good enough, and which mesh is better.
 
 pub(crate) mod defect;
+pub(crate) mod further_places;
 pub(crate) mod global_error;
+pub(crate) mod isolation;
 pub(crate) mod layers;
 pub(crate) mod mesh_selection;
 pub(crate) mod rounding;

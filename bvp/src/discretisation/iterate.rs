@@ -170,6 +170,15 @@ impl<'a> Interval<'a> {
         }
     }
 
+    /// The largest |Kⱼ| relative to 1 + |yᵢ| of all stages and states.
+    pub(crate) fn largest_relative_slope(&self) -> f64 {
+        let slopes = self
+            .stages
+            .chunks_exact(self.n)
+            .flat_map(|k| k.iter().zip(self.y));
+        slopes.fold(0.0, |m, (k, y)| m.max(k.abs() / (1.0 + y.abs())))
+    }
+
     /// slope = Σ weightsₗ Kₗ.
     #[inline(always)]
     pub(crate) fn slope(&self, weights: &[f64], slope: &mut [f64]) {
@@ -181,6 +190,19 @@ impl<'a> Interval<'a> {
     #[inline(always)]
     pub(crate) fn place(&self, theta: f64) -> f64 {
         (self.s + theta * self.h).min(self.end)
+    }
+
+    /// The largest term of the continuity of a component: its states at both nodes, h times its slopes.
+    pub(crate) fn size(&self, component: usize) -> f64 {
+        let slopes = self.stages.iter().skip(component).step_by(self.n);
+        let largest = slopes.fold(0.0, |m: f64, k| m.max(k.abs()));
+        let states = self.y[component].abs().max(self.next[component].abs());
+        states.max(self.h * largest)
+    }
+
+    /// The slopes of stage j.
+    pub(crate) fn stage_slope(&self, j: usize) -> &'a [f64] {
+        &self.stages[j * self.n..][..self.n]
     }
 
     /// The state at stage j; returns its s.

@@ -104,7 +104,7 @@ impl Family<'_> {
                 defects,
                 ..Quality::unknown(mesh)
             };
-            check_mesh(&next, &self.options, &self.wrap(self.x.clone(), quality))?;
+            check_mesh(&next, 0, &self.options, &self.wrap(self.x.clone(), quality))?;
         }
         Ok(Some(next))
     }

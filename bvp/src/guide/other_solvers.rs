@@ -143,8 +143,8 @@
 //! error       1.8e-10, estimated, relative: component 1 of segment 0
 //! defect      6.6e-10, relative: segment 0, s = 0.666667 to 1.0
 //! conditions  0.0e0, the largest residual: condition 1
-//! cost        129 right-hand sides, 21 Jacobians,
-//!             1 factorisation, 5 Newton steps, 1.4e-4 s
+//! cost        222 right-hand sides, 42 Jacobians,
+//!             2 factorisations, 5 Newton steps, 1.4e-4 s
 //! ```
 //!
 //! A table of the solution at equal distances, with the estimated error of every column:

@@ -13,8 +13,9 @@ use crate::newton::collocation::{Collocation, LinearisationError};
 use crate::newton::largest_correction::most_corrected;
 use crate::newton_matrix::dependence::Dependence;
 use crate::newton_matrix::singular::Singular;
+use crate::problem::problem::Segment;
 use crate::problem::unknown::Unknown;
-use crate::result::quality::{GlobalErrors, Samples};
+use crate::result::quality::{Direction, GlobalErrors, Samples};
 use crate::result::stats::Stats;
 
 /// Simplified corrections that shrink at least this much per step keep the Jacobian: three such
@@ -36,6 +37,16 @@ const PREDICTION_SAFETY: f64 = 10.0;
 
 /// A simplified correction that is this fraction of what is asked for is not even taken.
 const NEGLIGIBLE: f64 = 1e-3;
+
+/// Where the Jacobian has changed by no more than this share of itself since it was factored, the factors
+/// are those of the iterate: it is what rounding makes of the curvature of a linear problem.
+const LINEAR: f64 = 1e-8;
+
+/// Steps of this relative size leave rounding beyond that of the solution itself, of what they came from.
+const LONG: f64 = 1e-4;
+
+/// Rounding is measured relative to no less than this share of the largest state of a component.
+const SMALL_STATE: f64 = 0.01;
 
 /// Why the iteration stopped short.
 #[derive(Clone, Debug, PartialEq)]
@@ -103,12 +114,39 @@ pub(crate) fn norm(x: &Iterate, corrections: &[(f64, &Iterate)]) -> Norm {
     }
 }
 
+/// The largest entry of a correction relative to 1 + |x|, and to a share of the largest |x| of its component
+/// on the segment: where a state is far smaller than elsewhere, rounding elsewhere is what counts.
+pub(crate) fn norm_by_component(segments: &[Segment], x: &Iterate, correction: &Iterate) -> f64 {
+    let mut largest = 0.0f64;
+    let each = segments.iter().zip(&x.segments).zip(&correction.segments);
+    for ((segment, x), correction) in each {
+        for component in 0..segment.states {
+            let size = |x: &[f64]| {
+                let of_component = x.iter().skip(component).step_by(segment.states);
+                of_component.fold(0.0, |m: f64, x| max_or_nan(m, x.abs()))
+            };
+            let floor = 1.0 + SMALL_STATE * size(&x.nodes);
+            let of = |x| <[f64]>::iter(x).skip(component).step_by(segment.states);
+            let pairs = of(&x.nodes).zip(of(&correction.nodes));
+            largest = pairs.fold(largest, |m, (x, c)| {
+                max_or_nan(m, c.abs() / (floor + x.abs()))
+            });
+        }
+    }
+    for (x, correction) in x.p.iter().zip(&correction.p) {
+        largest = max_or_nan(largest, correction.abs() / (1.0 + x.abs()));
+    }
+    largest
+}
+
 /// The buffers of the iteration, and what it learns.
 pub(crate) struct Newton {
     /// The affine-invariant curvature 2 ‖Δx̄‖ / ‖Δx‖² of the last full step with a new Jacobian. It
     /// hardly depends on the mesh (Deuflhard 2004, section 8.1), and so may come from another one;
     /// infinite where nothing is known.
     pub(crate) curvature: f64,
+    /// ‖Δx‖ over all steps since the last linearisation.
+    pub(crate) moved: f64,
     delta: Iterate,
     simplified: Iterate,
     trial: Iterate,
@@ -119,6 +157,7 @@ impl Newton {
     pub(crate) fn new(collocation: &Collocation<'_>) -> Self {
         Self {
             curvature: f64::INFINITY,
+            moved: 0.0,
             delta: collocation.zeros(),
             simplified: collocation.zeros(),
             trial: collocation.zeros(),
@@ -159,6 +198,7 @@ impl Newton {
             if size.largest <= tolerance || fresh && PREDICTION_SAFETY * predicted <= tolerance {
                 self.trial.set_sum(x, 1.0, &self.delta);
                 std::mem::swap(x, &mut self.trial);
+                self.moved += size.mean;
                 stats.newton_steps += 1;
                 return Ok(());
             }
@@ -175,6 +215,7 @@ impl Newton {
                 Err(failure) => return Err(failure),
             };
             std::mem::swap(x, &mut self.trial);
+            self.moved += damping * size.mean;
             stats.newton_steps += 1;
             if fresh && damping == 1.0 {
                 self.curvature = 2.0 * shrunk.mean / (size.mean * size.mean);
@@ -212,6 +253,11 @@ impl Newton {
         Err(self.no_convergence(collocation, x, size))
     }
 
+    /// Whether the factors are those of the iterate to rounding, as those of a linear problem are.
+    pub(crate) fn is_current(&self) -> bool {
+        self.curvature * self.moved <= LINEAR
+    }
+
     /// The largest entry of Newton's correction at `x` relative to 1 + |x|.
     pub(crate) fn correction(
         &mut self,
@@ -232,7 +278,33 @@ impl Newton {
         samples: &Samples,
         local: &[Vec<f64>],
     ) -> Option<GlobalErrors> {
-        collocation.global_errors(x, samples, local, &mut self.residual, &mut self.delta)
+        let known = (samples, local, self.moved > LONG);
+        collocation.global_errors(x, known, &mut self.residual, &mut self.delta)
+    }
+
+    /// The amplification of forcings by the last linearisation; see [`Collocation::amplification`].
+    pub(crate) fn amplification(&mut self, collocation: &mut Collocation<'_>, x: &Iterate) -> f64 {
+        collocation.amplification(x, &mut self.residual, &mut self.simplified)
+    }
+
+    /// The direction in which the solution `x` is not isolated, if so, after
+    /// [`amplification`](Self::amplification); see [`Collocation::direction`].
+    pub(crate) fn direction(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &Iterate,
+        samples: &Samples,
+        a: f64,
+        stats: &mut Stats,
+    ) -> Option<Direction> {
+        let error = (samples, &self.delta);
+        let null = (&self.simplified, a);
+        collocation.direction(x, error, null, &mut self.residual, stats)
+    }
+
+    /// The direction of the last [`amplification`](Self::amplification).
+    pub(crate) fn amplified(&self, collocation: &Collocation<'_>, x: &Iterate) -> Direction {
+        collocation.name(x, &self.simplified)
     }
 
     /// The failure of corrections of this size at `x`.
@@ -256,6 +328,7 @@ impl Newton {
             other => other,
         })?;
         collocation.correction(&self.residual, &mut self.delta);
+        self.moved = 0.0;
         Ok(())
     }
 

@@ -33,6 +33,7 @@ use crate::discretisation::iterate::Iterate;
 use crate::kernels::dense::{add_scaled, dot};
 use crate::kernels::reflections::{Blocks, MANY, eliminate};
 use crate::kernels::specialise::specialise;
+use crate::newton_matrix::balance::balance;
 use crate::newton_matrix::dependence::Dependence;
 use crate::newton_matrix::end_system::EndSystem;
 use crate::newton_matrix::singular::Singular;
@@ -61,6 +62,8 @@ pub(crate) struct Transitions {
     row: Vec<f64>,
     /// Buffers for the elimination in blocks, where there are many states.
     reflections: Option<Blocks>,
+    /// The units of the states, where they are of very different size: see [`balance`].
+    units: Option<Vec<f64>>,
 }
 
 impl Transitions {
@@ -76,6 +79,7 @@ impl Transitions {
             work: vec![0.0; 2 * n * (3 * n + k)],
             row: vec![0.0; 3 * n + k],
             reflections: (n >= MANY).then(|| Blocks::new(2 * n, 3 * n + k)),
+            units: None,
         }
     }
 
@@ -97,6 +101,7 @@ impl Transitions {
     fn eliminate(&mut self) -> Result<(), usize> {
         let n = self.n;
         let k = self.k;
+        self.units = balance(&mut self.blocks, n, k);
         specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(k in [0] => self.eliminate_nodes(n, k)))
     }
 
@@ -169,6 +174,11 @@ impl Transitions {
     /// the interior nodes stay in their slots; that of the remaining equation goes into `reduced`.
     fn forward(&mut self, nodes: &mut [f64], reduced: &mut [f64]) {
         let n = self.n;
+        if let Some(units) = &self.units {
+            for node in nodes.chunks_exact_mut(n) {
+                node.iter_mut().zip(units).for_each(|(g, unit)| *g /= unit);
+            }
+        }
         specialise!(n in [1, 2, 3, 4, 5, 6] => self.forward_nodes(n, nodes, reduced));
     }
 
@@ -227,6 +237,11 @@ impl Transitions {
         let n = self.n;
         let k = self.k;
         specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(k in [0] => self.backward_nodes(n, k, nodes, p)));
+        if let Some(units) = &self.units {
+            for node in nodes.chunks_exact_mut(n) {
+                node.iter_mut().zip(units).for_each(|(y, unit)| *y *= unit);
+            }
+        }
     }
 
     /// [`backward`](Self::backward) for values of n and k that the compiler may know.
@@ -313,7 +328,21 @@ impl AlmostBlockDiagonal {
             }
             column += 2 * n;
         }
-        ends[row * size..].copy_from_slice(conditions);
+        let conditions_rows = &mut ends[row * size..];
+        conditions_rows.copy_from_slice(conditions);
+        let mut column = 0;
+        for of_segment in &self.transitions {
+            for units in of_segment.units.iter().cycle().take(2) {
+                for row in conditions_rows.chunks_exact_mut(size) {
+                    let of_end = row[column..].iter_mut().zip(units);
+                    of_end.for_each(|(x, unit)| *x *= unit);
+                }
+                column += of_segment.n;
+            }
+            if of_segment.units.is_none() {
+                column += 2 * of_segment.n;
+            }
+        }
         self.ends.factor()
     }
 

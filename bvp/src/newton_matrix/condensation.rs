@@ -168,6 +168,12 @@ impl Condensation {
         )
     }
 
+    /// Whether a state is the derivative of another one.
+    pub(crate) fn is_slope(&self, state: usize) -> bool {
+        let mut sources = self.reduction.sources.iter();
+        sources.any(|&(_, source)| source == state)
+    }
+
     /// The number of exchanges and of negative pivots of all M: odd if the product of their
     /// determinants is negative.
     pub(crate) fn negative(&self) -> usize {

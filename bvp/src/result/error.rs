@@ -191,7 +191,7 @@ pub enum Error {
     /// The conditions do not determine the solution near the iterate.
     #[error(
         "singular Newton matrix: the conditions do not determine the solution locally{}",
-        undetermined(.conditions, .free.as_ref())
+        undetermined(.conditions, .free.as_ref(), *.shift)
     )]
     SingularConditions {
         /// Indices of the conditions that depend on each other, given the differential equations;
@@ -199,6 +199,9 @@ pub enum Error {
         conditions: Vec<usize>,
         /// The unknown at the ends that is determined least, if that can be told.
         free: Option<Unknown>,
+        /// Whether a shift of the whole solution in s gives another one, as where a periodic orbit has no
+        /// phase condition.
+        shift: bool,
         /// The iterate.
         best: Box<Solution>,
     },
@@ -361,7 +364,10 @@ fn of(unknown: Option<&Unknown>) -> String {
 const NAMED: usize = 4;
 
 /// Which conditions fail to determine what.
-fn undetermined(conditions: &[usize], free: Option<&Unknown>) -> String {
+fn undetermined(conditions: &[usize], free: Option<&Unknown>, shift: bool) -> String {
+    if shift {
+        return ": a shift of s takes it to others of a family of solutions; put a condition on the phase in the place of one that follows from the others".to_owned();
+    }
     let named: Vec<_> = conditions
         .iter()
         .take(NAMED)
@@ -375,6 +381,9 @@ fn undetermined(conditions: &[usize], free: Option<&Unknown>) -> String {
         _ => format!("; replace one of the conditions {named}, …, which depend on each other"),
     };
     match free {
+        Some(unknown) if conditions.is_empty() => {
+            format!(": {unknown} is free along a family of solutions")
+        }
         Some(unknown) => format!("; {unknown} is free{dependent}"),
         None => dependent,
     }

@@ -2,6 +2,7 @@
 
 use crate::discretisation::mesh::Mesh;
 use crate::kernels::dense::max_or_nan;
+use crate::problem::unknown::Unknown;
 
 /// What is known of the accuracy of an iterate; infinite where it is not known.
 #[derive(Clone, Debug, Default)]
@@ -68,3 +69,14 @@ impl GlobalErrors {
 
 /// S' − f at the m + 1 defect points of every interval of every segment, n numbers each.
 pub(crate) type Samples = Vec<Vec<f64>>;
+
+/// In which direction a solution is not isolated.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Direction {
+    /// Whether the conditions could feel it.
+    pub(crate) felt: bool,
+    /// Whether it is a shift of s.
+    pub(crate) shift: bool,
+    /// The unknown at the ends that changes most.
+    pub(crate) free: Option<Unknown>,
+}

@@ -9,8 +9,16 @@ use crate::result::error::Error;
 use crate::result::solution::Solution;
 use crate::solver::options::Options;
 
-/// Refuses a next mesh that is too large or cannot be represented.
-pub(crate) fn check_mesh(finer: &Mesh, options: &Options, best: &Solution) -> Result<(), Error> {
+/// Meshes tried before the tolerance is declared out of reach.
+const MAX_MESHES: usize = 40;
+
+/// Refuses a mesh after `tried` others that is too large, too late or cannot be represented.
+pub(crate) fn check_mesh(
+    finer: &Mesh,
+    tried: usize,
+    options: &Options,
+    best: &Solution,
+) -> Result<(), Error> {
     let (needed, limit) = (intervals(finer), options.max_intervals);
     if needed > limit {
         let (segment, s, _) = best.worst_interval();
@@ -25,7 +33,7 @@ pub(crate) fn check_mesh(finer: &Mesh, options: &Options, best: &Solution) -> Re
             best: Box::new(best.clone()),
         });
     }
-    if is_representable(finer) {
+    if tried < MAX_MESHES && is_representable(finer) {
         Ok(())
     } else {
         Err(unresolved(options, best))
@@ -33,7 +41,7 @@ pub(crate) fn check_mesh(finer: &Mesh, options: &Options, best: &Solution) -> Re
 }
 
 /// The error for a solution that no mesh seems to resolve.
-pub(crate) fn unresolved(options: &Options, best: &Solution) -> Error {
+fn unresolved(options: &Options, best: &Solution) -> Error {
     let (segment, s, length) = best.worst_interval();
     Error::Unresolved {
         segment,
@@ -75,6 +83,7 @@ pub(crate) fn numerical(failure: Failure, best: Solution, tolerance: f64) -> Err
         Failure::Ends(Dependence { conditions, free }) => Error::SingularConditions {
             conditions,
             free,
+            shift: false,
             best,
         },
         Failure::NoConvergence {
@@ -92,6 +101,8 @@ pub(crate) fn numerical(failure: Failure, best: Solution, tolerance: f64) -> Err
 
 /// The error for a solution that rounding hides.
 pub(crate) fn ill_conditioned(rounding: f64, tolerance: f64, best: Solution) -> Error {
+    // A solution has no more than all of its digits to lose.
+    let rounding = if rounding < 1.0 { rounding } else { 1.0 };
     Error::IllConditioned {
         rounding,
         condition: rounding / UNIT_ROUNDOFF,

@@ -1,22 +1,27 @@
 //! The driver: Newton on a mesh, the error of the solution, a better mesh, until everything holds.
 
 use crate::accuracy::defect::defects;
-use crate::accuracy::mesh_selection::{GRADING, GRADING_BY_ERROR, UNRESOLVED, next_mesh};
-use crate::accuracy::rounding::exceeds;
+use crate::accuracy::further_places::FurtherPlaces;
+use crate::accuracy::isolation::{is_amplified, is_high, is_open, is_steady};
+use crate::accuracy::mesh_selection::{
+    GRADING, GRADING_BY_ERROR, UNRESOLVED, amplify_rough, next_mesh,
+};
+use crate::accuracy::rounding::{NO_DIGIT, UNIT_ROUNDOFF, exceeds};
 use crate::discretisation::iterate::{Iterate, NonFinite};
 use crate::discretisation::mesh::{Mesh, halved, intervals, thinned};
 use crate::discretisation::tableau::Tableau;
+use crate::kernels::dense::max_or_nan;
 use crate::newton::collocation::Collocation;
 use crate::newton::newton::{Failure, Newton};
 use crate::problem::equations::Equations;
 use crate::problem::guess::Guess;
 use crate::problem::held::Held;
 use crate::result::error::Error;
-use crate::result::quality::{Quality, Samples};
+use crate::result::quality::{Direction, Quality, Samples};
 use crate::result::restored::restore;
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
-use crate::solver::failure::{check_mesh, ill_conditioned, numerical, unresolved};
+use crate::solver::failure::{check_mesh, ill_conditioned, numerical};
 use crate::solver::homotopy::rough_solution;
 use crate::solver::options::{Control, Options};
 use crate::solver::statement::{check_guess, check_statement, first_mesh};
@@ -39,8 +44,24 @@ const THINNED: f64 = 3.4;
 const AIM: f64 = 0.3;
 /// A solution whose correction on another mesh is at most this many tolerances is the same there.
 const KEPT: f64 = 3.0;
-/// Meshes tried before the tolerance is declared out of reach.
-const MAX_MESHES: usize = 40;
+/// An amplified unit roundoff that is this share of the tolerance or less needs no closer look: the
+/// amplification of random forcings is a lower bound, ten to a thousand times less than κ.
+const HARMLESS: f64 = 0.1;
+/// An interval whose local defect is at most this share of the tolerance need not resolve the solution, as
+/// next to a jump of the right-hand side.
+const HARMLESS_DEFECT: f64 = 0.1;
+/// By as many meshes layers are found; what is not resolved on one more is rough.
+const LAYERS_SHOWN: usize = 6;
+/// Where rounding makes up this share of the tolerance, a mesh that is refused would be one against it:
+/// defects are sums of as many rounding errors as there are stages, and what a mesh is made for is 0.3
+/// tolerances.
+const ROUNDING_SHARE: f64 = 0.1;
+/// Measured rounding of less than this share of the tolerance is that of a matrix whose amplification is
+/// one of slopes in thin layers alone.
+const SHOWN_ROUNDING: f64 = 1e-3;
+/// How often a mesh is halved because the solution on it does not seem to be isolated: where that is so by
+/// a coarse mesh alone, a halved one shows it.
+const DOUBTS: usize = 3;
 
 /// Solves a boundary value problem from a guess.
 ///
@@ -84,6 +105,11 @@ pub(crate) fn solve_held(
         samples: vec![],
         missed: 0,
         probed: false,
+        places: FurtherPlaces::new(),
+        moved: false,
+        refused: false,
+        unresolved: None,
+        before: None,
     };
     restore(equations, run.solve(&equations.divided(guess), first))
 }
@@ -93,6 +119,15 @@ pub(crate) fn solve_held(
 enum Start<'a> {
     Guess(&'a dyn Guess),
     Solution(&'a Solution),
+}
+
+/// What a second look at a solution within the tolerance says.
+enum Confirmed {
+    Yes,
+    /// Newton's method went on from it.
+    Moved,
+    /// It is to be sought again on this mesh.
+    On(Mesh),
 }
 
 /// A condition whose residual is larger than allowed.
@@ -117,6 +152,15 @@ struct Run<'a> {
     missed: i32,
     /// Whether layers have been looked for that the mesh might not show.
     probed: bool,
+    places: FurtherPlaces,
+    /// The mesh of the last solution that was not resolved, and its relative defects.
+    unresolved: Option<(Mesh, Vec<Vec<f64>>)>,
+    /// The mesh of the last solution that missed the tolerance, and its local defects.
+    before: Option<(Mesh, Vec<Vec<f64>>)>,
+    /// Whether Newton's method has gone on from a solution on this mesh.
+    moved: bool,
+    /// Whether a solution was refused because it is not isolated.
+    refused: bool,
 }
 
 impl Run<'_> {
@@ -124,14 +168,14 @@ impl Run<'_> {
     fn solve(mut self, guess: &dyn Guess, mut first: Mesh) -> Result<Solution, Error> {
         for _ in 0..self.options.retries {
             match self.adapt(first.clone(), Start::Guess(guess)) {
-                Err(error) if error.is_of_newton() && self.may_halve(&first) => {
+                Err(error) if self.may_retry(&error) && self.may_halve(&first) => {
                     first = halved(&first);
                 }
                 outcome => return outcome,
             }
         }
         match self.adapt(first, Start::Guess(guess)) {
-            Err(mut error) if error.is_of_newton() && self.options.retries > 0 => {
+            Err(mut error) if self.may_retry(&error) && self.options.retries > 0 => {
                 match rough_solution(self.equations, guess, self.options, &mut self.stats) {
                     None => {
                         if let Some(best) = error.best_mut() {
@@ -151,15 +195,15 @@ impl Run<'_> {
         self.missed = 0;
         let mut solution = self.on(first, start)?;
         while let Some(mesh) = self.judge(&mut solution)? {
-            check_mesh(&mesh, self.options, &solution)?;
-            if self.stats.meshes >= MAX_MESHES {
-                return Err(unresolved(self.options, &solution));
+            if let Err(error) = check_mesh(&mesh, self.stats.meshes, self.options, &solution) {
+                return Err(self.out_of_reach(error, &solution));
             }
             let start = Start::Solution(&solution);
             solution = match self.on(mesh, start) {
                 // Where an iterate is far off, its rounding means little.
                 Err(error)
-                    if (error.is_of_newton() || matches!(error, Error::IllConditioned { .. }))
+                    if (self.may_retry(&error)
+                        || matches!(error, Error::IllConditioned { .. }))
                         && self.may_halve(&self.collocation.mesh) =>
                 {
                     self.on(halved(&self.collocation.mesh), start)?
@@ -174,6 +218,7 @@ impl Run<'_> {
     /// The solution on a mesh.
     fn on(&mut self, mesh: Mesh, start: Start<'_>) -> Result<Solution, Error> {
         self.stats.meshes += 1;
+        self.moved = false;
         self.set_mesh(mesh);
         let Self { collocation, .. } = self;
         let mut x = match start {
@@ -211,7 +256,9 @@ impl Run<'_> {
     /// solution is good enough, an error if rounding hides it.
     fn judge(&mut self, solution: &mut Solution) -> Result<Option<Mesh>, Error> {
         let tolerance = self.options.tolerance;
-        let (defect, estimating) = (solution.defect(), self.estimates());
+        let estimating = self.estimates();
+        let relative = self.relevant_defects(solution);
+        let defect = relative.iter().flatten().copied().fold(0.0, max_or_nan);
         let (allowed, wanted, grading) = match self.options.control {
             Control::Error => (UNRESOLVED, RESOLVED * UNRESOLVED, GRADING_BY_ERROR),
             Control::Both | Control::Defect => (tolerance, tolerance, GRADING),
@@ -225,12 +272,68 @@ impl Run<'_> {
                 self.probed = true;
                 return Ok(Some(mesh));
             }
-            let (defects, m) = (&solution.quality.defects.relative, self.stages());
-            return Ok(Some(next_mesh(&solution.mesh, defects, wanted, m, grading)));
+            let (mut defects, m) = (relative.clone(), self.stages());
+            let before = self.unresolved.replace((solution.mesh.clone(), relative));
+            if let Some(before) = before.filter(|_| self.stats.meshes > LAYERS_SHOWN) {
+                amplify_rough(&mut defects, &solution.mesh, &before, m, 1);
+            }
+            return Ok(Some(next_mesh(
+                &solution.mesh,
+                &defects,
+                wanted,
+                m,
+                grading,
+            )));
         }
         if !estimating {
             return Ok(None);
         }
+        self.estimate(solution)?;
+        if solution
+            .error_estimate()
+            .is_some_and(|error| error <= tolerance)
+        {
+            match self.confirm(solution)? {
+                Confirmed::Yes => return Ok(None),
+                Confirmed::Moved => return self.judge(solution),
+                Confirmed::On(mesh) => return Ok(Some(mesh)),
+            }
+        }
+        let error = solution.error_estimate().unwrap_or(f64::INFINITY);
+        if error.is_infinite() {
+            return Ok(Some(halved(&solution.mesh)));
+        }
+        let order = self.collocation.tableau.scheme.dense_order();
+        let defects = &solution.quality.defects;
+        let mut local = defects.local.clone();
+        let before = self.before.replace((solution.mesh.clone(), local.clone()));
+        let rough = before
+            .filter(|_| self.stats.meshes > LAYERS_SHOWN)
+            .is_some_and(|before| amplify_rough(&mut local, &solution.mesh, &before, order, 2));
+        self.missed = if rough { 1 } else { self.missed + 1 };
+        let wanted = AIM.powi(self.missed) * tolerance * defects.largest_local() / error;
+        let next = next_mesh(&solution.mesh, &local, wanted, order, grading);
+        Ok(Some(next))
+    }
+
+    /// The relative defects of a solution; where the error is controlled without those of intervals so short
+    /// that their local defects are harmless.
+    fn relevant_defects(&self, solution: &Solution) -> Vec<Vec<f64>> {
+        let mut relative = solution.quality.defects.relative.clone();
+        if self.options.control == Control::Error {
+            let harmless = HARMLESS_DEFECT * self.options.tolerance;
+            let local = solution.quality.defects.local.iter().flatten();
+            for (relative, local) in relative.iter_mut().flatten().zip(local) {
+                if *local <= harmless {
+                    *relative = relative.min(RESOLVED * UNRESOLVED);
+                }
+            }
+        }
+        relative
+    }
+
+    /// Estimates the error of a solution by the last linearisation.
+    fn estimate(&mut self, solution: &mut Solution) -> Result<(), Error> {
         let (samples, local) = (&self.samples, &solution.quality.defects.local);
         let Self {
             newton,
@@ -238,39 +341,221 @@ impl Run<'_> {
             ..
         } = self;
         solution.quality.errors = newton.global_errors(collocation, &solution.x, samples, local);
-        let error = solution.error_estimate().unwrap_or(f64::INFINITY);
-        self.refuse_rounding(solution)?;
-        if error <= tolerance {
-            if std::mem::replace(&mut self.probed, true) {
-                return Ok(None);
+        match self.collocation.is_suspect() {
+            true => self.refuse_rounding(solution),
+            false => Ok(()),
+        }
+    }
+
+    /// Takes a second look at a solution within the tolerance: what was found of it must hold at the
+    /// solution itself, it must be isolated, and no layer may hide from the mesh.
+    fn confirm(&mut self, solution: &mut Solution) -> Result<Confirmed, Error> {
+        let mut a = self.amplification(&solution.x);
+        let harmless = HARMLESS * self.options.tolerance;
+        // A long step leaves its rounding, too.
+        if !self.newton.is_current() || a * UNIT_ROUNDOFF * self.newton.moved > harmless {
+            let wanted = AIM * self.options.tolerance;
+            let correction = self.correction(&solution.x);
+            if !correction.as_ref().is_ok_and(|&size| size <= wanted) && !self.moved {
+                self.moved = true;
+                let mut x = solution.x.clone();
+                *solution = match self.iterate(&mut x) {
+                    Ok(()) => self.assess(x)?,
+                    Err(failure) => return Err(self.failed(failure, x)),
+                };
+                return Ok(Confirmed::Moved);
             }
-            let resolving = self.collocation.with_possible_layers();
-            return Ok(resolving.filter(|mesh| !self.is_kept(solution, mesh)));
+            // What is left of it is in the estimate of the error.
+            if let Err(failure) = correction {
+                return Err(self.failed(failure, solution.x.clone()));
+            }
+            a = self.amplification(&solution.x);
         }
-        if error.is_infinite() {
-            return Ok(Some(halved(&solution.mesh)));
+        if a * UNIT_ROUNDOFF > harmless || self.collocation.is_suspect() {
+            self.refuse_rounding(solution)?;
         }
-        self.missed += 1;
-        let order = self.collocation.tableau.scheme.dense_order();
-        let defects = &solution.quality.defects;
-        let wanted = AIM.powi(self.missed) * tolerance * defects.largest_local() / error;
-        let local = &defects.local;
-        let next = next_mesh(&solution.mesh, local, wanted, order, grading);
-        Ok(Some(next))
+        if is_open(a) && self.rounds(solution) {
+            let direction = self.newton.amplified(&self.collocation, &solution.x);
+            return self.doubt(direction, solution).map(Confirmed::On);
+        }
+        if is_amplified(a, self.options.tolerance)
+            && let Some(direction) = self.direction(solution)
+        {
+            return self.doubt(direction, solution).map(Confirmed::On);
+        }
+        if let Some(mesh) = self.look_further(solution) {
+            return Ok(Confirmed::On(mesh));
+        }
+        if !std::mem::replace(&mut self.probed, true)
+            && let Some(mesh) = self.collocation.with_possible_layers()
+            && !self.is_kept(solution, &mesh)
+        {
+            return Ok(Confirmed::On(mesh));
+        }
+        if is_high(a) && self.may_halve(&solution.mesh) {
+            self.amplification(&solution.x);
+            let direction = self.newton.amplified(&self.collocation, &solution.x);
+            if !is_steady(a, self.amplification_on(halved(&solution.mesh), solution)) {
+                return self.doubt(direction, solution).map(Confirmed::On);
+            }
+        }
+        Ok(Confirmed::Yes)
+    }
+
+    /// The error for a solution whose next mesh is refused: what keeps it from the tolerance may be rounding.
+    fn out_of_reach(&mut self, error: Error, solution: &Solution) -> Error {
+        if self.estimates() && self.collocation.mesh == solution.mesh {
+            let rounding = self.collocation.rounding(&solution.x);
+            if !(rounding < ROUNDING_SHARE * self.options.tolerance) {
+                let mut best = solution.clone();
+                best.stats = self.cost();
+                return ill_conditioned(rounding, self.options.tolerance, best);
+            }
+        }
+        error
+    }
+
+    /// The halved mesh on which a solution proves isolated that does not so on its own; an error if there is
+    /// none.
+    fn doubt(&mut self, direction: Direction, solution: &Solution) -> Result<Mesh, Error> {
+        let mut mesh = solution.mesh.clone();
+        let mut before = f64::INFINITY;
+        for _ in 0..DOUBTS {
+            if !self.may_halve(&mesh) {
+                break;
+            }
+            mesh = halved(&mesh);
+            let a = self.amplification_on(mesh.clone(), solution);
+            if is_open(a) {
+                break;
+            }
+            let Self {
+                newton,
+                collocation,
+                samples,
+                stats,
+                ..
+            } = self;
+            let x = transfer(&mesh, &collocation.tableau, solution);
+            if !is_amplified(a, self.options.tolerance)
+                || is_steady(before, a)
+                    && newton
+                        .direction(collocation, &x, samples, a, stats)
+                        .is_none()
+            {
+                return Ok(mesh);
+            }
+            before = a;
+        }
+        self.refused = true;
+        Err(self.undetermined(None, direction, solution.clone()))
+    }
+
+    /// The amplification of forcings at a solution on another mesh, infinite where nothing can be told of it;
+    /// leaves the linearisation and the estimate of the error there.
+    fn amplification_on(&mut self, mesh: Mesh, solution: &Solution) -> f64 {
+        self.set_mesh(mesh);
+        let Self {
+            newton,
+            collocation,
+            samples,
+            stats,
+            ..
+        } = self;
+        let (t, mesh) = (&collocation.tableau, &collocation.mesh);
+        let x = transfer(mesh, t, solution);
+        let Ok(defects) = defects(self.equations, t, mesh, &x, samples, stats) else {
+            return f64::INFINITY;
+        };
+        if newton.correction(collocation, &x, stats).is_err() {
+            return f64::INFINITY;
+        }
+        newton.global_errors(collocation, &x, samples, &defects.local);
+        newton.amplification(collocation, &x)
+    }
+
+    /// The mesh for what the right-hand side shows of a solution at further places.
+    fn look_further(&mut self, solution: &Solution) -> Option<Mesh> {
+        let found = (&solution.x, &solution.quality.defects);
+        self.places.look(
+            self.equations,
+            &self.collocation.tableau,
+            &solution.mesh,
+            found,
+            self.options.tolerance,
+            &mut self.stats,
+        )
+    }
+
+    /// The size of Newton's correction at a solution.
+    fn correction(&mut self, x: &Iterate) -> Result<f64, Failure> {
+        let Self {
+            newton,
+            collocation,
+            stats,
+            ..
+        } = self;
+        newton.correction(collocation, x, stats)
+    }
+
+    /// Whether rounding shows in a solution, or cannot since it vanishes.
+    fn rounds(&mut self, solution: &Solution) -> bool {
+        let rounding = self.collocation.rounding(&solution.x);
+        rounding == 0.0 || !(rounding < SHOWN_ROUNDING * self.options.tolerance)
+    }
+
+    /// The amplification of forcings by the last linearisation.
+    fn amplification(&mut self, x: &Iterate) -> f64 {
+        self.newton.amplification(&mut self.collocation, x)
+    }
+
+    /// The direction in which a solution is not isolated, if so.
+    fn direction(&mut self, solution: &Solution) -> Option<Direction> {
+        let Self {
+            newton,
+            collocation,
+            samples,
+            stats,
+            ..
+        } = self;
+        let local = &solution.quality.defects.local;
+        newton.global_errors(collocation, &solution.x, samples, local);
+        let a = newton.amplification(collocation, &solution.x);
+        newton.direction(collocation, &solution.x, samples, a, stats)
     }
 
     /// Refuses a solution that may be nothing but rounding.
     fn refuse_rounding(&mut self, solution: &Solution) -> Result<(), Error> {
-        if self.collocation.is_suspect() {
-            let rounding = self.collocation.rounding(&solution.x);
-            let tolerance = self.options.tolerance;
-            if exceeds(rounding, tolerance) {
-                let mut best = solution.clone();
-                best.stats = self.cost();
-                return Err(ill_conditioned(rounding, tolerance, best));
-            }
+        let rounding = self.collocation.rounding(&solution.x);
+        let a = self.amplification(&solution.x);
+        if !exceeds(rounding, a, self.options.tolerance) {
+            return Ok(());
         }
-        Ok(())
+        let rounding = rounding.max(a * UNIT_ROUNDOFF);
+        let direction = self.newton.amplified(&self.collocation, &solution.x);
+        self.refused = true;
+        Err(self.undetermined(Some(rounding), direction, solution.clone()))
+    }
+
+    /// The error for a solution that is one of a family, where no rounding is known, or nothing but rounding.
+    fn undetermined(
+        &self,
+        rounding: Option<f64>,
+        direction: Direction,
+        mut best: Solution,
+    ) -> Error {
+        best.stats = self.cost();
+        let Direction { felt, shift, free } = direction;
+        if felt && (shift || rounding.is_none()) {
+            return Error::SingularConditions {
+                conditions: vec![],
+                free,
+                shift,
+                best: Box::new(best),
+            };
+        }
+        let rounding = rounding.unwrap_or(f64::INFINITY);
+        ill_conditioned(rounding, self.options.tolerance, best)
     }
 
     /// Whether a solution within the tolerance on its own mesh is so on another one, by its correction
@@ -295,6 +580,11 @@ impl Run<'_> {
     /// Stages m of the scheme.
     fn stages(&self) -> usize {
         self.collocation.tableau.stages
+    }
+
+    /// Whether another attempt may do better: not where a solution was found and refused.
+    fn may_retry(&self, error: &Error) -> bool {
+        error.is_of_newton() && !self.refused
     }
 
     /// Whether a mesh may be halved within the limit.
@@ -322,11 +612,16 @@ impl Run<'_> {
     fn failed(&mut self, failure: Failure, x: Iterate) -> Error {
         let rounding = match failure {
             // Corrections no larger than that are rounding.
-            Failure::NoConvergence { correction, .. } => {
+            Failure::NoConvergence { correction, .. } if correction <= NO_DIGIT => {
                 Some(self.collocation.rounding(&x)).filter(|&rounding| rounding >= correction)
             }
             _ => None,
         };
+        if matches!(failure, Failure::NoConvergence { .. }) && is_open(self.amplification(&x)) {
+            let direction = self.newton.amplified(&self.collocation, &x);
+            let best = self.solution(x, Quality::unknown(&self.collocation.mesh));
+            return self.undetermined(Some(f64::INFINITY), direction, best);
+        }
         let best = self.solution(x, Quality::unknown(&self.collocation.mesh));
         match rounding {
             Some(rounding) => ill_conditioned(rounding, self.options.tolerance, best),

@@ -28,3 +28,4 @@ mod statements;
 mod stored;
 mod work;
 mod wright;
+mod wrong_answers;

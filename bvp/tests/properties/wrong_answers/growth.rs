@@ -1,0 +1,55 @@
+//! Errors that grow along the interval.
+
+use super::Score;
+use bvp::{Constant, Ends, Error, Options, Problem, Real, Segment, solve};
+
+/// y' = λ (y − cos s) − sin s on \[0, L\], y(0) = 1, with the solution cos s: errors grow like e^(λ s).
+struct Growth {
+    lambda: f64,
+    length: f64,
+}
+
+impl Problem for Growth {
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(1, 0.0, self.length)]
+    }
+
+    fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {
+        dy[0] = (y[0] - s.cos()) * self.lambda - s.sin();
+    }
+
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+        r[0] = at.start(0)[0] - 1.0;
+    }
+}
+
+#[test]
+fn amplified_rounding_is_seen() {
+    let mut score = Score::default();
+    for tolerance in [1e-3, 1e-6, 1e-9] {
+        for lambda in [0.6, 7.1, 20.0, 30.0] {
+            for exponent in [5.0, 10.0, 15.0, 20.0, 25.0, 30.0] {
+                let length = exponent / lambda;
+                let problem = Growth { lambda, length };
+                let guess = Constant {
+                    states: vec![vec![0.0]],
+                    parameters: vec![],
+                };
+                let outcome = solve(&problem, &guess, &Options::to(tolerance));
+                if let Err(error) = &outcome {
+                    // No finer mesh helps.
+                    assert!(
+                        matches!(
+                            error,
+                            Error::IllConditioned { .. } | Error::SingularConditions { .. }
+                        ),
+                        "{lambda} {exponent} {tolerance:e}: {error}"
+                    );
+                }
+                let name = format!("{lambda} {exponent}");
+                score.count(&name, tolerance, outcome, f64::cos);
+            }
+        }
+    }
+    assert!(score.solved >= 30, "{score:?}");
+}
