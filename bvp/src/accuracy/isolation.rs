@@ -8,7 +8,7 @@
 //!
 //! Where the amplification a is large, z = v / a is nearly a null vector, A z = r / a. The solution S has
 //! the estimated error e, so that S + e is nearer to the exact one; of the differential equations
-//! linearised there z has the defect d = z' − J(S + e) z − F_p p − r / a, and by defect correction
+//! linearised there z has the defect `d = z' − J(S + e) z − F_p p − r / a`, and by defect correction
 //! ([`global_error`](crate::accuracy::global_error)) the size of A⁻¹ d is the relative change of the
 //! smallest singular value from the discretised problem to the exact one. Where it is of the order of one,
 //! the matrix is regular only by its discretisation: the solution belongs to a family, or is as good as
@@ -30,14 +30,13 @@ use crate::result::stats::Stats;
 
 /// Whether an amplification asks for a closer look at a solution with this error.
 pub(crate) fn is_amplified(a: f64, error: f64) -> bool {
-    // Not a number where it overflowed.
-    !(a * error.max(COARSE) < AMPLIFIED)
+    a.is_nan() || a * error.max(COARSE) >= AMPLIFIED
 }
 
 /// Whether an amplification is so high that it must show on a finer mesh, too: what a mesh is too coarse for
 /// can end an exponential growth beyond it.
 pub(crate) fn is_high(a: f64) -> bool {
-    !(a < HIGH)
+    a.is_nan() || a >= HIGH
 }
 
 /// Whether an amplification is the same on a mesh of halved intervals.
@@ -47,7 +46,7 @@ pub(crate) fn is_steady(a: f64, halved: f64) -> bool {
 
 /// Whether a matrix with this amplification is as good as singular.
 pub(crate) fn is_open(a: f64) -> bool {
-    !(a < OPEN)
+    a.is_nan() || a >= OPEN
 }
 
 /// An amplification that a mesh of six or seven stages resolves hardly changes; eight digits are half of
@@ -189,7 +188,7 @@ impl Collocation<'_> {
         }
     }
 
-    /// z' − J(S + e) z − F_p p − r / a at the defect points of all intervals.
+    /// `z' − J(S + e) z − F_p p − r / a` at the defect points of all intervals.
     fn linear_defects(
         &self,
         x: &Iterate,

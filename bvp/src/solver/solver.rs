@@ -406,7 +406,7 @@ impl Run<'_> {
     fn out_of_reach(&mut self, error: Error, solution: &Solution) -> Error {
         if self.estimates() && self.collocation.mesh == solution.mesh {
             let rounding = self.collocation.rounding(&solution.x);
-            if !(rounding < ROUNDING_SHARE * self.options.tolerance) {
+            if rounding.is_nan() || rounding >= ROUNDING_SHARE * self.options.tolerance {
                 let mut best = solution.clone();
                 best.stats = self.cost();
                 return ill_conditioned(rounding, self.options.tolerance, best);
@@ -501,7 +501,7 @@ impl Run<'_> {
     /// Whether rounding shows in a solution, or cannot since it vanishes.
     fn rounds(&mut self, solution: &Solution) -> bool {
         let rounding = self.collocation.rounding(&solution.x);
-        rounding == 0.0 || !(rounding < SHOWN_ROUNDING * self.options.tolerance)
+        rounding == 0.0 || rounding.is_nan() || rounding >= SHOWN_ROUNDING * self.options.tolerance
     }
 
     /// The amplification of forcings by the last linearisation.

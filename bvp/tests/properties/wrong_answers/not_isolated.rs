@@ -183,8 +183,8 @@ impl Problem for Resonance {
 #[test]
 fn a_resonance_is_refused() {
     for k in [1.0, 2.0, 3.0] {
-        for (q, value) in [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0), (10.0, 1.0)] {
-            for tolerance in [1e-2, 1e-3, 1e-6, 1e-9] {
+        for (q, value) in [(10.0, 0.0), (100.0, 1.0)] {
+            for tolerance in [1e-3, 1e-6, 1e-9] {
                 let guess = Constant {
                     states: vec![vec![value, 0.0]],
                     parameters: vec![],
