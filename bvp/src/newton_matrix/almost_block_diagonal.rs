@@ -62,8 +62,10 @@ pub(crate) struct Transitions {
     row: Vec<f64>,
     /// Buffers for the elimination in blocks, where there are many states.
     reflections: Option<Blocks>,
-    /// The units of the states, where they are of very different size: see [`balance`].
-    units: Option<Vec<f64>>,
+    /// The units of the states, all one unless they are `balanced`: see [`balance`].
+    units: Vec<f64>,
+    /// Whether the states are of very different size.
+    balanced: bool,
 }
 
 impl Transitions {
@@ -79,7 +81,8 @@ impl Transitions {
             work: vec![0.0; 2 * n * (3 * n + k)],
             row: vec![0.0; 3 * n + k],
             reflections: (n >= MANY).then(|| Blocks::new(2 * n, 3 * n + k)),
-            units: None,
+            units: vec![1.0; n],
+            balanced: false,
         }
     }
 
@@ -101,7 +104,8 @@ impl Transitions {
     fn eliminate(&mut self) -> Result<(), usize> {
         let n = self.n;
         let k = self.k;
-        self.units = balance(&mut self.blocks, n, k);
+        let sizes = &mut self.work[..n * n];
+        self.balanced = balance(&mut self.blocks, k, &mut self.units, sizes);
         specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(k in [0] => self.eliminate_nodes(n, k)))
     }
 
@@ -174,9 +178,10 @@ impl Transitions {
     /// the interior nodes stay in their slots; that of the remaining equation goes into `reduced`.
     fn forward(&mut self, nodes: &mut [f64], reduced: &mut [f64]) {
         let n = self.n;
-        if let Some(units) = &self.units {
+        if self.balanced {
             for node in nodes.chunks_exact_mut(n) {
-                node.iter_mut().zip(units).for_each(|(g, unit)| *g /= unit);
+                let each = node.iter_mut().zip(&self.units);
+                each.for_each(|(g, unit)| *g /= unit);
             }
         }
         specialise!(n in [1, 2, 3, 4, 5, 6] => self.forward_nodes(n, nodes, reduced));
@@ -237,9 +242,10 @@ impl Transitions {
         let n = self.n;
         let k = self.k;
         specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(k in [0] => self.backward_nodes(n, k, nodes, p)));
-        if let Some(units) = &self.units {
+        if self.balanced {
             for node in nodes.chunks_exact_mut(n) {
-                node.iter_mut().zip(units).for_each(|(y, unit)| *y *= unit);
+                let each = node.iter_mut().zip(&self.units);
+                each.for_each(|(y, unit)| *y *= unit);
             }
         }
     }
@@ -332,15 +338,12 @@ impl AlmostBlockDiagonal {
         conditions_rows.copy_from_slice(conditions);
         let mut column = 0;
         for of_segment in &self.transitions {
-            for units in of_segment.units.iter().cycle().take(2) {
+            for _end in 0..2 {
                 for row in conditions_rows.chunks_exact_mut(size) {
-                    let of_end = row[column..].iter_mut().zip(units);
+                    let of_end = row[column..].iter_mut().zip(&of_segment.units);
                     of_end.for_each(|(x, unit)| *x *= unit);
                 }
                 column += of_segment.n;
-            }
-            if of_segment.units.is_none() {
-                column += 2 * of_segment.n;
             }
         }
         self.ends.factor()

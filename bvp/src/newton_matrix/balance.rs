@@ -11,14 +11,16 @@ const MODERATE: f64 = 1e6;
 /// Sweeps over all states: the method converges by the length of the path from state to state.
 const SWEEPS: usize = 8;
 
-/// Balances \[Γ P\], n × (n + k) per interval, in place, if that is needed, and returns the units D: rows
-/// are divided by them, columns of states multiplied.
-pub(super) fn balance(blocks: &mut [f64], n: usize, k: usize) -> Option<Vec<f64>> {
+/// Balances \[Γ P\], n × (n + k) per interval, in place, if that is needed, and writes the units D, n numbers:
+/// rows are divided by them, columns of states multiplied. Returns whether it was needed. `sizes` is a
+/// buffer of n × n numbers.
+pub(super) fn balance(blocks: &mut [f64], k: usize, units: &mut [f64], sizes: &mut [f64]) -> bool {
+    let n = units.len();
+    units.fill(1.0);
     if n == 1 {
-        return None;
+        return false;
     }
-    let sizes = largest_entries(blocks, n, k);
-    let mut units = vec![1.0f64; n];
+    largest_entries(blocks, n, k, sizes);
     for _ in 0..SWEEPS {
         for i in 0..n {
             let others = || (0..n).filter(|&j| j != i);
@@ -42,21 +44,22 @@ pub(super) fn balance(blocks: &mut [f64], n: usize, k: usize) -> Option<Vec<f64>
     let largest = units.iter().copied().fold(0.0, f64::max);
     let smallest = units.iter().copied().fold(f64::INFINITY, f64::min);
     if largest / smallest <= MODERATE {
-        return None;
+        units.fill(1.0);
+        return false;
     }
     for block in blocks.chunks_exact_mut(n * (n + k)) {
-        for (row, unit) in block.chunks_exact_mut(n + k).zip(&units) {
+        for (row, unit) in block.chunks_exact_mut(n + k).zip(&*units) {
             for (j, x) in row.iter_mut().enumerate() {
                 *x *= units.get(j).unwrap_or(&1.0) / unit;
             }
         }
     }
-    Some(units)
+    true
 }
 
-/// The largest |Γᵢⱼ| over all intervals, n × n.
-fn largest_entries(blocks: &[f64], n: usize, k: usize) -> Vec<f64> {
-    let mut sizes = vec![0.0f64; n * n];
+/// The largest |Γᵢⱼ| over all intervals, n × n, into `sizes`.
+fn largest_entries(blocks: &[f64], n: usize, k: usize, sizes: &mut [f64]) {
+    sizes.fill(0.0);
     for block in blocks.chunks_exact(n * (n + k)) {
         let rows = block.chunks_exact(n + k).zip(sizes.chunks_exact_mut(n));
         for (row, sizes) in rows {
@@ -65,7 +68,6 @@ fn largest_entries(blocks: &[f64], n: usize, k: usize) -> Vec<f64> {
             }
         }
     }
-    sizes
 }
 
 #[cfg(test)]
@@ -78,7 +80,8 @@ mod tests {
         let (near, far) = (2f64.cosh(), 2f64.sinh());
         let block = [near, 1e-12 * far, 7.0, 1e12 * far, near, 3.0];
         let mut balanced = block;
-        let units = balance(&mut balanced, 2, 1).unwrap();
+        let (mut units, mut sizes) = ([0.0; 2], [0.0; 4]);
+        assert!(balance(&mut balanced, 1, &mut units, &mut sizes));
         for (i, row) in balanced.chunks_exact(3).enumerate() {
             for (j, x) in row.iter().enumerate() {
                 let unit = units.get(j).unwrap_or(&1.0) / units[i];
@@ -93,8 +96,9 @@ mod tests {
     fn moderate_and_small_couplings_are_left_alone() {
         for block in [[1.0, 30.0, 1.0, 1.0], [1.0, 1e-9, 1e-300, 1.0]] {
             let mut balanced = block;
-            assert_eq!(balance(&mut balanced, 2, 0), None);
-            assert_eq!(balanced, block);
+            let (mut units, mut sizes) = ([0.0; 2], [0.0; 4]);
+            assert!(!balance(&mut balanced, 0, &mut units, &mut sizes));
+            assert_eq!((balanced, units), (block, [1.0; 2]));
         }
     }
 }
