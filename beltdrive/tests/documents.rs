@@ -102,10 +102,10 @@ fn blocks(document: &Path, lines: &[&str]) -> Vec<Block> {
         match language {
             "sh" => {
                 let commands = inside.join("\n").replace("\\\n", " ");
-                let last = commands
+                let mut last = commands
                     .lines()
                     .filter_map(|line| line.strip_prefix(PROGRAM));
-                command = last.last().map(str::to_owned);
+                command = last.next_back().map(str::to_owned);
             }
             "output" => blocks.push(Block {
                 command: command.clone().unwrap_or_else(|| {
