@@ -148,7 +148,14 @@ fn they_agree_with_very_stiff_and_very_soft_bristles_and_close_to_gross_slip() {
         for convention in NormalForce::ALL {
             let law = FrictionLaw::Epp { stiffness };
             let drive = drive(law, convention, Belt(200.0), Belt(tight));
-            let found = BoundaryValue::solve(&drive, 1e-11, FINE).unwrap();
+            let found = match BoundaryValue::solve(&drive, 1e-11, FINE) {
+                Ok(found) => found,
+                // At this tolerance measured rounding may exceed it, and is refused.
+                Err(error) => {
+                    assert!(format!("{error:?}").contains("IllConditioned"), "{error:?}");
+                    continue;
+                }
+            };
             let these = deviations(&drive, &found);
             let name = format!("{stiffness:e} {tight} {convention:?}");
             println!("{name} {}", show(&these));
