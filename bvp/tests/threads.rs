@@ -100,6 +100,7 @@ fn threads_that_solve_at_once_do_not_disturb_each_other() {
 #[cfg(feature = "parallel")]
 mod parallel {
     use super::*;
+    use bvp::LeftOf;
     use std::collections::HashSet;
     use std::sync::Mutex;
     use std::thread::{ThreadId, current};
@@ -126,7 +127,10 @@ mod parallel {
             1
         }
 
-        fn rhs<T: Real>(&self, segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
+        fn rhs<T: Real>(&self, segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T])
+        where
+            f64: LeftOf<T>,
+        {
             self.threads.lock().unwrap().insert(current().id());
             Problem::rhs(&Power { end: 2.0 }, segment, s, y, p, dy);
             if segment == 1 && s.value() > self.beyond {
@@ -134,7 +138,10 @@ mod parallel {
             }
         }
 
-        fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]) {
+        fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T])
+        where
+            f64: LeftOf<T>,
+        {
             Problem::conditions(&Power { end: 2.0 }, at, p, r);
         }
     }
