@@ -11,10 +11,10 @@
 //! distinct solutions of nonlinear partial differential equations", SIAM J. Sci. Comput. 37 (2015)
 //! A2026-A2045.
 
-use crate::branch::branch::check_length;
 use crate::curve::corrector::{Accuracy, Condition, Corrector};
 use crate::curve::metric::Metric;
-use crate::error::{Difficulty, Error};
+use crate::difficulty::Difficulty;
+use crate::error::{Error, check_length};
 use crate::options::Options;
 use crate::special_points::branch_point::irregular;
 use crate::system::system::System;

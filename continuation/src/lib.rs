@@ -180,6 +180,7 @@
 mod branch;
 mod curve;
 mod deflation;
+mod difficulty;
 mod error;
 mod homotopy;
 mod options;
@@ -193,7 +194,8 @@ pub use branch::branch::{Branch, Direction};
 pub use branch::switching::Leg;
 pub use curve::root::root;
 pub use deflation::deflate;
-pub use error::{Difficulty, Error};
+pub use difficulty::{Cause, Difficulty};
+pub use error::Error;
 pub use homotopy::homotopy;
 pub use options::{Options, Parameterisation, Predictor};
 pub use point::{DiscretisationError, Kind, Point};
@@ -203,7 +205,7 @@ pub use system::dense::DenseSystem;
 pub use system::exact::Differentiable;
 #[cfg(feature = "sparse")]
 pub use system::sparse::SparseSystem;
-pub use system::system::{Cause, System, TwoParameter};
+pub use system::system::{System, TwoParameter};
 pub use two_parameters::branch_point_curve::BranchPointCurve;
 pub use two_parameters::limit_point_curve::LimitPointCurve;
 

@@ -1,6 +1,6 @@
 //! Why a branch ends.
 
-use crate::error::Difficulty;
+use crate::difficulty::Difficulty;
 
 /// Why a branch ends. None of these is a fault of the caller; the last point yielded is good.
 #[derive(Debug, thiserror::Error)]

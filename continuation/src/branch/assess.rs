@@ -4,7 +4,7 @@ use crate::branch::branch::Branch;
 use crate::branch::branch::reverse;
 use crate::curve::corrector::{Accuracy, Condition, Corrector};
 use crate::curve::metric::Metric;
-use crate::error::Difficulty;
+use crate::difficulty::Difficulty;
 use crate::point::{DiscretisationError, Kind, Point};
 use crate::special_points::branch_point::{branch_point, column};
 use crate::special_points::span::Node;

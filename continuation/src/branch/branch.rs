@@ -3,7 +3,8 @@
 use crate::curve::corrector::{Accuracy, Condition, Corrector};
 use crate::curve::metric::Metric;
 use crate::curve::predictor::History;
-use crate::error::{Difficulty, Error};
+use crate::difficulty::Difficulty;
+use crate::error::{Error, check_length};
 use crate::options::Options;
 use crate::point::{Kind, Point};
 use crate::special_points::branch_point::column;
@@ -300,14 +301,6 @@ impl<S: System> Iterator for Branch<'_, S> {
         }
         let point = self.queue.pop_front()?;
         Some(self.assessed(point))
-    }
-}
-
-/// A vector of unknowns must have the length that the system says.
-pub(crate) fn check_length(z: &[f64], unknowns: usize) -> Result<(), Error> {
-    match z.len() {
-        given if given == unknowns => Ok(()),
-        given => Err(Error::StartCount { given, unknowns }),
     }
 }
 

@@ -1,7 +1,7 @@
 //! The labelled points of a step.
 
 use crate::branch::branch::Branch;
-use crate::error::Difficulty;
+use crate::difficulty::Difficulty;
 use crate::point::{Kind, Point};
 use crate::special_points::span::{Located, Node, RESOLVED, Span};
 use crate::system::system::System;

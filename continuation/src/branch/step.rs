@@ -5,7 +5,7 @@ use crate::branch::branch::reverse;
 use crate::branch::labels::{Found, UNVERIFIED};
 use crate::curve::corrector::{Accuracy, Condition, Correction};
 use crate::curve::predictor::History;
-use crate::error::Difficulty;
+use crate::difficulty::Difficulty;
 use crate::options::{Parameterisation, Predictor};
 use crate::point::Kind;
 use crate::special_points::span::{Node, Span};

@@ -13,7 +13,7 @@
 //! (chord steps).
 
 use crate::curve::metric::Metric;
-use crate::error::Difficulty;
+use crate::difficulty::Difficulty;
 use crate::system::system::System;
 
 /// Corrections that shrink at least this much per step keep the linearisation.

@@ -16,7 +16,7 @@
 
 use crate::curve::corrector::Corrector;
 use crate::curve::metric::Metric;
-use crate::error::Difficulty;
+use crate::difficulty::Difficulty;
 use crate::special_points::null_space::{NullSpace, solve};
 use crate::special_points::second_derivative::{FINE, ROUGH, Rule, bending, mixed};
 use crate::system::system::System;

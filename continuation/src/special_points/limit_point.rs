@@ -1,6 +1,6 @@
 //! Limit points between two accepted points.
 
-use crate::error::Difficulty;
+use crate::difficulty::Difficulty;
 use crate::special_points::span::{Located, Node, RESOLVED, Span};
 use crate::system::system::System;
 

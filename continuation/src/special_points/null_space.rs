@@ -10,7 +10,7 @@
 
 use crate::curve::corrector::Corrector;
 use crate::curve::metric::Metric;
-use crate::error::Difficulty;
+use crate::difficulty::Difficulty;
 use crate::system::system::System;
 
 /// An orthonormal basis of the null space of \[J b\]: each vector has the n + 1 unknowns and then the

@@ -3,7 +3,7 @@
 use crate::curve::corrector::{Accuracy, Condition, Corrector};
 use crate::curve::metric::Metric;
 use crate::curve::root::root;
-use crate::error::Difficulty;
+use crate::difficulty::Difficulty;
 use crate::point::{Kind, Point};
 use crate::special_points::branch_point::{Crossing, branch_point};
 use crate::special_points::null_space::{self, NullSpace};

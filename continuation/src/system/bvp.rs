@@ -1,6 +1,7 @@
 //! Boundary value problems as systems: the feature `bvp`.
 
-use crate::system::system::{Cause, System, TwoParameter};
+use crate::difficulty::Cause;
+use crate::system::system::{System, TwoParameter};
 use bvp::Family;
 
 /// The discretised family is a system as it is: the parameter of the family is λ, the mesh follows the

@@ -1,8 +1,9 @@
 //! Small systems given by closures.
 
+use crate::difficulty::Cause;
 use crate::system::closures::Closures;
 use crate::system::permutation::parity;
-use crate::system::system::{Cause, System, TwoParameter};
+use crate::system::system::{System, TwoParameter};
 use faer::MatRef;
 use faer::linalg::solvers::FullPivLu;
 use std::sync::Arc;

@@ -1,8 +1,9 @@
 //! Large systems with few entries in every row of the Jacobian, given by closures.
 
+use crate::difficulty::Cause;
 use crate::system::closures::Closures;
 use crate::system::sparse_lu::{Columns, SparseLu};
-use crate::system::system::{Cause, System, TwoParameter};
+use crate::system::system::{System, TwoParameter};
 use std::sync::Arc;
 
 /// Entries of the Jacobian: states x, all parameters p, and what takes (row, column, value).

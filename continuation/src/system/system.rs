@@ -1,7 +1,6 @@
 //! What the tracer needs to know of a system.
 
-/// Why a system could not be linearised or adapted, in its own words.
-pub type Cause = Box<dyn std::error::Error + Send + Sync>;
+use crate::difficulty::Cause;
 
 /// A nonlinear system G(z) = 0 of n equations in n + 1 unknowns z = (x, λ), the parameter λ last.
 ///

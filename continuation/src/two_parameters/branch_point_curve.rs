@@ -10,13 +10,13 @@
 //! with φ the two η components of the null space of \[J b\]. η stays zero as long as the branch point
 //! persists; where it does not, the saddle goes on with η ≠ 0 and the branches part.
 
-use crate::branch::branch::check_length;
 use crate::curve::corrector::Corrector;
-use crate::error::{Difficulty, Error};
+use crate::difficulty::{Cause, Difficulty};
+use crate::error::{Error, check_length};
 use crate::special_points::branch_point;
 use crate::special_points::null_space::{NullSpace, solve};
 use crate::special_points::second_derivative::{FINE, ROUGH};
-use crate::system::system::{Cause, System, TwoParameter};
+use crate::system::system::{System, TwoParameter};
 use crate::two_parameters::null_surface::Surface;
 
 /// Saddles higher than this, relative to what a unit step in the null space of \[J b\] changes, are

@@ -15,11 +15,11 @@
 //! simple limit point, at cusps, where the tangent has neither component, and where isolas are born,
 //! where \[Gₓ `G_λ`\] is singular.
 
-use crate::branch::branch::check_length;
-use crate::error::{Difficulty, Error};
+use crate::difficulty::{Cause, Difficulty};
+use crate::error::{Error, check_length};
 use crate::special_points::null_space::NullSpace;
 use crate::special_points::second_derivative::ROUGH;
-use crate::system::system::{Cause, System, TwoParameter};
+use crate::system::system::{System, TwoParameter};
 use crate::two_parameters::null_surface::Surface;
 
 /// The limit points of a two-parameter system as a [`System`] with unknowns (z, μ): its parameter is

@@ -2,11 +2,11 @@
 
 use crate::curve::corrector::Corrector;
 use crate::curve::metric::Metric;
-use crate::error::Difficulty;
+use crate::difficulty::{Cause, Difficulty};
 use crate::options::Options;
 use crate::special_points::null_space::NullSpace;
 use crate::special_points::second_derivative::{FINE, Rule, bending, mixed};
-use crate::system::system::{Cause, TwoParameter};
+use crate::system::system::TwoParameter;
 
 /// Step of the difference for `G_μ`, relative to 1 + |μ|.
 const CENTRAL: f64 = 1e-5;
