@@ -161,6 +161,7 @@ impl<'a> Path<'a> {
                 Effort::Final => Control::Both,
                 _ => Control::Defect,
             },
+            ..Options::default()
         };
         self.problems += 1;
         let outcome = bvp::solve(&problem, guess, &options);

@@ -11,13 +11,13 @@ use crate::problem::held::Held;
 use crate::problem::problem::Ends;
 use crate::result::error::Error;
 use crate::result::quality::Quality;
-use crate::result::restored::{divided, restored, restored_error};
+use crate::result::restored::{divided, from_units, restored, restored_error, to_units};
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
 use crate::solver::failure::numerical;
 use crate::solver::options::Options;
 use crate::solver::solver::solve_held;
-use crate::solver::statement::{check_guess_shape, check_statement};
+use crate::solver::statement::{check_guess_shape, check_statement, in_units};
 use std::sync::Arc;
 
 /// The solutions of a boundary value problem with one condition fewer than unknown constants: a
@@ -36,6 +36,8 @@ use std::sync::Arc;
 /// ```text
 /// z = ( node states and stage slopes of every segment, parameters neither held nor λ, λ )
 /// ```
+///
+/// in the units of the problem, every segment cut at its joined points,
 ///
 /// whose solutions form a curve, to be followed by any method of continuation with
 /// [`residual`](Self::residual), [`linearise`](Self::linearise), [`particular`](Self::particular)
@@ -85,14 +87,16 @@ impl<'a> Family<'a> {
         let mut p = vec![0.0; k];
         guess.parameters(&mut p);
         let first = solve_held(&Held::new(equations, &fixed, &p), guess, options)?;
+        let held_equations = in_units(&Held::new(equations, held, &p), options)?;
+        let x = divided(&held_equations, &first);
         let collocation = Collocation::new(
-            Held::new(equations, held, &p),
+            held_equations,
             Arc::clone(&first.tableau),
             problem.pieces().divide(&first.mesh),
         );
         let layout = Layout::new(k, parameter, held);
         let family = Self::on(collocation, layout, options.clone(), first.stats);
-        let z = family.flat(&divided(problem.pieces(), &first));
+        let z = family.flat(x);
         Ok((family, z))
     }
 
@@ -124,7 +128,8 @@ impl<'a> Family<'a> {
     }
 
     /// Evaluates G at `z` (n + 1 numbers) into `g` (n numbers: for every segment yᵢ₊₁ − yᵢ − h Σ bⱼKⱼ
-    /// of all intervals, then Kⱼ − f of all stages; then the conditions). All of `g` is NaN where a
+    /// of all intervals, then Kⱼ − f of all stages; then the conditions). Those of states are divided by
+    /// the numbers of [`Options::absolute`], rounded down to powers of two. All of `g` is NaN where a
     /// right-hand side or a condition is not finite.
     ///
     /// # Panics
@@ -182,7 +187,7 @@ impl<'a> Family<'a> {
         let segments = self.collocation.equations.segments();
         self.layout.read_negative(r, segments, &mut self.residual);
         self.collocation.correction(&self.residual, &mut self.x);
-        self.layout.write(&self.x, v);
+        self.write(v);
     }
 
     /// The vector `t` (n + 1 numbers, of any length) with J t = 0 for the last linearisation.
@@ -195,7 +200,7 @@ impl<'a> Family<'a> {
     /// If `t` is too short.
     pub fn null_vector(&mut self, t: &mut [f64]) {
         self.collocation.null_vector(&self.zeros, &mut self.x);
-        self.layout.write(&self.x, t);
+        self.write(t);
     }
 
     /// Which unknowns but λ (n numbers each) sample one function: `group` is its number from zero,
@@ -335,7 +340,14 @@ impl<'a> Family<'a> {
     /// Reads a point into the iterate in work.
     pub(super) fn read_point(&mut self, z: &[f64]) {
         self.layout.read(z, &mut self.x);
+        to_units(&self.collocation.equations, &mut self.x);
         self.collocation.equations.fill(&mut self.x.p);
+    }
+
+    /// Writes the iterate in work as a vector.
+    fn write(&mut self, vector: &mut [f64]) {
+        from_units(&self.collocation.equations, &mut self.x);
+        self.layout.write(&self.x, vector);
     }
 
     /// A vector as an iterate, with the values of the held parameters: those of a tangent mean
@@ -343,14 +355,16 @@ impl<'a> Family<'a> {
     pub(super) fn iterate(&self, vector: &[f64]) -> Iterate {
         let mut x = self.collocation.zeros();
         self.layout.read(vector, &mut x);
+        to_units(&self.collocation.equations, &mut x);
         self.collocation.equations.fill(&mut x.p);
         x
     }
 
     /// An iterate as a vector.
-    pub(super) fn flat(&self, x: &Iterate) -> Vec<f64> {
+    pub(super) fn flat(&self, mut x: Iterate) -> Vec<f64> {
         let mut z = vec![0.0; self.unknowns()];
-        self.layout.write(x, &mut z);
+        from_units(&self.collocation.equations, &mut x);
+        self.layout.write(&x, &mut z);
         z
     }
 
@@ -358,6 +372,7 @@ impl<'a> Family<'a> {
     pub(super) fn wrap(&self, x: Iterate, quality: Quality) -> Solution {
         Solution {
             segments: self.collocation.equations.segments().to_vec(),
+            absolute: vec![],
             tableau: Arc::clone(&self.collocation.tableau),
             mesh: self.collocation.mesh.clone(),
             x,

@@ -51,7 +51,7 @@ impl Family<'_> {
         let mesh = &self.collocation.mesh;
         for vector in vectors {
             let old = self.wrap(self.iterate(vector), Quality::unknown(mesh));
-            *vector = adapted.flat(&adapted.collocation.interpolate(&old));
+            *vector = adapted.flat(adapted.collocation.interpolate(&old));
         }
         Ok(Some(adapted))
     }
@@ -131,7 +131,7 @@ impl Family<'_> {
         let refined = self.moved_to(finer);
         for vector in vectors {
             let x = restrict(tableau, equations.segments(), mesh, &self.iterate(vector));
-            *vector = refined.flat(&x);
+            *vector = refined.flat(x);
         }
         Some(refined)
     }

@@ -10,7 +10,7 @@ use crate::result::error::Error;
 use crate::result::restored::joined_nodes;
 use crate::result::stats::Stats;
 use crate::solver::options::Options;
-use crate::solver::statement::check_nodes;
+use crate::solver::statement::{check_nodes, in_units};
 
 impl<'a> Family<'a> {
     /// The nodes of every segment, from its beginning to its end. With a point and the values of the parameters that are
@@ -86,7 +86,7 @@ impl<'a> Family<'a> {
             p[index] = value;
         }
         let layout = Layout::new(p.len(), parameter, &indices);
-        let held = Held::new(equations, &indices, &p);
+        let held = in_units(&Held::new(equations, &indices, &p), options)?;
         let collocation = Collocation::new(held, Tableau::of(options.scheme()), mesh);
         let (options, stats) = (options.clone(), Stats::default());
         Ok(Self::on(collocation, layout, options, stats))

@@ -18,8 +18,8 @@
 //!   at finitely many points: a peak of width 1e-4 in given data on an interval of length one was missed from 100 initial intervals and found from 300. Begin with more of them
 //!   ([`Options::initial_intervals`]), with a [`Table`](crate::Table) whose nodes are dense there, or
 //!   give the peak a short segment of its own;
-//! * that small states have as many digits as large ones: the tolerance is relative to 1 + |y|, so
-//!   scale the states to be of the order of one.
+//! * that small states have as many digits as large ones: the tolerance is relative to 1 + |y|, or to
+//!   what stands in the place of 1 in [`Options::absolute`].
 //!
 //! # How the error is estimated
 //!

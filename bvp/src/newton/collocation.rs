@@ -310,6 +310,18 @@ impl<'a> Collocation<'a> {
             .map(row_scale)
             .collect()
     }
+
+    /// The unit of every condition: one; or, if the states and parameters have units, the most that a change of
+    /// one of them by its unit changes it by, from the last linearisation.
+    pub(crate) fn condition_units(&self) -> Vec<f64> {
+        if self.equations.units().is_none() {
+            return vec![1.0; self.equations.condition_count()];
+        }
+        let columns = self.ends.len() + self.equations.parameters();
+        let rows = self.conditions_jacobian.chunks_exact(columns);
+        rows.map(|row| row.iter().fold(0.0, |m: f64, a| m.max(a.abs())))
+            .collect()
+    }
 }
 
 /// Copies the states at all ends into `ends`, in the order of [`Ends`].

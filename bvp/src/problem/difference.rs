@@ -10,7 +10,8 @@ const STEP: f64 = 6e-6;
 /// A problem given by two plain closures; its Jacobians are central differences.
 ///
 /// Exact derivatives are faster and more accurate: prefer a [`Problem`](crate::Problem) where the
-/// right-hand side can be written generically.
+/// right-hand side can be written generically. Steps are 6e-6 (1 + |z|) for a state or parameter z, whatever
+/// [`Options::absolute`](crate::Options::absolute) says: state unknowns far below one in other units.
 ///
 /// ```
 /// use bvp::{Constant, Ends, FiniteDifferences, Options, Segment, solve};

@@ -2,20 +2,21 @@
 
 use crate::problem::equations::{Equations, Shape};
 use crate::problem::guess::Guess;
+use crate::problem::in_units::{InUnits, Units, divide};
 use crate::problem::pieces::Pieces;
 use crate::problem::problem::{Ends, Segment};
 
-/// Equations on the pieces of their segments, with more conditions after their own: continuity where
-/// pieces meet, and pᵢ − value = 0 for each of some parameters that are held. Their shape is asked for
-/// once, so that no evaluation allocates.
+/// Equations on the pieces of their segments, in units, with more conditions after their own: continuity
+/// where pieces meet, and pᵢ − value = 0 for each of some parameters that are held. Their shape is asked
+/// for once, so that no evaluation allocates.
 #[derive(Clone)]
 pub(crate) struct Held<'a> {
-    equations: &'a dyn Equations,
+    equations: InUnits<'a>,
     pieces: Pieces,
     parameters: usize,
     /// Number of conditions of the equations themselves.
     own: usize,
-    /// Index and value of each held parameter.
+    /// Index of each held parameter, and its value in its unit.
     values: Vec<(usize, f64)>,
 }
 
@@ -28,10 +29,10 @@ impl<'a> Held<'a> {
     /// The equations with the parameters of these indices held at their values in `p`.
     pub(crate) fn new(equations: &'a dyn Equations, indices: &[usize], p: &[f64]) -> Self {
         let values = indices.iter().map(|&index| (index, p[index])).collect();
-        Self::with_values(equations, values)
+        Self::with_values(InUnits::none(equations), values)
     }
 
-    fn with_values(equations: &'a dyn Equations, values: Vec<(usize, f64)>) -> Self {
+    fn with_values(equations: InUnits<'a>, values: Vec<(usize, f64)>) -> Self {
         let shape = equations.shape();
         Self {
             equations,
@@ -42,9 +43,26 @@ impl<'a> Held<'a> {
         }
     }
 
-    /// Other equations with the same parameters held at the same values.
+    /// Other equations with the same parameters held at the same values, in the same units.
     pub(crate) fn exchanged<'b>(&self, equations: &'b dyn Equations) -> Held<'b> {
-        Held::with_values(equations, self.values.clone())
+        Held::with_values(self.equations.exchanged(equations), self.values.clone())
+    }
+
+    /// The same equations with their states and parameters in units of about these sizes, those of the
+    /// states of all segments and then those of the parameters, or without these; with none as they are.
+    pub(crate) fn in_units(&self, absolute: &[f64]) -> Self {
+        let mut new = self.clone();
+        new.equations = self.equations.with(absolute);
+        for (index, value) in &mut new.values {
+            *value *= self.equations.parameter_unit(*index);
+            *value /= new.equations.parameter_unit(*index);
+        }
+        new
+    }
+
+    /// The units of states and parameters, if there are any.
+    pub(crate) fn units(&self) -> Option<&Units> {
+        self.equations.units()
     }
 
     /// The pieces, which are the segments of the solver.
@@ -57,10 +75,10 @@ impl<'a> Held<'a> {
         &self.pieces
     }
 
-    /// A guess of the segments as one of the pieces.
+    /// A guess of the segments as one of the pieces, in units.
     pub(crate) fn divided(&'a self, guess: &'a dyn Guess) -> Divided<'a> {
-        let pieces = &self.pieces;
-        Divided { guess, pieces }
+        let equations = self;
+        Divided { guess, equations }
     }
 
     /// Number of parameters, held or not.
@@ -91,11 +109,12 @@ impl<'a> Held<'a> {
     /// The value of a parameter, if it is held.
     pub(crate) fn value(&self, index: usize) -> Option<f64> {
         let held = self.values.iter().find(|(held, _)| *held == index);
-        held.map(|(_, value)| *value)
+        held.map(|(_, value)| value * self.equations.parameter_unit(index))
     }
 
     /// Holds a parameter at another value; returns whether it is held at all.
     pub(crate) fn hold(&mut self, index: usize, value: f64) -> bool {
+        let value = value / self.equations.parameter_unit(index);
         let held = self.values.iter_mut().find(|(held, _)| *held == index);
         held.map(|(_, held)| *held = value).is_some()
     }
@@ -120,7 +139,7 @@ impl<'a> Held<'a> {
         })
     }
 
-    /// Writes the held values into `p`.
+    /// Writes the held values, in their units, into `p`.
     pub(crate) fn fill(&self, p: &mut [f64]) {
         for &(index, value) in &self.values {
             p[index] = value;
@@ -213,24 +232,30 @@ fn scale(values: &mut [f64], sign: f64) {
     values.iter_mut().for_each(|value| *value *= sign);
 }
 
-/// A guess of the segments as one of the pieces.
+/// A guess of the segments as one of the pieces, in units.
 pub(crate) struct Divided<'a> {
     guess: &'a dyn Guess,
-    pieces: &'a Pieces,
+    equations: &'a Held<'a>,
 }
 
 impl Guess for Divided<'_> {
     fn state(&self, piece: usize, t: f64, y: &mut [f64]) {
-        let (segment, s, _) = self.pieces.place(piece, t);
+        let (segment, s, _) = self.equations.pieces.place(piece, t);
         self.guess.state(segment, s, y);
+        if let Some(units) = self.equations.units() {
+            divide(y, units.of_states(segment));
+        }
     }
 
     fn parameters(&self, p: &mut [f64]) {
         self.guess.parameters(p);
+        if let Some(units) = self.equations.units() {
+            divide(p, units.of_parameters());
+        }
     }
 
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {
         let mesh = self.guess.mesh()?;
-        Some(self.pieces.divide(&mesh))
+        Some(self.equations.pieces.divide(&mesh))
     }
 }

@@ -8,6 +8,7 @@ pub(crate) mod dual;
 pub(crate) mod equations;
 pub(crate) mod guess;
 pub(crate) mod held;
+pub(crate) mod in_units;
 pub(crate) mod pieces;
 pub(crate) mod problem;
 pub(crate) mod real;

@@ -148,6 +148,29 @@ pub enum Error {
     /// A mesh without intervals was asked for.
     #[error("at least one initial interval per segment is needed")]
     NoIntervals,
+    /// A number of [`Options::absolute`](crate::Options::absolute) is not a size.
+    #[error(
+        "number {position} of absolute is {value:e}, not positive, finite and at least 2.3e-308"
+    )]
+    Absolute {
+        /// Its place, from zero.
+        position: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// [`Options::absolute`](crate::Options::absolute) has too few or too many numbers.
+    #[error(
+        "absolute has {found} numbers; needed is one for every state of all segments, {states}{}, or none at all",
+        and_parameters(*.states, *.parameters)
+    )]
+    AbsoluteCount {
+        /// Numbers given.
+        found: usize,
+        /// States of all segments.
+        states: usize,
+        /// Parameters of the problem.
+        parameters: usize,
+    },
 
     /// A right-hand side or its derivative is not finite at the iterate, and no shorter step
     /// avoids it.
@@ -320,6 +343,26 @@ pub enum Error {
         /// The rough solution at the value reached, with the cost of everything.
         best: Box<Solution>,
     },
+}
+
+/// Checks that numbers of [`Options::absolute`](crate::Options::absolute) are sizes: positive and normal.
+pub(crate) fn check_sizes(absolute: &[f64]) -> Result<(), Error> {
+    let is_size = |size: f64| size.is_normal() && size > 0.0;
+    match absolute.iter().position(|&size| !is_size(size)) {
+        Some(position) => Err(Error::Absolute {
+            position,
+            value: absolute[position],
+        }),
+        None => Ok(()),
+    }
+}
+
+/// The other count that is allowed.
+fn and_parameters(states: usize, parameters: usize) -> String {
+    match parameters {
+        0 => String::new(),
+        _ => format!(", or also for every parameter, {}", states + parameters),
+    }
 }
 
 /// What too few conditions may mean.

@@ -1,7 +1,8 @@
-//! Solutions and errors of the pieces that the solver knows, in the segments of the statement.
+//! Solutions and errors of the pieces that the solver knows, in the segments and units of the statement.
 
 use crate::discretisation::iterate::{Iterate, SegmentIterate};
 use crate::problem::held::Held;
+use crate::problem::in_units::{divide, multiply};
 use crate::problem::pieces::Pieces;
 use crate::problem::unknown::Unknown;
 use crate::result::error::Error;
@@ -22,6 +23,11 @@ pub(crate) fn restore(
 /// The solution of the segments with this solution of their pieces.
 pub(crate) fn restored(equations: &Held<'_>, solution: Solution) -> Solution {
     let (pieces, own) = (equations.pieces(), equations.own_conditions());
+    let mut solution = solution;
+    if let Some(units) = equations.units() {
+        solution.absolute = units.all();
+        from_units(equations, &mut solution.x);
+    }
     if pieces.are_plain() {
         return solution;
     }
@@ -58,6 +64,7 @@ pub(crate) fn restored(equations: &Held<'_>, solution: Solution) -> Solution {
             }),
         },
         segments: pieces.stated().to_vec(),
+        absolute: solution.absolute,
         tableau: solution.tableau,
         stats: solution.stats,
     }
@@ -102,8 +109,32 @@ fn largest(errors: &[Vec<f64>]) -> Vec<f64> {
     all
 }
 
-/// The unknowns of the pieces of a solution of these segments whose mesh has the joined points.
-pub(crate) fn divided(pieces: &Pieces, solution: &Solution) -> Iterate {
+/// What the numbers of an iterate in units stand for.
+pub(crate) fn from_units(equations: &Held<'_>, x: &mut Iterate) {
+    change_units(equations, x, multiply);
+}
+
+/// The numbers of an iterate in units.
+pub(crate) fn to_units(equations: &Held<'_>, x: &mut Iterate) {
+    change_units(equations, x, divide);
+}
+
+/// Multiplies all unknowns by their units, or divides them.
+fn change_units(equations: &Held<'_>, x: &mut Iterate, change: fn(&mut [f64], &[f64])) {
+    let Some(units) = equations.units() else {
+        return;
+    };
+    for (piece, x) in x.segments.iter_mut().enumerate() {
+        let (segment, _) = equations.pieces().origin(piece);
+        change(&mut x.nodes, units.of_states(segment));
+        change(&mut x.stages, units.of_states(segment));
+    }
+    change(&mut x.p, units.of_parameters());
+}
+
+/// The unknowns of the pieces of a solution of the segments of equations whose mesh has the joined points.
+pub(crate) fn divided(equations: &Held<'_>, solution: &Solution) -> Iterate {
+    let pieces = equations.pieces();
     let (m, mesh) = (solution.tableau.stages, pieces.divide(&solution.mesh));
     let mut first = vec![0; pieces.stated().len()];
     let each = mesh.iter().enumerate().map(|(piece, nodes)| {
@@ -118,16 +149,18 @@ pub(crate) fn divided(pieces: &Pieces, solution: &Solution) -> Iterate {
             stages: stages.iter().map(|k| sign * k).collect(),
         }
     });
-    Iterate {
+    let mut x = Iterate {
         segments: each.collect(),
         p: solution.x.p.clone(),
-    }
+    };
+    to_units(equations, &mut x);
+    x
 }
 
 /// The error with the places and the conditions of the statement.
 pub(crate) fn restored_error(equations: &Held<'_>, mut error: Error) -> Error {
     let (pieces, own) = (equations.pieces(), equations.own_conditions());
-    if pieces.are_plain() {
+    if pieces.are_plain() && equations.units().is_none() {
         return error;
     }
     let place = |segment: &mut usize, s: &mut f64| {

@@ -23,6 +23,8 @@ use std::sync::Arc;
 #[cfg_attr(feature = "serde", serde(into = "Stored", try_from = "Stored"))]
 pub struct Solution {
     pub(crate) segments: Vec<Segment>,
+    /// The units of the states of all segments and of the parameters; empty if they are all one.
+    pub(crate) absolute: Vec<f64>,
     pub(crate) tableau: Arc<Tableau>,
     pub(crate) mesh: Mesh,
     pub(crate) x: Iterate,

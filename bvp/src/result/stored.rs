@@ -4,7 +4,7 @@ use crate::discretisation::iterate::{Iterate, SegmentIterate};
 use crate::discretisation::scheme::Scheme;
 use crate::discretisation::tableau::Tableau;
 use crate::problem::problem::Segment;
-use crate::result::error::Error;
+use crate::result::error::{Error, check_sizes};
 use crate::result::quality::{Defects, GlobalErrors, Quality};
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
@@ -14,6 +14,9 @@ use crate::result::stats::Stats;
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct Stored {
     segments: Vec<Segment>,
+    /// The units of the states of all segments and of the parameters.
+    #[serde(default)]
+    absolute: Vec<f64>,
     scheme: Scheme,
     parameters: Vec<f64>,
     /// For every segment its nodes, the states there and the slopes at the stages.
@@ -47,6 +50,7 @@ impl From<Solution> for Stored {
             .unzip();
         Self {
             segments: solution.segments,
+            absolute: solution.absolute,
             scheme: solution.tableau.scheme,
             parameters: solution.x.p,
             nodes: solution.mesh,
@@ -79,6 +83,7 @@ impl TryFrom<Stored> for Solution {
         let unknowns = stored.states.into_iter().zip(stored.slopes);
         Ok(Self {
             segments: stored.segments,
+            absolute: stored.absolute,
             tableau: Tableau::of(stored.scheme),
             x: Iterate {
                 segments: unknowns
@@ -141,10 +146,25 @@ impl Stored {
                 }
             }
         }
+        self.check_absolute()?;
         let needed = self.parameters.len();
         match self.errors.as_ref().map(|(_, errors)| errors.len()) {
             Some(found) if found != needed => Err(Error::GuessParameters { found, needed }),
             _ => Ok(()),
         }
+    }
+
+    /// Checks that there is no unit or one for every state and parameter.
+    fn check_absolute(&self) -> Result<(), Error> {
+        let (found, parameters) = (self.absolute.len(), self.parameters.len());
+        let states = self.segments.iter().map(|segment| segment.states).sum();
+        if ![0, states + parameters].contains(&found) {
+            return Err(Error::AbsoluteCount {
+                found,
+                states,
+                parameters,
+            });
+        }
+        check_sizes(&self.absolute)
     }
 }

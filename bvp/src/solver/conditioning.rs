@@ -28,14 +28,17 @@ use crate::result::solution::Solution;
 use crate::result::stats::Stats;
 use crate::solver::failure::numerical;
 use crate::solver::options::Options;
-use crate::solver::statement::{check_statement, first_mesh};
+use crate::solver::statement::{check_statement, first_mesh, in_units};
 use std::sync::Arc;
 
 /// Groups of neighbouring intervals of a segment over which forcings are constant, at most.
 const GROUPS: usize = 64;
 
 /// How sensitive a problem is at a solution. All norms are maximum norms over states and parameters,
-/// absolute and in the units of the problem.
+/// absolute and in the units of the problem or, if the solution was found with
+/// [`Options::absolute`](crate::Options::absolute), in multiples of these numbers, rounded down to powers
+/// of two; a right-hand side is then in multiples of that of its state per unit of s, and a condition in
+/// multiples of the most that a change of one state or parameter by its number makes of it.
 ///
 /// ```text
 /// κ₁, κ₂ moderate, σ moderate    well conditioned
@@ -92,10 +95,12 @@ pub(crate) fn conditioning(
     check_statement(&equations, 0)?;
     let any_size = Options {
         max_intervals: usize::MAX,
+        absolute: solution.absolute.clone(),
         ..Options::default()
     };
     let mesh = first_mesh(&equations, solution, &any_size)?;
-    let x = divided(equations.pieces(), solution);
+    let equations = in_units(&equations, &any_size)?;
+    let x = divided(&equations, solution);
     let tableau = Arc::clone(&solution.tableau);
     let mut collocation = Collocation::new(equations, tableau, mesh);
     let mut residual = collocation.residual_buffer();
@@ -147,8 +152,8 @@ pub(crate) fn conditioning(
 fn condition_responses(collocation: &mut Collocation<'_>) -> Iterate {
     let mut residual = collocation.residual_buffer();
     let (mut sums, mut response) = (collocation.zeros(), collocation.zeros());
-    for condition in 0..residual.conditions.len() {
-        residual.conditions[condition] = 1.0;
+    for (condition, unit) in collocation.condition_units().into_iter().enumerate() {
+        residual.conditions[condition] = unit;
         collocation.node_correction(&residual, &mut response);
         residual.conditions[condition] = 0.0;
         add_sizes(&mut sums, &response);

@@ -31,7 +31,11 @@ pub(crate) fn rough_solution(
     stats: &mut Stats,
 ) -> Option<Solution> {
     let line = Straight::new(equations, guess)?;
-    let options = on_the_way(options, LOOSE);
+    let options = Options {
+        // The equations are in units already.
+        absolute: vec![],
+        ..on_the_way(options, LOOSE)
+    };
     let solve_at = |lambda: f64, guess: &dyn Guess| {
         solve(&Homotopy::new(equations, &line, lambda), guess, &options)
     };

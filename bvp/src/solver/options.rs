@@ -1,7 +1,7 @@
 //! How to solve.
 
 use crate::discretisation::scheme::Scheme;
-use crate::result::error::Error;
+use crate::result::error::{Error, check_sizes};
 
 /// The settings of [`solve`](crate::solve) and [`Family`](crate::Family). Update the defaults with struct syntax:
 ///
@@ -15,6 +15,7 @@ pub struct Options {
     /// The estimated global error relative to 1 + |y| is brought to at most this number, or, where the
     /// defect is controlled alone, the defect in the differential equations relative to 1 + |f|; and so are
     /// the residuals of the conditions, relative to the size of their terms where that exceeds one.
+    /// [`absolute`](Self::absolute) puts other numbers in the place of the ones.
     /// Between 1e-13 and 1e-1; default 1e-6.
     pub tolerance: f64,
     /// The collocation scheme; default `None`, [`Scheme::for_tolerance`].
@@ -36,6 +37,33 @@ pub struct Options {
     /// What is brought to at most the tolerance, and so what the mesh is chosen for; default
     /// [`Control::Error`].
     pub control: Control,
+    /// Below what size the error of each state or parameter is absolute, in the unit of that state or
+    /// parameter: where this documentation says 1 + |y| or 1 + |f|, the 1 stands for this number, or for
+    /// this number per unit of s. One positive number for every state of all segments in turn, then one for
+    /// every parameter; those of the parameters may be left out and are 1 then. Default empty: all are 1.
+    ///
+    /// Take the typical size of every unknown. The solver works with states and parameters divided by
+    /// these numbers, rounded down to powers of two: states of 1e8 and 1e-8 are then solved equally well,
+    /// and a change of units by a power of two changes no digit of the solution. The residual of a
+    /// condition is compared with the size of its terms, or with the most that a change of one state or
+    /// parameter by its number makes of it where that is larger.
+    ///
+    /// ```
+    /// use bvp::{Constant, Options, TwoPoint, solve};
+    ///
+    /// // y'' = 0 on a length of 1e-9 m, for y of about 1e-19 and y' of about 1e-10 per metre.
+    /// let line = TwoPoint::new(
+    ///     [2, 0],
+    ///     [0.0, 1e-9],
+    ///     |_s, y, _p, dy| dy.copy_from_slice(&[y[1], 0.0 * y[0]]),
+    ///     |start, end, _p, r| r.copy_from_slice(&[start[0] - 1.6e-19, end[0] - 3.2e-19]),
+    /// );
+    /// let options = Options { absolute: vec![1e-19, 1e-10], ..Options::default() };
+    /// let solution = solve(&line, &Constant::new([0.0, 0.0]), &options)?;
+    /// assert!((solution.start(0)[1] - 1.6e-10).abs() < 1e-16);
+    /// # Ok::<(), bvp::Error>(())
+    /// ```
+    pub absolute: Vec<f64>,
 }
 
 /// What the tolerance bounds, and what the mesh is chosen for.
@@ -62,6 +90,7 @@ impl Default for Options {
             max_newton_steps: 60,
             retries: 3,
             control: Control::Error,
+            absolute: vec![],
         }
     }
 }
@@ -89,7 +118,7 @@ impl Options {
     /// Checks every setting.
     ///
     /// # Errors
-    /// [`Error::Tolerance`], [`Error::Stages`] or [`Error::NoIntervals`].
+    /// [`Error::Tolerance`], [`Error::Stages`], [`Error::NoIntervals`] or [`Error::Absolute`].
     pub fn validate(&self) -> Result<(), Error> {
         if !(1e-13..=1e-1).contains(&self.tolerance) {
             return Err(Error::Tolerance {
@@ -104,6 +133,6 @@ impl Options {
         if self.initial_intervals == 0 {
             return Err(Error::NoIntervals);
         }
-        Ok(())
+        check_sizes(&self.absolute)
     }
 }

@@ -24,7 +24,7 @@ use crate::result::stats::Stats;
 use crate::solver::failure::{check_mesh, ill_conditioned, numerical};
 use crate::solver::homotopy::rough_solution;
 use crate::solver::options::{Control, Options};
-use crate::solver::statement::{check_guess, check_statement, first_mesh};
+use crate::solver::statement::{check_guess, check_statement, first_mesh, in_units};
 use crate::solver::transfer::transfer;
 use std::sync::Arc;
 use web_time::Instant;
@@ -88,6 +88,7 @@ pub(crate) fn solve_held(
     let start = Instant::now();
     options.validate()?;
     check_statement(equations, 0)?;
+    let equations = &in_units(equations, options)?;
     let mesh = first_mesh(equations, guess, options)?;
     let first = match options.control {
         Control::Error => thinned(&mesh, THINNED),
@@ -673,7 +674,9 @@ impl Run<'_> {
         self.collocation.conditions(x, &mut conditions)?;
         conditions.iter_mut().for_each(|r| *r = r.abs());
         let scales = self.collocation.condition_scales(x);
-        let allowed = scales.iter().map(|s| self.options.tolerance * s.max(1.0));
+        let units = self.collocation.condition_units();
+        let scales = scales.iter().zip(units).map(|(s, unit)| s.max(unit));
+        let allowed = scales.map(|s| self.options.tolerance * s);
         let all = conditions.iter().zip(allowed).enumerate();
         let mut violations = all.filter_map(|(condition, (&residual, allowed))| {
             (residual > allowed).then_some(Violation {
@@ -691,6 +694,7 @@ impl Run<'_> {
         let Collocation { tableau, mesh, .. } = &self.collocation;
         Solution {
             segments: self.equations.segments().to_vec(),
+            absolute: vec![],
             tableau: Arc::clone(tableau),
             mesh: mesh.clone(),
             x,

@@ -46,6 +46,21 @@ pub(crate) fn check_statement(equations: &Held<'_>, free: usize) -> Result<(), E
     Ok(())
 }
 
+/// The equations with their states and parameters in the units of the options.
+pub(crate) fn in_units<'a>(equations: &Held<'a>, options: &Options) -> Result<Held<'a>, Error> {
+    let (found, parameters) = (options.absolute.len(), equations.parameters());
+    let segments = equations.pieces().stated().iter();
+    let states: usize = segments.map(|segment| segment.states).sum();
+    if ![0, states, states + parameters].contains(&found) {
+        return Err(Error::AbsoluteCount {
+            found,
+            states,
+            parameters,
+        });
+    }
+    Ok(equations.in_units(&options.absolute))
+}
+
 /// Checks that joined points lie inside their segment and in its order.
 fn check_joined(index: usize, segment: &Segment) -> Result<(), Error> {
     let Segment { from, to, .. } = *segment;

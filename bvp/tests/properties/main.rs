@@ -26,6 +26,7 @@ mod reversed;
 mod scalars;
 mod statements;
 mod stored;
+mod units;
 mod work;
 mod wright;
 mod wrong_answers;
