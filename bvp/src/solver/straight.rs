@@ -85,6 +85,16 @@ fn shortest_change(equations: &Held<'_>, ends: &mut [f64], p: &[f64]) -> Option<
     let (mut g, mut jacobian) = (vec![0.0; count], vec![0.0; count * columns]);
     let at = Ends::new(equations.segments(), ends);
     equations.conditions_jacobian(at, p, &mut g, &mut jacobian);
+    // Conditions of very different size count alike.
+    for (row, g) in jacobian.chunks_exact_mut(columns).zip(&mut g) {
+        let largest = row[..ends.len()]
+            .iter()
+            .fold(0.0, |m: f64, a| m.max(a.abs()));
+        if largest > 0.0 {
+            row.iter_mut().for_each(|a| *a /= largest);
+            *g /= largest;
+        }
+    }
     let rows = || jacobian.chunks_exact(columns).map(|row| &row[..ends.len()]);
     let mut normal: Vec<f64> = rows()
         .flat_map(|a| rows().map(move |b| dot(a, b)))
