@@ -39,6 +39,7 @@ const WIDTH: usize = 8;
 pub struct TwoPoint<F, G> {
     segment: Segment,
     parameters: usize,
+    condition_count: usize,
     rhs: F,
     conditions: G,
 }
@@ -59,9 +60,18 @@ where
         Self {
             segment: Segment::on(states, from, to),
             parameters,
+            condition_count: states + parameters,
             rhs,
             conditions,
         }
+    }
+
+    /// The same problem with another number of conditions: fewer than n + k for a
+    /// [`Family`](crate::Family) or [`solve_embedded`](crate::solve_embedded).
+    #[must_use]
+    pub fn with_condition_count(mut self, count: usize) -> Self {
+        self.condition_count = count;
+        self
     }
 
     /// The conditions at the start and the end, which lie one after the other in `ends`.
@@ -77,7 +87,11 @@ where
     G: Fn(&[Scalar], &[Scalar], &[Scalar], &mut [Scalar]) + Sync,
 {
     fn shape(&self) -> Shape {
-        Shape::new(vec![self.segment.clone()], self.parameters)
+        Shape {
+            segments: vec![self.segment.clone()],
+            parameters: self.parameters,
+            conditions: self.condition_count,
+        }
     }
 
     fn evaluate_rhs(&self, _segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
