@@ -37,13 +37,18 @@ use std::sync::Arc;
 /// z = ( node states and stage slopes of every segment, parameters neither held nor λ, λ )
 /// ```
 ///
-/// in the units of the problem, every segment cut at its joined points,
-///
-/// whose solutions form a curve, to be followed by any method of continuation with
+/// in the units of the problem. Its solutions form a curve, to be followed by any method of continuation with
 /// [`residual`](Self::residual), [`linearise`](Self::linearise), [`particular`](Self::particular)
 /// and [`null_vector`](Self::null_vector); nothing of it fails or loses accuracy where λ turns back.
 /// The mesh follows the solution by [`adapted`](Self::adapted). Between linearisations nothing is
 /// allocated, but for a change of the mesh and a [`Solution`].
+///
+/// A segment with [joined points](crate::Segment::joined) is cut into pieces there, which stand in z one
+/// after the other like segments: z has the states at a joined point twice, at the end of the piece before
+/// and at the start of the piece behind. That they are equal is a condition, after those of the problem.
+/// Each state of each piece is a [group](Self::groups). On a segment along which s descends the stage slopes
+/// in z have the opposite sign, those with respect to −s. [`start`](Self::start), [`end`](Self::end),
+/// [`mesh`](Self::mesh) and [`solution`](Self::solution) speak of the segments as they are stated.
 ///
 /// E. J. Doedel, H. B. Keller & J. P. Kernévez, "Numerical analysis and control of bifurcation
 /// problems (II)", Int. J. Bifurcation Chaos 1 (1991) 745-772: the discretised system and its mesh.
@@ -128,8 +133,9 @@ impl<'a> Family<'a> {
     }
 
     /// Evaluates G at `z` (n + 1 numbers) into `g` (n numbers: for every segment yᵢ₊₁ − yᵢ − h Σ bⱼKⱼ
-    /// of all intervals, then Kⱼ − f of all stages; then the conditions). Those of states are divided by
-    /// the numbers of [`Options::absolute`], rounded down to powers of two. All of `g` is NaN where a
+    /// of all intervals, then Kⱼ − f of all stages; then the conditions, those of the problem first). All
+    /// but the conditions are divided by the numbers of [`Options::absolute`], rounded down to powers of
+    /// two. All of `g` is NaN where a
     /// right-hand side or a condition is not finite.
     ///
     /// # Panics
@@ -204,8 +210,8 @@ impl<'a> Family<'a> {
     }
 
     /// Which unknowns but λ (n numbers each) sample one function: `group` is its number from zero,
-    /// `share` the part of it that the unknown stands for. A state of a segment is a group, its nodes
-    /// have the shares of the trapezoidal rule and its stage slopes none; each free parameter is a
+    /// `share` the part of it that the unknown stands for. A state of a segment, or of a piece of it between
+    /// joined points, is a group, its nodes have the shares of the trapezoidal rule and its stage slopes none; each free parameter is a
     /// group with share one. The shares of every group sum to one.
     ///
     /// # Panics
