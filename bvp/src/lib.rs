@@ -151,11 +151,12 @@
 //!
 //! * the estimated global error of every state and parameter relative to 1 + |value|, or, with
 //!   [`Control::Defect`], the defect of every interval relative to 1 + |f|, root mean square over the
-//!   interval;
+//!   interval; with other sizes than 1 by [`Options::absolute`];
 //! * the residual of every condition, relative to the size of its terms where that exceeds one;
 //!
-//! and, where the error is estimated, if rounding does not hide the solution and no layer that the mesh
-//! cannot show may stand at an end of a segment. Everything else is an [`Error`]: mistakes of the
+//! and, where the error is estimated, if the solution withstands an examination: Newton's method has ended at
+//! it, rounding does not hide it, it is the only solution near it, the right-hand side between the points of
+//! the mesh is what they show, and no layer that the mesh cannot show stands at an end of a segment. Everything else is an [`Error`]: mistakes of the
 //! statement are found before any arithmetic, and numerical failures carry their best iterate, which is
 //! a [`Guess`] for another attempt. What it does not mean is said in [`guide::accuracy`].
 //!

@@ -22,32 +22,16 @@
 //! ∫ √(λ s) ds = (k − ½) π. Then count the zeros of what was found:
 //!
 //! ```
-//! use bvp::{Ends, Function, Options, Problem, Real, Segment, Solution, solve};
+//! use bvp::{Function, Options, Solution, TwoPoint, solve};
 //! use std::f64::consts::PI;
 //!
-//! /// States θ and θ′; the parameter is λ.
-//! struct Column;
-//!
-//! impl Problem for Column {
-//!     fn segments(&self) -> Vec<Segment> {
-//!         vec![Segment::new(2)]
-//!     }
-//!
-//!     fn parameters(&self) -> usize {
-//!         1
-//!     }
-//!
-//!     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
-//!         dy[0] = y[1];
-//!         dy[1] = -p[0] * s * y[0];
-//!     }
-//!
-//!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
-//!         r[0] = at.start(0)[0] - 1.0;
-//!         r[1] = at.start(0)[1];
-//!         r[2] = at.end(0)[0];
-//!     }
-//! }
+//! // States θ and θ′, parameter λ.
+//! let column = TwoPoint::new(
+//!     [2, 1],
+//!     [0.0, 1.0],
+//!     |s, y, p, dy| dy.copy_from_slice(&[y[1], -p[0] * s * y[0]]),
+//!     |start, end, _p, r| r.copy_from_slice(&[start[0] - 1.0, start[1], end[0]]),
+//! );
 //!
 //! /// The zeros of θ between the ends.
 //! fn zeros(solution: &Solution) -> usize {
@@ -66,7 +50,7 @@
 //!         state: |_segment: usize, s: f64| [(waves * s).cos(), -waves * (waves * s).sin()],
 //!         parameters: vec![(1.5 * waves).powi(2)],
 //!     };
-//!     let solution = solve(&Column, &guess, &Options::to(1e-9))?;
+//!     let solution = solve(&column, &guess, &Options::to(1e-9))?;
 //!     let lambda = solution.parameters()[0];
 //!     println!("{k} {lambda:14.8}, {} zeros inside", zeros(&solution));
 //!     assert_eq!(zeros(&solution) + 1, k as usize);
@@ -87,33 +71,8 @@
 //! constant σ is best near √(λ s), where φ is a straight line.
 //!
 //! ```
-//! # use bvp::{Ends, Function, Options, Problem, Real, Segment, solve};
+//! # use bvp::{Function, Options, Real, TwoPoint, solve};
 //! # use std::f64::consts::{FRAC_PI_2, PI};
-//! struct Angle {
-//!     k: u32,
-//!     scale: f64,
-//! }
-//!
-//! impl Problem for Angle {
-//!     fn segments(&self) -> Vec<Segment> {
-//!         vec![Segment::new(1)]
-//!     }
-//!
-//!     fn parameters(&self) -> usize {
-//!         1
-//!     }
-//!
-//!     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
-//!         let (sin, cos) = y[0].sin_cos();
-//!         dy[0] = cos * cos * self.scale + p[0] * s * sin * sin / self.scale;
-//!     }
-//!
-//!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
-//!         r[0] = at.start(0)[0] - FRAC_PI_2;
-//!         r[1] = at.end(0)[0] - PI * f64::from(self.k);
-//!     }
-//! }
-//!
 //! let k = 4;
 //! let waves = (f64::from(k) - 0.5) * PI;
 //! let scale = 1.5 * waves;
@@ -121,7 +80,16 @@
 //!     state: |_segment: usize, s: f64| [FRAC_PI_2 + waves * s],
 //!     parameters: vec![scale * scale],
 //! };
-//! let solution = solve(&Angle { k, scale }, &guess, &Options::to(1e-9))?;
+//! let angle = TwoPoint::new(
+//!     [1, 1],
+//!     [0.0, 1.0],
+//!     |s, y, p, dy| {
+//!         let (sin, cos) = y[0].sin_cos();
+//!         dy[0] = scale * cos * cos + p[0] * s * sin * sin / scale;
+//!     },
+//!     |start, end, _p, r| r.copy_from_slice(&[start[0] - FRAC_PI_2, end[0] - PI * f64::from(k)]),
+//! );
+//! let solution = solve(&angle, &guess, &Options::to(1e-9))?;
 //! assert!((solution.parameters()[0] / 285.450_224_0 - 1.0).abs() < 2e-9);
 //! # Ok::<(), bvp::Error>(())
 //! ```
@@ -139,9 +107,11 @@
 //!
 //! * *The solution is zero everywhere.* The normalisation does not exclude it.
 //! * *[`Error::SingularConditions`](crate::Error::SingularConditions) or no convergence with a sensible
-//!   guess.* The normalised state vanishes in the eigenfunction wanted.
-//! * *The eigenfunction changes with the guess, the eigenvalue does not.* It is a double one, its
-//!   eigenfunctions are a plane. Symmetry selects one of them, such as even or odd on half of the
+//!   guess.* The normalised state vanishes in the eigenfunction wanted; or nothing fixes the size of the
+//!   eigenfunction, so that the solutions are a family.
+//! * *The eigenfunction changes with the guess, the eigenvalue does not, or a family of solutions is
+//!   reported although the size is fixed.* The eigenvalue is a double one, its eigenfunctions are a
+//!   plane. Symmetry selects one of them, such as even or odd on half of the
 //!   interval.
 //! * *Another eigenvalue was found.* The parameter was guessed too roughly. A Rayleigh quotient of the
 //!   guessed function is good to second order.

@@ -12,31 +12,19 @@
 //! beyond:
 //!
 //! ```
-//! # use bvp::{Constant, Ends, Problem, Real, Segment};
-//! use bvp::{Embedding, Error, Options, solve_embedded};
-//! # struct Bratu;
-//! # impl Problem for Bratu {
-//! #     fn segments(&self) -> Vec<Segment> {
-//! #         vec![Segment::new(2)]
-//! #     }
-//! #     fn parameters(&self) -> usize {
-//! #         1
-//! #     }
-//! #     fn condition_count(&self) -> usize {
-//! #         2
-//! #     }
-//! #     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
-//! #         dy[0] = y[1];
-//! #         dy[1] = -p[0] * y[0].exp();
-//! #     }
-//! #     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
-//! #         r[0] = at.start(0)[0];
-//! #         r[1] = at.end(0)[0];
-//! #     }
-//! # }
+//! use bvp::{Constant, Embedding, Error, Options, Real, TwoPoint, solve_embedded};
+//!
+//! // Two states and one parameter, p = (λ), but two conditions.
+//! let bratu = TwoPoint::new(
+//!     [2, 1],
+//!     [0.0, 1.0],
+//!     |_s, y, p, dy| dy.copy_from_slice(&[y[1], -p[0] * y[0].exp()]),
+//!     |start, end, _p, r| r.copy_from_slice(&[start[0], end[0]]),
+//! )
+//! .with_condition_count(2);
 //! let guess = Constant { states: vec![vec![0.0; 2]], parameters: vec![1.0] };
 //! let embedding = Embedding { parameter: 0, from: 1.0, to: 5.0 };
-//! match solve_embedded(&Bratu, &embedding, &guess, &Options::default()) {
+//! match solve_embedded(&bratu, &embedding, &guess, &Options::default()) {
 //!     Err(Error::Unreached { reached, best, .. }) => {
 //!         println!("λ = {reached}, u′(0) = {}", best.start(0)[1]);
 //!         assert!((3.4..3.514).contains(&reached));
@@ -53,37 +41,18 @@
 //! fold.
 //!
 //! ```
-//! use bvp::{Constant, Ends, Family, Options, Problem, Real, Segment};
+//! # use bvp::{Constant, Real, TwoPoint};
+//! use bvp::{Family, Options};
+//! # let bratu = TwoPoint::new(
+//! #     [2, 1],
+//! #     [0.0, 1.0],
+//! #     |_s, y, p, dy| dy.copy_from_slice(&[y[1], -p[0] * y[0].exp()]),
+//! #     |start, end, _p, r| r.copy_from_slice(&[start[0], end[0]]),
+//! # )
+//! # .with_condition_count(2);
+//! # let guess = Constant { states: vec![vec![0.0; 2]], parameters: vec![1.0] };
 //!
-//! /// p = (λ): two states and one parameter, but two conditions.
-//! struct Bratu;
-//!
-//! impl Problem for Bratu {
-//!     fn segments(&self) -> Vec<Segment> {
-//!         vec![Segment::new(2)]
-//!     }
-//!
-//!     fn parameters(&self) -> usize {
-//!         1
-//!     }
-//!
-//!     fn condition_count(&self) -> usize {
-//!         2
-//!     }
-//!
-//!     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
-//!         dy[0] = y[1];
-//!         dy[1] = -p[0] * y[0].exp();
-//!     }
-//!
-//!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
-//!         r[0] = at.start(0)[0];
-//!         r[1] = at.end(0)[0];
-//!     }
-//! }
-//!
-//! let guess = Constant { states: vec![vec![0.0; 2]], parameters: vec![1.0] };
-//! let (mut family, mut z) = Family::new(&Bratu, 0, &[], &guess, &Options::default())?;
+//! let (mut family, mut z) = Family::new(&bratu, 0, &[], &guess, &Options::default())?;
 //! let n = family.unknowns() - 1; // λ is z[n]
 //! let (mut g, mut v, mut t) = (vec![0.0; n], vec![0.0; n + 1], vec![0.0; n + 1]);
 //!
@@ -113,11 +82,23 @@
 //! # Ok::<(), bvp::Error>(())
 //! ```
 //!
-//! This is the principle; the crate `continuation` of the same workspace does it with steps of the right
-//! length, locates folds and crossings of curves, switches to the other curve, and finds solutions on
-//! curves that are connected to no known one. Its trait `System` has the methods of
-//! [`Family`](crate::Family) under the same names, so that joining the two takes no more than the type
-//! `Curve` in `tests/src/curve.rs`; `tests/tests/branches` follows Bratu's curve to far beyond the fold.
+//! This is the principle; the crate `continuation` does it with steps of the right length, locates folds and
+//! crossings of curves, switches to the other curve, and finds solutions on curves that are connected to no
+//! known one. With its feature `bvp` a [`Family`](crate::Family) is one of its systems:
+//!
+//! ```text
+//! let (mut family, start) = Family::new(&bratu, 0, &[], &guess, &bvp::Options::default())?;
+//! let options = continuation::Options::within(0.0, 4.0);
+//! let branch = continuation::Branch::new(&mut family, &start, Direction::Increasing, &options)?;
+//! for point in branch { … }
+//! ```
+//!
+//! Each of its points is a z, and [`Family::solution`](crate::Family::solution) makes a
+//! [`Solution`](crate::Solution) of it. Other parameters than λ are held at fixed values, among them the
+//! second parameter of a curve of folds.
+//!
+//! A family goes on with the same program later if z, [`Family::mesh`](crate::Family::mesh) and the values
+//! held are kept: [`Family::on_mesh`](crate::Family::on_mesh).
 //!
 //! # The fold itself
 //!

@@ -48,17 +48,55 @@
 //! ```
 //!
 //! A contact resistance or a given jump changes only the conditions, and segments may differ in their
-//! states.
+//! states and in the direction in which s runs. Where all states are continuous, a joined point does the same
+//! in fewer words.
 //!
 //! # Kinks and inner conditions
 //!
-//! A right-hand side with a kink or a jump at a known place is two smooth ones on two segments, joined
-//! as above: write what holds on `segment`, rather than a branch on s. Without the junction the order of
-//! the method is lost there, the mesh shrinks around the place, and where it shrinks to the spacing of
-//! numbers the error is [`Unresolved`](crate::Error::Unresolved). Example: `osmosis`.
+//! Where the right-hand side has a kink or a jump at a known place and the states are continuous, the place is
+//! a [joined point](crate::Segment::joined) of its segment. Continuity holds by itself, and the right-hand
+//! side may ask on which side it is. Conditions may name the states there, as
+//! [`Ends::joined`](crate::Ends::joined). A beam on two supports and a third one at 0.4, w⁗ = q, whose load
+//! q begins at 0.7:
 //!
-//! A condition at an inner place, such as a measured value, is a junction with one more condition and one
-//! more unknown. If the place of the kink depends on the solution, its length is a parameter
+//! ```
+//! # use bvp::{Constant, Ends, Options, Problem, Real, Segment, solve};
+//! /// States w, w′, w″ and w‴, without the jump that the third support makes of w‴.
+//! struct Beam;
+//!
+//! impl Problem for Beam {
+//!     fn segments(&self) -> Vec<Segment> {
+//!         vec![Segment::on(4, 0.0, 1.0).joined(&[0.4, 0.7])]
+//!     }
+//!
+//!     fn parameters(&self) -> usize {
+//!         1 // the force of the third support
+//!     }
+//!
+//!     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
+//!         dy[0] = y[1];
+//!         dy[1] = y[2];
+//!         dy[2] = if s.value() > 0.4 { y[3] + p[0] } else { y[3] };
+//!         dy[3] = T::from(if s.value() > 0.7 { 1.0 } else { 0.0 });
+//!     }
+//!
+//!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+//!         let (left, support, right) = (at.start(0), at.joined(0, 0), at.end(0));
+//!         r.copy_from_slice(&[left[0], left[2], support[0], right[0], right[2]]);
+//!     }
+//! }
+//!
+//! let guess = Constant { states: vec![vec![0.0; 4]], parameters: vec![0.0] };
+//! let solution = solve(&Beam, &guess, &Options::to(1e-9))?;
+//! let force = solution.parameters()[0];
+//! assert!((force + 0.124_218_75).abs() < 1e-9); // it pushes against the load
+//! # Ok::<(), bvp::Error>(())
+//! ```
+//!
+//! Without the joined point the order of the method is lost at the place, the mesh shrinks around it, and
+//! where it shrinks to the spacing of numbers the error is [`Unresolved`](crate::Error::Unresolved).
+//! Example: `osmosis`. Where a state jumps, or the pieces have different states, they are segments, joined by
+//! conditions as the wall above. If the place of the kink depends on the solution, its length is a parameter
 //! ([`free_boundaries`](super::free_boundaries)).
 //!
 //! # Integrals
@@ -69,39 +107,23 @@
 //! the parameter is the horizontal tension:
 //!
 //! ```
-//! # use bvp::{Ends, Function, Options, Problem, Real, Segment, solve};
-//! /// States y, y′ and the length so far: T y″ = √(1 + y′²), ∫ √(1 + y′²) dx = 2.
-//! struct Chain;
+//! use bvp::{Function, Options, Real, TwoPoint, solve};
 //!
-//! impl Problem for Chain {
-//!     fn segments(&self) -> Vec<Segment> {
-//!         vec![Segment::new(3)]
-//!     }
-//!
-//!     fn parameters(&self) -> usize {
-//!         1
-//!     }
-//!
-//!     fn rhs<T: Real>(&self, _segment: usize, _x: T, y: &[T], p: &[T], dy: &mut [T]) {
-//!         let arc = (y[1] * y[1] + 1.0).sqrt();
-//!         dy[0] = y[1];
-//!         dy[1] = arc / p[0];
-//!         dy[2] = arc;
-//!     }
-//!
-//!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
-//!         r[0] = at.start(0)[0];
-//!         r[1] = at.end(0)[0];
-//!         r[2] = at.start(0)[2];
-//!         r[3] = at.end(0)[2] - 2.0;
-//!     }
-//! }
-//!
+//! // T y″ = √(1 + y′²), ∫ √(1 + y′²) dx = 2: the states y, y′ and the length so far.
+//! let chain = TwoPoint::new(
+//!     [3, 1],
+//!     [0.0, 1.0],
+//!     |_x, y, p, dy| {
+//!         let arc = (1.0 + y[1] * y[1]).sqrt();
+//!         dy.copy_from_slice(&[y[1], arc / p[0], arc]);
+//!     },
+//!     |start, end, _p, r| r.copy_from_slice(&[start[0], end[0], start[2], end[2] - 2.0]),
+//! );
 //! let guess = Function {
 //!     state: |_segment: usize, x: f64| [4.0 * x * (x - 1.0), 8.0 * x - 4.0, 2.0 * x],
 //!     parameters: vec![0.2],
 //! };
-//! let solution = solve(&Chain, &guess, &Options::to(1e-9))?;
+//! let solution = solve(&chain, &guess, &Options::to(1e-9))?;
 //! // The catenary: 2 T sinh(1/(2 T)) = 2.
 //! let tension = solution.parameters()[0];
 //! assert!((tension * (0.5 / tension).sinh() - 1.0).abs() < 1e-8);
@@ -117,27 +139,15 @@
 //! solution finite, S y(a) = 0, is among the conditions:
 //!
 //! ```
-//! # use bvp::{Constant, Ends, Options, Problem, Real, Segment, solve};
-//! /// u″ + 2 u′/r = u in a sphere, u′(0) = 0, u(1) = 1.
-//! struct Sphere;
-//!
-//! impl Problem for Sphere {
-//!     fn segments(&self) -> Vec<Segment> {
-//!         vec![Segment::new(2)]
-//!     }
-//!
-//!     fn rhs<T: Real>(&self, _segment: usize, r: T, y: &[T], _p: &[T], dy: &mut [T]) {
-//!         dy[0] = y[1];
-//!         dy[1] = y[0] - y[1] / r * 2.0;
-//!     }
-//!
-//!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
-//!         r[0] = at.start(0)[1];
-//!         r[1] = at.end(0)[0] - 1.0;
-//!     }
-//! }
-//! # let guess = Constant { states: vec![vec![1.0, 0.0]], parameters: vec![] };
-//! let solution = solve(&Sphere, &guess, &Options::to(1e-9))?;
+//! # use bvp::{Constant, Options, TwoPoint, solve};
+//! // u″ + 2 u′/r = u in a sphere, u′(0) = 0, u(1) = 1.
+//! let sphere = TwoPoint::new(
+//!     [2, 0],
+//!     [0.0, 1.0],
+//!     |r, y, _p, dy| dy.copy_from_slice(&[y[1], y[0] - 2.0 * y[1] / r]),
+//!     |start, end, _p, r| r.copy_from_slice(&[start[1], end[0] - 1.0]),
+//! );
+//! let solution = solve(&sphere, &Constant::new([1.0, 0.0]), &Options::to(1e-9))?;
 //! assert!((solution.start(0)[0] - 1.0 / 1f64.sinh()).abs() < 1e-8); // u = sinh r/(r sinh 1)
 //! # Ok::<(), bvp::Error>(())
 //! ```

@@ -19,41 +19,23 @@
 //! ```
 //!
 //! ```
-//! use bvp::{Ends, Function, Options, Problem, Real, Segment, solve};
+//! use bvp::{Function, Options, TwoPoint, solve};
 //!
-//! /// States u and du/dx; the parameter is L.
-//! struct Oxygen {
-//!     surface: f64,
-//! }
-//!
-//! impl Problem for Oxygen {
-//!     fn segments(&self) -> Vec<Segment> {
-//!         vec![Segment::new(2)]
-//!     }
-//!
-//!     fn parameters(&self) -> usize {
-//!         1
-//!     }
-//!
-//!     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
-//!         dy[0] = p[0] * y[1];
-//!         dy[1] = p[0];
-//!     }
-//!
-//!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
-//!         r[0] = at.start(0)[0] - self.surface;
-//!         r[1] = at.end(0)[0];
-//!         r[2] = at.end(0)[1];
-//!     }
-//! }
+//! // States u and du/dx, parameter L.
+//! let surface = 3.0;
+//! let oxygen = TwoPoint::new(
+//!     [2, 1],
+//!     [0.0, 1.0],
+//!     |_s, y, p, dy| dy.copy_from_slice(&[p[0] * y[1], p[0]]),
+//!     |start, end, _p, r| r.copy_from_slice(&[start[0] - surface, end[0], end[1]]),
+//! );
 //!
 //! // From a straight line: no length may be guessed as zero.
-//! let surface = 3.0;
 //! let guess = Function {
 //!     state: |_segment: usize, s: f64| [surface * (1.0 - s), -surface],
 //!     parameters: vec![1.0],
 //! };
-//! let solution = solve(&Oxygen { surface }, &guess, &Options::to(1e-9))?;
+//! let solution = solve(&oxygen, &guess, &Options::to(1e-9))?;
 //! let depth = solution.parameters()[0];
 //! assert!((depth - (2.0 * surface).sqrt()).abs() < 1e-9);
 //!
@@ -77,37 +59,27 @@
 //!   such as one state given at t = 0. The period T multiplies the right-hand side:
 //!
 //! ```
-//! # use bvp::{Ends, Function, Options, Problem, Real, Segment, solve};
+//! # use bvp::{Function, Options, TwoPoint, solve};
 //! # use std::f64::consts::TAU;
-//! /// Van der Pol's oscillator x″ − (1 − x²) x′ + x = 0.
-//! struct Oscillator;
-//!
-//! impl Problem for Oscillator {
-//!     fn segments(&self) -> Vec<Segment> {
-//!         vec![Segment::new(2)]
-//!     }
-//!
-//!     fn parameters(&self) -> usize {
-//!         1
-//!     }
-//!
-//!     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
+//! // Van der Pol's oscillator x″ − (1 − x²) x′ + x = 0.
+//! let oscillator = TwoPoint::new(
+//!     [2, 1],
+//!     [0.0, 1.0],
+//!     |_s, y, p, dy| {
 //!         dy[0] = p[0] * y[1];
-//!         dy[1] = p[0] * ((-y[0] * y[0] + 1.0) * y[1] - y[0]);
-//!     }
-//!
-//!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
-//!         r[0] = at.end(0)[0] - at.start(0)[0];
-//!         r[1] = at.end(0)[1] - at.start(0)[1];
-//!         r[2] = at.start(0)[1]; // the phase: x is largest at the start
-//!     }
-//! }
-//!
+//!         dy[1] = p[0] * ((1.0 - y[0] * y[0]) * y[1] - y[0]);
+//!     },
+//!     |start, end, _p, r| {
+//!         r[0] = end[0] - start[0];
+//!         r[1] = end[1] - start[1];
+//!         r[2] = start[1]; // the phase: x is largest at the start
+//!     },
+//! );
 //! let guess = Function {
 //!     state: |_segment: usize, s: f64| [2.0 * (TAU * s).cos(), -2.0 * (TAU * s).sin()],
 //!     parameters: vec![TAU],
 //! };
-//! let solution = solve(&Oscillator, &guess, &Options::default())?;
+//! let solution = solve(&oscillator, &guess, &Options::default())?;
 //! assert!((solution.parameters()[0] - 6.663_286_86).abs() < 1e-5);
 //! assert!((solution.start(0)[0] - 2.008_62).abs() < 1e-4);
 //! # Ok::<(), bvp::Error>(())
@@ -117,5 +89,7 @@
 //!
 //! * *The length goes to zero or below.* With L = 0 every constant state solves the equations. Guess L
 //!   generously, or make ln L the parameter.
+//! * *A family of solutions, and a shift of s takes one to the other.* There is no phase condition: not even the
+//!   exact period makes up for it.
 //! * *A periodic solution turns out to be constant.* A state at rest has every period. Guess an
 //!   amplitude nearer to that of the oscillation, or follow it from another case.

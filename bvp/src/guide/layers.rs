@@ -17,7 +17,7 @@
 //! For ε = 1e-2 nothing needs to be known of the layer:
 //!
 //! ```
-//! use bvp::{Constant, Ends, Options, Problem, Real, Segment, solve};
+//! use bvp::{Constant, Ends, LeftOf, Options, Problem, Real, Segment, solve};
 //!
 //! struct Shock {
 //!     epsilon: f64,
@@ -28,9 +28,12 @@
 //!         vec![Segment::new(2)]
 //!     }
 //!
-//!     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
+//!     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T])
+//!     where
+//!         f64: LeftOf<T>, // for 1.0 on the left of a T
+//!     {
 //!         dy[0] = y[1];
-//!         dy[1] = y[0] * (-y[1] + 1.0) / self.epsilon;
+//!         dy[1] = y[0] * (1.0 - y[1]) / self.epsilon;
 //!     }
 //!
 //!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
@@ -67,7 +70,8 @@
 //! 2. After that the error is estimated. The next mesh equidistributes the local defects
 //!    h |S′ − f|/(1 + |y|), which are what an interval of length h adds to the error. Its number of
 //!    intervals follows from the estimated error.
-//! 3. Once the estimate is within the tolerance, the solution is returned.
+//! 3. Once the estimate is within the tolerance, the solution is examined
+//!    ([`accuracy`](super::accuracy)) and returned.
 //!
 //! Nodes are removed as well as added.
 //!
@@ -80,7 +84,7 @@
 //! next.
 //!
 //! ```
-//! use bvp::{Constant, Embedding, Ends, Error, Options, Problem, Real, Segment};
+//! use bvp::{Constant, Embedding, Ends, Error, LeftOf, Options, Problem, Real, Segment};
 //! use bvp::{solve, solve_embedded};
 //!
 //! /// p = (ε): two states and one parameter, but two conditions.
@@ -99,9 +103,12 @@
 //!         2
 //!     }
 //!
-//!     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
+//!     fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T])
+//!     where
+//!         f64: LeftOf<T>,
+//!     {
 //!         dy[0] = y[1];
-//!         dy[1] = y[0] * (-y[1] + 1.0) / p[0];
+//!         dy[1] = y[0] * (1.0 - y[1]) / p[0];
 //!     }
 //!
 //!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {

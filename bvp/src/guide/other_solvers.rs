@@ -98,14 +98,14 @@
 //! | equations | `odefun(x, y, p)` | `fun(x, y, p)`, all x at once | `fsub`, orders 1 to 4 | `fsub` | [`Problem::rhs`], one point at a time |
 //! | conditions | `bcfun(ya, yb, p)` | `bc(ya, yb, p)` | `gsub(i, z, g)`, each at its own place `zeta(i)` | `gsub`, the first `nlbc` at the left end | [`Problem::conditions`], any functions of all [`Ends`](crate::Ends) |
 //! | unknown parameters | `p` | `p` | states with derivative zero | states with derivative zero | [`Problem::parameters`] |
-//! | several intervals | region index | – | places `zeta(i)` inside | – | [`Segment`](crate::Segment)s, each with its own states |
-//! | given nodes | – | – | `fixpnt` | `fixpnt` | ends of segments |
+//! | conditions inside | region index | – | places `zeta(i)` inside | – | [joined points](crate::Segment::joined); or [`Segment`](crate::Segment)s, each with its own states |
+//! | given nodes | – | – | `fixpnt` | `fixpnt` | [joined points](crate::Segment::joined) |
 //! | guess | `bvpinit` | `x`, `y`, `p` | `guess` | `givmsh`, `giveu` | [`Constant`](crate::Constant), [`Function`](crate::Function), [`Table`](crate::Table) |
 //! | a solution as guess | `bvpinit`, `bvpxtend` | `sol.x`, `sol.y` | `ipar(9)` = 2, 3, 4 | `givmsh`, `giveu` | the [`Solution`] itself, mesh included |
 //! | Jacobians | `FJacobian`, `BCJacobian`, or differences | `fun_jac`, `bc_jac`, or differences | `dfsub`, `dgsub` | `dfsub`, `dgsub` | exact by themselves |
 //! | S y/(x − a) | `SingularTerm` | `S` | as it stands | – | as it stands ([`forms`](super::forms)) |
 //! | complex states | – | complex `y` | – | – | [`Complex`](crate::Complex) |
-//! | tolerance | `RelTol`, `AbsTol` | `tol`, `bc_tol` | `tol` of component `ltol` | `tol` of component `ltol` | [`Options::tolerance`] |
+//! | tolerance | `RelTol`, `AbsTol` | `tol`, `bc_tol` | `tol` of component `ltol` | `tol` of component `ltol` | [`Options::tolerance`], [`Options::absolute`] |
 //! | … is one for | the residual; `bvp5c`: the error | the residual | the error | the error | the error |
 //! | largest mesh | `NMax` | `max_nodes` | sizes of `ispace`, `fspace` | sizes of the work arrays | [`Options::max_intervals`] |
 //! | method | Lobatto IIIA, order 4; 5 | Lobatto IIIA, order 4 | Gauss, `ipar(2)` points | deferred correction, orders 4, 6, 8 | Gauss, 6 or 7 points; others by [`Options::scheme`] |
@@ -135,7 +135,8 @@
 //! | cost | [`stats`](Solution::stats)`()` |
 //! | all of this in six lines | `report()`, for printing |
 //!
-//! Errors are relative to 1 + |value|, as in COLNEW; there is no absolute tolerance. The report of the
+//! Errors are relative to 1 + |value|, as in COLNEW; [`Options::absolute`] has other numbers for the 1, which
+//! makes an absolute tolerance of its product with the tolerance. The report of the
 //! first solution above:
 //!
 //! ```text
