@@ -3,8 +3,6 @@
 use crate::problem::real::Real;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
-use std::iter::Sum;
-use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A value with its derivatives in `W` directions: x + Σ xᵢ εᵢ with εᵢ εⱼ = 0.
 ///
@@ -50,7 +48,7 @@ impl<const W: usize> Dual<W> {
 
     /// f(x) by the chain rule, from the value f and the derivative f' at x.
     #[inline]
-    fn chain(self, value: f64, derivative: f64) -> Self {
+    pub(super) fn chain(self, value: f64, derivative: f64) -> Self {
         Self {
             value,
             gradient: self.gradient.map(|g| derivative * g),
@@ -59,7 +57,7 @@ impl<const W: usize> Dual<W> {
 
     /// f(x, y) by the chain rule, from the value and both partial derivatives.
     #[inline]
-    fn chain2(self, other: Self, value: f64, d_self: f64, d_other: f64) -> Self {
+    pub(super) fn chain2(self, other: Self, value: f64, d_self: f64, d_other: f64) -> Self {
         let mut gradient = [0.0; W];
         for ((g, a), b) in gradient.iter_mut().zip(self.gradient).zip(other.gradient) {
             *g = d_self * a + d_other * b;
@@ -83,177 +81,6 @@ impl<const W: usize> PartialOrd for Dual<W> {
 impl<const W: usize> From<f64> for Dual<W> {
     fn from(value: f64) -> Self {
         Self::constant(value)
-    }
-}
-
-impl<const W: usize> Neg for Dual<W> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        self.chain(-self.value, -1.0)
-    }
-}
-
-impl<const W: usize> Add for Dual<W> {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        self.chain2(other, self.value + other.value, 1.0, 1.0)
-    }
-}
-
-impl<const W: usize> Sub for Dual<W> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self.chain2(other, self.value - other.value, 1.0, -1.0)
-    }
-}
-
-impl<const W: usize> Mul for Dual<W> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        self.chain2(other, self.value * other.value, other.value, self.value)
-    }
-}
-
-impl<const W: usize> Div for Dual<W> {
-    type Output = Self;
-    #[inline]
-    fn div(self, other: Self) -> Self {
-        let inverse = 1.0 / other.value;
-        let quotient = self.value / other.value;
-        self.chain2(other, quotient, inverse, -quotient * inverse)
-    }
-}
-
-impl<const W: usize> Add<f64> for Dual<W> {
-    type Output = Self;
-    #[inline]
-    fn add(mut self, other: f64) -> Self {
-        self.value += other;
-        self
-    }
-}
-
-impl<const W: usize> Sub<f64> for Dual<W> {
-    type Output = Self;
-    #[inline]
-    fn sub(mut self, other: f64) -> Self {
-        self.value -= other;
-        self
-    }
-}
-
-impl<const W: usize> Mul<f64> for Dual<W> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: f64) -> Self {
-        self.chain(self.value * other, other)
-    }
-}
-
-impl<const W: usize> Div<f64> for Dual<W> {
-    type Output = Self;
-    #[inline]
-    fn div(self, other: f64) -> Self {
-        self.chain(self.value / other, 1.0 / other)
-    }
-}
-
-impl<const W: usize> AddAssign for Dual<W> {
-    #[inline]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl<const W: usize> SubAssign for Dual<W> {
-    #[inline]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl<const W: usize> MulAssign for Dual<W> {
-    #[inline]
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
-}
-
-impl<const W: usize> DivAssign for Dual<W> {
-    #[inline]
-    fn div_assign(&mut self, other: Self) {
-        *self = *self / other;
-    }
-}
-
-impl<const W: usize> Add<Dual<W>> for f64 {
-    type Output = Dual<W>;
-    #[inline]
-    fn add(self, other: Dual<W>) -> Dual<W> {
-        other + self
-    }
-}
-
-impl<const W: usize> Sub<Dual<W>> for f64 {
-    type Output = Dual<W>;
-    #[inline]
-    fn sub(self, other: Dual<W>) -> Dual<W> {
-        other.chain(self - other.value, -1.0)
-    }
-}
-
-impl<const W: usize> Mul<Dual<W>> for f64 {
-    type Output = Dual<W>;
-    #[inline]
-    fn mul(self, other: Dual<W>) -> Dual<W> {
-        other * self
-    }
-}
-
-impl<const W: usize> Div<Dual<W>> for f64 {
-    type Output = Dual<W>;
-    #[inline]
-    fn div(self, other: Dual<W>) -> Dual<W> {
-        let quotient = self / other.value;
-        other.chain(quotient, -quotient / other.value)
-    }
-}
-
-impl<const W: usize> AddAssign<f64> for Dual<W> {
-    #[inline]
-    fn add_assign(&mut self, other: f64) {
-        *self = *self + other;
-    }
-}
-
-impl<const W: usize> SubAssign<f64> for Dual<W> {
-    #[inline]
-    fn sub_assign(&mut self, other: f64) {
-        *self = *self - other;
-    }
-}
-
-impl<const W: usize> MulAssign<f64> for Dual<W> {
-    #[inline]
-    fn mul_assign(&mut self, other: f64) {
-        *self = *self * other;
-    }
-}
-
-impl<const W: usize> DivAssign<f64> for Dual<W> {
-    #[inline]
-    fn div_assign(&mut self, other: f64) {
-        *self = *self / other;
-    }
-}
-
-impl<const W: usize> Sum for Dual<W> {
-    fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
-        terms.fold(Self::ZERO, Add::add)
     }
 }
 

@@ -5,6 +5,7 @@ pub(crate) mod check;
 pub(crate) mod complex;
 pub(crate) mod difference;
 pub(crate) mod dual;
+mod dual_arithmetic;
 pub(crate) mod equations;
 pub(crate) mod guess;
 pub(crate) mod held;
