@@ -76,8 +76,8 @@
 //!     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
 //!         dy[0] = y[1];
 //!         dy[1] = y[2];
-//!         dy[2] = if s.value() > 0.4 { y[3] + p[0] } else { y[3] };
-//!         dy[3] = T::from(if s.value() > 0.7 { 1.0 } else { 0.0 });
+//!         dy[2] = if s > 0.4 { y[3] + p[0] } else { y[3] };
+//!         dy[3] = if s > 0.7 { T::ONE } else { T::ZERO };
 //!     }
 //!
 //!     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {

@@ -78,6 +78,18 @@ impl<const W: usize> PartialOrd for Dual<W> {
     }
 }
 
+impl<const W: usize> PartialEq<f64> for Dual<W> {
+    fn eq(&self, other: &f64) -> bool {
+        self.value == *other
+    }
+}
+
+impl<const W: usize> PartialOrd<f64> for Dual<W> {
+    fn partial_cmp(&self, other: &f64) -> Option<Ordering> {
+        self.value.partial_cmp(other)
+    }
+}
+
 impl<const W: usize> From<f64> for Dual<W> {
     fn from(value: f64) -> Self {
         Self::constant(value)

@@ -10,12 +10,14 @@ use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssi
 /// numbers for exact Jacobians, from one source. Arithmetic works with `T` and with `f64` on the
 /// right (`y * 2.0`), and with `f64` on the left (`2.0 * y`, `1.0 - y`) in functions that say
 /// `where f64: `[`LeftOf`]`<T>`. Elementary functions have their standard-library names; any other
-/// function of one variable enters by [`apply`](Self::apply). Comparisons look at the value only, so
-/// a branch is differentiated along the side that is taken.
+/// function of one variable enters by [`apply`](Self::apply). Comparisons, with `T` and with `f64` on
+/// the right (`s < 0.5`), look at the value only, so a branch is differentiated along the side that is
+/// taken.
 pub trait Real:
     Copy
     + Debug
     + PartialOrd
+    + PartialOrd<f64>
     + Neg<Output = Self>
     + Add<Output = Self>
     + Sub<Output = Self>

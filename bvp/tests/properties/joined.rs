@@ -94,7 +94,7 @@ impl Problem for Jump {
     }
 
     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {
-        let is_loaded = s.value() > self.place || (self.closed && s.value() == self.place);
+        let is_loaded = s > self.place || (self.closed && s == self.place);
         dy[0] = y[1];
         dy[1] = T::from(if is_loaded { -LOAD } else { 0.0 });
     }

@@ -269,3 +269,15 @@ fn radii_do_not_overflow() {
     assert!((radius.gradient[0] - 0.6).abs() < 1e-15);
     assert!((angle.gradient[1] * 5e200 - 0.6).abs() < 1e-15);
 }
+
+/// A branch may compare with a plain number, and is differentiated along the side that is taken.
+#[test]
+fn numbers_compare_with_plain_ones() {
+    fn kinked<T: Real>(x: T) -> T {
+        if x < 1.0 { x } else { x * 3.0 - 2.0 }
+    }
+    let [below, above] = [0.5, 2.0].map(|x| kinked(Dual::<1>::variable(x, 0)));
+    assert_eq!((below.value, below.gradient), (0.5, [1.0]));
+    assert_eq!((above.value, above.gradient), (4.0, [3.0]));
+    assert!(above == 4.0 && above > below && Dual::<1>::constant(f64::NAN) != f64::NAN);
+}
