@@ -89,12 +89,14 @@
 //! ```text
 //! let (mut family, start) = Family::new(&bratu, 0, &[], &guess, &bvp::Options::default())?;
 //! let options = continuation::Options::within(0.0, 4.0);
-//! let branch = continuation::Branch::new(&mut family, &start, Direction::Increasing, &options)?;
-//! for point in branch { … }
+//! let mut branch = continuation::Branch::new(&mut family, &start, Direction::Increasing, &options)?;
+//! while let Some(point) = branch.next() {
+//!     let solution = branch.system().solution(&point.z); // on the mesh of this point
+//! }
 //! ```
 //!
-//! Each of its points is a z, and [`Family::solution`](crate::Family::solution) makes a
-//! [`Solution`](crate::Solution) of it. Other parameters than λ are held at fixed values, among them the
+//! Each of its points has a z, of which [`Family::solution`](crate::Family::solution) makes a
+//! [`Solution`](crate::Solution). Other parameters than λ are held at fixed values, among them the
 //! second parameter of a curve of folds.
 //!
 //! A family goes on with the same program later if z, [`Family::mesh`](crate::Family::mesh) and the values

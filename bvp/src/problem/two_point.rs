@@ -18,7 +18,7 @@ const WIDTH: usize = 8;
 /// ```
 ///
 /// The closures work with [`Dual`] numbers, which have the functions of [`Real`](crate::Real) and take
-/// plain numbers on both sides. A [`Problem`](crate::Problem) is the general form, and faster: it is
+/// plain numbers on both sides; a constant alone is `Dual::constant(1.0)`. A [`Problem`](crate::Problem) is the general form, and faster: it is
 /// evaluated without derivatives where none are needed.
 ///
 /// ```
