@@ -1,5 +1,7 @@
 //! Why a step was not possible.
 
+use crate::number::Number;
+
 /// Why a system could not be linearised or adapted, in its own words.
 pub type Cause = Box<dyn std::error::Error + Send + Sync>;
 
@@ -8,7 +10,7 @@ pub type Cause = Box<dyn std::error::Error + Send + Sync>;
 #[non_exhaustive]
 pub enum Difficulty {
     /// The residual is not finite.
-    #[error("the residual is not finite: equation {equation} at lambda = {lambda}")]
+    #[error("the residual is not finite: equation {equation} at lambda = {}", Number(*.lambda))]
     NotFinite {
         /// Index of the equation.
         equation: usize,
@@ -43,7 +45,7 @@ pub enum Difficulty {
         limit: f64,
     },
     /// Newton's method left the bounds of λ.
-    #[error("newton: lambda = {lambda} is outside the bounds")]
+    #[error("newton: lambda = {} is outside the bounds", Number(*.lambda))]
     OutOfBounds {
         /// λ there.
         lambda: f64,

@@ -1,6 +1,7 @@
 //! Why there is no branch.
 
 use crate::difficulty::Difficulty;
+use crate::number::Number;
 use crate::point::Point;
 use crate::stop::Stop;
 
@@ -9,7 +10,7 @@ use crate::stop::Stop;
 #[non_exhaustive]
 pub enum Error {
     /// The bounds of λ are no interval.
-    #[error("bounds of lambda: {low} to {high} is no interval")]
+    #[error("bounds of lambda: {} to {} is no interval", Number(*.low), Number(*.high))]
     Bounds {
         /// Lower bound.
         low: f64,
@@ -17,7 +18,7 @@ pub enum Error {
         high: f64,
     },
     /// A setting is out of range.
-    #[error("option {name}: {value} is out of range")]
+    #[error("option {name}: {} is out of range", Number(*.value))]
     Setting {
         /// The setting.
         name: &'static str,
@@ -41,7 +42,7 @@ pub enum Error {
         unknowns: usize,
     },
     /// λ at the start is not within the bounds.
-    #[error("start: lambda = {lambda} is outside the bounds {low} to {high}")]
+    #[error("start: lambda = {} is outside the bounds {} to {}", Number(*.lambda), Number(*.low), Number(*.high))]
     StartOutside {
         /// λ at the start.
         lambda: f64,
@@ -76,7 +77,7 @@ pub enum Error {
         difficulty: Difficulty,
     },
     /// A homotopy ended before its goal.
-    #[error("homotopy: reached lambda = {lambda}, goal {goal}; {stop}")]
+    #[error("homotopy: reached lambda = {}, goal {}; {stop}", Number(*.lambda), Number(*.goal))]
     Homotopy {
         /// λ of the last point.
         lambda: f64,

@@ -183,6 +183,7 @@ mod deflation;
 mod difficulty;
 mod error;
 mod homotopy;
+mod number;
 mod options;
 mod point;
 mod special_points;

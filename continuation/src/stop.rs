@@ -1,20 +1,21 @@
 //! Why a branch ends.
 
 use crate::difficulty::Difficulty;
+use crate::number::Number;
 
 /// Why a branch ends. None of these is a fault of the caller; the last point yielded is good.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Stop {
     /// λ has reached a bound; the last point lies on it.
-    #[error("lambda has reached its bound {lambda}")]
+    #[error("lambda has reached its bound {}", Number(*.lambda))]
     Bound {
         /// The bound.
         lambda: f64,
     },
     /// The branch approaches a bound of λ without reaching it: at the accuracy of the points λ can no
     /// longer be told from the bound, and other unknowns keep growing.
-    #[error("the branch approaches lambda = {lambda} without reaching it")]
+    #[error("the branch approaches lambda = {} without reaching it", Number(*.lambda))]
     Asymptote {
         /// The bound.
         lambda: f64,
