@@ -6,6 +6,12 @@ use crate::system::system::System;
 /// Groups smaller than this fraction of the largest have no size of their own yet.
 const NEGLIGIBLE: f64 = 1e-8;
 
+/// Sizes below this are none: their squares are not numbers of full precision.
+const TINY: f64 = 1e-150;
+/// Sizes below this share of what the first tangent reaches over the range of λ are rounding of zero: a start
+/// at x = 1e-23 instead of 0 ended its branch at once. Corrected starts at limit points, where the tangent
+/// reaches far, have shares of 1e-8.
+const ROUNDED: f64 = 1e-10;
 /// Tangents that reach further than this many times the largest size, or one, are vertical.
 const FARTHEST: f64 = 1e12;
 
@@ -89,11 +95,16 @@ impl Metric {
         }
         let negligible = NEGLIGIBLE * self.largest();
         let farthest = FARTHEST * self.largest().max(1.0);
-        let empty: Vec<bool> = self.size.iter().map(|&size| size <= negligible).collect();
+        let mut reached = vec![0.0f64; self.size.len()];
         for ((&group, &share), t) in self.group.iter().zip(&self.share).zip(t) {
-            let reached = (t / rate).abs() * self.range;
-            if share > 0.0 && empty[group] && reached <= farthest {
-                self.size[group] = self.size[group].max(reached);
+            if share > 0.0 {
+                reached[group] = reached[group].max((t / rate).abs() * self.range);
+            }
+        }
+        for (size, reached) in self.size.iter_mut().zip(reached) {
+            let empty = *size <= negligible.max(ROUNDED * reached);
+            if empty && reached <= farthest {
+                *size = size.max(reached);
             }
         }
         let sizes: Vec<f64> = (0..self.size.len())
@@ -111,9 +122,9 @@ impl Metric {
     fn size_of(&self, group: usize) -> f64 {
         let largest = self.largest();
         let size = self.size[group];
-        if size > NEGLIGIBLE * largest {
+        if size > TINY.max(NEGLIGIBLE * largest) {
             size
-        } else if largest > 0.0 {
+        } else if largest > TINY {
             largest
         } else {
             1.0

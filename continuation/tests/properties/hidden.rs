@@ -126,6 +126,23 @@ fn units_of_any_size_change_nothing() {
 }
 
 #[test]
+fn a_start_at_rounding_of_zero_is_left() {
+    for size in [1e-12, 1e-18, 1e-23, 1e-60, 1e-300] {
+        // λ = x − x³/3 + size has a limit point at x = 1.
+        let mut system = DenseSystem::new(1, &[0.0], 0, move |x, p, g| {
+            g[0] = p[0] - x[0] + x[0].powi(3) / 3.0 - size;
+        })
+        .with_jacobian(|x, _, j| j.copy_from_slice(&[x[0] * x[0] - 1.0, 1.0]));
+        let options = Options::within(-1.0, 1.0);
+        let (points, stop) = trace(&mut system, &[-size, 0.0], Increasing, &options);
+        assert!(matches!(stop, Stop::Bound { .. }), "{size:e}: {stop}");
+        let limits = of(&points, Kind::LimitPoint);
+        assert_eq!(limits.len(), 1, "{size:e}");
+        assert_close(&limits[0].z, &[1.0, 2.0 / 3.0 + size], 1e-9);
+    }
+}
+
+#[test]
 fn the_equations_are_never_evaluated_beyond_the_bounds() {
     for at in [1e-3, 0.5, 0.999] {
         let seen = Arc::new(Mutex::new([f64::INFINITY, f64::NEG_INFINITY]));
