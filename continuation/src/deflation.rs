@@ -49,6 +49,7 @@ pub fn deflate<S: System>(
     options.validate(unknowns)?;
     known.iter().try_for_each(|z| check_length(z, unknowns))?;
     check_length(guess, unknowns)?;
+    system.set_bounds(options.bounds);
     let lambda = guess[unknowns - 1];
     let mut metric = Metric::new(system, options, guess);
     known.iter().for_each(|z| metric.observe(z));

@@ -124,6 +124,7 @@ impl<'a, S: System> Branch<'a, S> {
         if !(low..=high).contains(&lambda) {
             return Err(Error::StartOutside { lambda, low, high });
         }
+        system.set_bounds(options.bounds);
         let node = Node::new(z.to_vec(), vec![0.0; unknowns]);
         Ok(Self {
             metric: Metric::new(system, options, z),

@@ -156,7 +156,9 @@ impl Corrector {
             if lambda < low || lambda > high {
                 return Err(Difficulty::OutOfBounds { lambda });
             }
+            let mut turned = false;
             for (z, delta) in z.iter_mut().zip(&self.particular) {
+                turned |= delta.abs() >= z.abs() && *z != 0.0;
                 *z += delta;
             }
             report.drift += length;
@@ -166,6 +168,10 @@ impl Corrector {
             // With linear convergence the corrections to come add up to this.
             let ahead = length * ratio.unwrap_or(1.0);
             if ahead <= wanted || length == 0.0 {
+                if turned {
+                    // An unknown that has changed its sign may have left the domain of G.
+                    self.evaluate(system, z)?;
+                }
                 return Ok(report);
             }
             keep = match ratio {
@@ -193,6 +199,11 @@ impl Corrector {
         if (low..=high).contains(&z[z.len() - 1]) {
             system.residual(z, g);
         }
+    }
+
+    /// The bounds of λ.
+    pub(crate) fn bounds(&self) -> [f64; 2] {
+        self.walls
     }
 
     /// λ, or its mirror image at the wall that it lies beyond.

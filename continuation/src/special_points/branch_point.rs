@@ -18,7 +18,7 @@ use crate::curve::corrector::Corrector;
 use crate::curve::metric::Metric;
 use crate::difficulty::Difficulty;
 use crate::special_points::null_space::{NullSpace, solve};
-use crate::special_points::second_derivative::{FINE, ROUGH, Rule, bending, mixed};
+use crate::special_points::second_derivative::{Line, Precision, mixed};
 use crate::system::system::System;
 
 /// Newton steps shorter than this that no longer shrink are rounding.
@@ -165,36 +165,42 @@ fn slopes<S: System>(
     space: &NullSpace,
     onto: &[f64],
 ) -> Result<([[f64; 2]; 2], [f64; 2]), Difficulty> {
-    let mut bend = |direction: &[f64], rule: &Rule| {
-        let residual = |s: f64, g: &mut [f64]| {
-            let moved: Vec<f64> = z.iter().zip(direction).map(|(z, d)| z + s * d).collect();
-            corrector.residual(system, &moved, g);
+    let bounds = corrector.bounds();
+    let mut second = |direction: &[f64], precision: Precision| {
+        let line = Line {
+            z,
+            direction,
+            bounds,
         };
-        bending(residual, z.len() - 1, rule)
+        line.second_derivative(system, precision, |_, _| {})
     };
     let sum = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a + b).collect() };
-    let [first, second] = [0, 1].map(|i| &space.0[i][..z.len()]);
-    let bends = [bend(first, &FINE), bend(second, &FINE)];
-    let cross = mixed(&bend(&sum(first, second), &FINE), &bends[0], &bends[1]);
+    let [first, last] = [0, 1].map(|i| &space.0[i][..z.len()]);
+    let own = [first, last].map(|direction| second(direction, Precision::Fine));
+    let cross = mixed(
+        &second(&sum(first, last), Precision::Fine),
+        &own[0],
+        &own[1],
+    );
     let length = metric.norm(onto);
     let along_onto = (length > 0.0).then(|| {
         let unit: Vec<f64> = onto.iter().map(|v| v / length).collect();
-        let own = bend(&unit, &ROUGH);
-        [(first, &bends[0]), (second, &bends[1])]
-            .map(|(t, other)| mixed(&bend(&sum(&unit, t), &ROUGH), &own, other))
+        let onward = second(&unit, Precision::Rough);
+        [(first, &own[0]), (last, &own[1])]
+            .map(|(t, other)| mixed(&second(&sum(&unit, t), Precision::Rough), &onward, other))
     });
-    let mut rate = |bends: [&Vec<f64>; 2]| {
-        let rates = bends.map(|bend| {
-            let turned = space.shortest(system, metric, b, bend);
+    let mut rate = |seconds: [&Vec<f64>; 2]| {
+        let rates = seconds.map(|second| {
+            let turned = space.shortest(system, metric, b, second);
             turned.iter().map(|w| -w).collect()
         });
         space
             .eta_rate(metric, space, &rates)
             .ok_or(Difficulty::Singular)
     };
-    let ([a, c], [b, d]) = (rate([&bends[0], &cross])?, rate([&cross, &bends[1]])?);
+    let ([a, c], [b, d]) = (rate([&own[0], &cross])?, rate([&cross, &own[1]])?);
     let change = match &along_onto {
-        Some([first, second]) => rate([first, second])?.map(|rate| length * rate),
+        Some([first, last]) => rate([first, last])?.map(|rate| length * rate),
         None => [0.0; 2],
     };
     Ok(([[a, b], [c, d]], change))

@@ -16,6 +16,7 @@ pub(crate) struct Closures {
     pub(crate) parameters: Vec<f64>,
     pub(crate) lambda: usize,
     second: Option<usize>,
+    pub(crate) bounds: [f64; 2],
     residual: Residual,
 }
 
@@ -34,6 +35,7 @@ impl Closures {
             parameters: parameters.to_vec(),
             lambda,
             second: None,
+            bounds: [f64::NEG_INFINITY, f64::INFINITY],
             residual: Arc::new(residual),
         }
     }
@@ -57,6 +59,18 @@ impl Closures {
     pub(crate) fn residual(&mut self, z: &[f64], g: &mut [f64]) {
         let x = self.read(z);
         (self.residual)(x, &self.parameters, g);
+    }
+
+    /// The rates of states and parameters along a direction, whose last number is the rate of μ if it has
+    /// one more than there are unknowns.
+    pub(crate) fn rates<'d>(&self, direction: &'d [f64]) -> (&'d [f64], Vec<f64>) {
+        let (states, rest) = direction.split_at(self.states);
+        let mut parameters = vec![0.0; self.parameters.len()];
+        parameters[self.lambda] = rest[0];
+        if let (Some(second), Some(rate)) = (self.second, rest.get(1)) {
+            parameters[second] = *rate;
+        }
+        (states, parameters)
     }
 
     /// The second parameter μ.

@@ -2,6 +2,9 @@
 
 use crate::difficulty::Cause;
 use crate::system::closures::Closures;
+use crate::system::difference::{Difference, ROUNDING, SHORTER, Stencil, Step};
+#[cfg(feature = "bvp")]
+use crate::system::exact::{Differentiable, derivative_along, derivatives};
 use crate::system::permutation::parity;
 use crate::system::system::{System, TwoParameter};
 use faer::MatRef;
@@ -11,16 +14,14 @@ use std::sync::Arc;
 /// Derivatives: states x, all parameters p, n × (n + parameters) derivatives of G, row-major.
 type Jacobian = Arc<dyn Fn(&[f64], &[f64], &mut [f64]) + Send + Sync>;
 
-/// Step of central differences of sixth order relative to 1 + |z|: ε^(1/7).
-const DIFFERENCE: f64 = 5.8e-3;
-/// The differences: (multiple of the step, weight).
-const WEIGHTS: [(f64, f64); 3] = [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)];
+/// Derivative along a direction: states x, all parameters p, the rates of both, n derivatives of G.
+type Along = Arc<dyn Fn([&[f64]; 2], [&[f64]; 2], &mut [f64]) + Send + Sync>;
 
 /// A system G(x, p) = 0 of n equations given by a closure, one of whose parameters is λ.
 ///
-/// The Jacobian is another closure, or found by central differences of sixth order, which are
-/// accurate to about 1e-13 where G is smooth on the scale of one in every unknown. It is factored with
-/// complete pivoting (faer), so that limit points and branch points need no care.
+/// The Jacobian is another closure, or found by differences of sixth order with steps that resolve G, each
+/// unknown for itself, within the bounds of λ: accurate to about 1e-12 where G is smooth. It is factored
+/// with complete pivoting (faer), so that limit points and branch points need no care.
 ///
 /// ```
 /// use continuation::{Branch, DenseSystem, Direction, Kind, Options};
@@ -42,6 +43,9 @@ const WEIGHTS: [(f64, f64); 3] = [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)];
 pub struct DenseSystem {
     closures: Closures,
     jacobian: Option<Jacobian>,
+    along: Option<Along>,
+    /// The steps of the differences for all unknowns, once they were tried.
+    steps: Vec<Option<Step>>,
     /// J, n × (n + 1), row-major.
     matrix: Vec<f64>,
     /// Row-major derivative with respect to all unknowns and parameters, n × (n + parameters).
@@ -73,10 +77,56 @@ impl DenseSystem {
         Self {
             closures: Closures::new(states, parameters, lambda, residual),
             jacobian: None,
+            along: None,
+            steps: vec![None; states + 1],
             matrix: vec![0.0; states * (states + 1)],
             full: vec![0.0; states * (states + parameters.len())],
             factors: None,
         }
+    }
+
+    /// As [`new`](Self::new), with exact derivatives by dual numbers. Neither the units of the unknowns
+    /// nor narrow features of G matter to these, as they do to differences.
+    ///
+    /// ```
+    /// use bvp::Real;
+    /// use continuation::{Branch, DenseSystem, Differentiable, Direction, Kind, Options};
+    ///
+    /// /// Steady states of a stirred tank (Uppal, Ray & Poore 1974).
+    /// struct Tank;
+    ///
+    /// impl Differentiable for Tank {
+    ///     fn residual<T: Real>(&self, x: &[T], p: &[T], g: &mut [T]) {
+    ///         let rate = p[0] * (-x[0] + 1.0) * x[1].exp();
+    ///         g[0] = rate - x[0];
+    ///         g[1] = p[1] * rate - (p[2] + 1.0) * x[1];
+    ///     }
+    /// }
+    ///
+    /// let mut tank = DenseSystem::exact(2, &[0.0, 18.0, 3.0], 0, Tank);
+    /// let options = Options::within(0.0, 0.3);
+    /// let branch = Branch::new(&mut tank, &[0.0; 3], Direction::Increasing, &options)?;
+    /// let limits: Vec<_> = branch.filter(|point| point.kind == Kind::LimitPoint).collect();
+    /// assert!((limits[0].lambda() - 0.5 * (-1.5f64).exp()).abs() < 1e-15);
+    /// # Ok::<(), continuation::Error>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If there is no parameter of the number `lambda`.
+    #[cfg(feature = "bvp")]
+    pub fn exact(
+        states: usize,
+        parameters: &[f64],
+        lambda: usize,
+        equations: impl Differentiable + Send + Sync + 'static,
+    ) -> Self {
+        let equations = Arc::new(equations);
+        let [values, along] = [(); 2].map(|()| Arc::clone(&equations));
+        Self::new(states, parameters, lambda, move |x, p, g| {
+            values.residual(x, p, g);
+        })
+        .with_jacobian(move |x, p, j| derivatives(&*equations, x, p, j))
+        .with_derivative_along(move |at, rates, g| derivative_along(&*along, at, rates, g))
     }
 
     /// Takes exact derivatives from `jacobian(x, p, j)`, which writes the n × (n + parameters)
@@ -105,36 +155,73 @@ impl DenseSystem {
         &self.closures.parameters
     }
 
-    /// Fills `matrix` by differences.
+    /// The same with derivatives along directions by `along([x, p], [rates of x, rates of p], g)`, which
+    /// must agree with the Jacobian.
+    #[cfg(feature = "bvp")]
+    pub(crate) fn with_derivative_along(
+        mut self,
+        along: impl Fn([&[f64]; 2], [&[f64]; 2], &mut [f64]) + Send + Sync + 'static,
+    ) -> Self {
+        self.along = Some(Arc::new(along));
+        self
+    }
+
+    /// Fills `matrix` by differences, with other steps for unknowns in which G is not resolved.
     fn difference(&mut self, z: &[f64]) {
         let n = self.closures.states;
-        let mut moved = z.to_vec();
-        let (mut ahead, mut behind) = (vec![0.0; n], vec![0.0; n]);
-        for j in 0..=n {
-            // Where a step of the usual length leaves the domain of G, one relative to z may not.
-            for h in [1.0 + z[j].abs(), z[j].abs()].map(|scale| DIFFERENCE * scale) {
-                let mut column = vec![0.0; n];
-                for (multiple, weight) in WEIGHTS {
-                    moved[j] = z[j] + multiple * h;
-                    self.residual(&moved, &mut ahead);
-                    moved[j] = z[j] - multiple * h;
-                    self.residual(&moved, &mut behind);
-                    let pairs = ahead.iter().zip(&behind);
-                    for (derivative, (ahead, behind)) in column.iter_mut().zip(pairs) {
-                        *derivative += weight * (ahead - behind) / (60.0 * h);
-                    }
-                }
-                moved[j] = z[j];
-                let finite = column.iter().all(|x| x.is_finite());
-                let rows = self.matrix.chunks_exact_mut(n + 1);
-                for (row, derivative) in rows.zip(column) {
-                    row[j] = derivative;
-                }
-                if finite {
-                    break;
+        let mut centre = vec![f64::NAN; n];
+        self.residual(z, &mut centre);
+        let columns: Vec<Difference> = (0..=n)
+            .map(|j| {
+                let step = self.steps[j].unwrap_or_default();
+                self.column(z, j, step.length(z[j]), &centre)
+            })
+            .collect();
+        // The size of an equation is the largest change that it shows.
+        let largest = |i: usize| columns.iter().fold(0.0, |m: f64, c| m.max(c.terms[i]));
+        let sizes: Vec<f64> = (0..n).map(largest).collect();
+        for (j, mut column) in columns.into_iter().enumerate() {
+            let known = self.steps[j];
+            let mut at = |h: f64| self.column(z, j, h, &centre);
+            if known.is_none() {
+                let h = Step::default().length(z[j]);
+                let mut others = SHORTER.iter().map(|share| at(share * h));
+                if let Some(other) = others.find(|other| column.contradicts(other, &sizes)) {
+                    column = other;
                 }
             }
+            let left = column.unresolved(&sizes, ROUNDING);
+            let mut step = known.unwrap_or_default();
+            if !step.serves(left) {
+                (step, column) = Step::searched(column, left, &sizes, at);
+            }
+            self.steps[j] = Some(step);
+            let rows = self.matrix.chunks_exact_mut(n + 1);
+            for (row, derivative) in rows.zip(&column.values) {
+                row[j] = *derivative;
+            }
         }
+    }
+
+    /// The derivatives with respect to unknown j, with steps of length h.
+    fn column(&mut self, z: &[f64], j: usize, h: f64, centre: &[f64]) -> Difference {
+        let n = self.closures.states;
+        let [low, high] = self.closures.bounds;
+        let room = if j == n {
+            [z[n] - low, high - z[n]]
+        } else {
+            [f64::INFINITY; 2]
+        };
+        let (stencil, h) = Stencil::first(room, h);
+        let mut moved = z.to_vec();
+        stencil.apply(centre, h, |change, g| {
+            moved[j] = z[j] + change;
+            if j == n {
+                // Rounding may lead beyond.
+                moved[n] = moved[n].clamp(low, high);
+            }
+            self.residual(&moved, g);
+        })
     }
 }
 
@@ -145,6 +232,33 @@ impl System for DenseSystem {
 
     fn residual(&mut self, z: &[f64], g: &mut [f64]) {
         self.closures.residual(z, g);
+    }
+
+    fn set_bounds(&mut self, bounds: [f64; 2]) {
+        self.closures.bounds = bounds;
+    }
+
+    fn derivative_along(&mut self, z: &[f64], d: &[f64], g: &mut [f64]) -> bool {
+        let x = self.closures.read(z);
+        let (states, rates) = self.closures.rates(d);
+        let parameters = &self.closures.parameters;
+        g.fill(f64::NAN);
+        if let Some(along) = &self.along {
+            along([x, parameters], [states, &rates], g);
+            return true;
+        }
+        let Some(jacobian) = &self.jacobian else {
+            return false;
+        };
+        self.full.fill(f64::NAN);
+        jacobian(x, parameters, &mut self.full);
+        let columns = x.len() + rates.len();
+        for (g, row) in g.iter_mut().zip(self.full.chunks_exact(columns)) {
+            let terms = row.iter().zip(states.iter().chain(&rates));
+            // Derivatives with respect to parameters that do not vary need not be written.
+            *g = terms.filter(|(_, d)| **d != 0.0).map(|(j, d)| j * d).sum();
+        }
+        g.iter().all(|g| g.is_finite())
     }
 
     fn linearise(&mut self, z: &[f64]) -> Result<(), Cause> {

@@ -1,8 +1,6 @@
-//! Systems with exact derivatives: the feature `bvp`.
+//! Exact derivatives by dual numbers: the feature `bvp`.
 
-use crate::system::dense::DenseSystem;
 use bvp::{Dual, Real};
-use std::sync::Arc;
 
 /// Number of derivatives that one evaluation carries.
 const WIDTH: usize = 4;
@@ -13,52 +11,34 @@ pub trait Differentiable {
     fn residual<T: Real>(&self, x: &[T], p: &[T], g: &mut [T]);
 }
 
-impl DenseSystem {
-    /// As [`new`](Self::new), with exact derivatives by dual numbers. Neither the units of the unknowns
-    /// nor narrow features of G matter to these, as they do to differences.
-    ///
-    /// ```
-    /// use bvp::Real;
-    /// use continuation::{Branch, DenseSystem, Differentiable, Direction, Kind, Options};
-    ///
-    /// /// Steady states of a stirred tank (Uppal, Ray & Poore 1974).
-    /// struct Tank;
-    ///
-    /// impl Differentiable for Tank {
-    ///     fn residual<T: Real>(&self, x: &[T], p: &[T], g: &mut [T]) {
-    ///         let rate = p[0] * (-x[0] + 1.0) * x[1].exp();
-    ///         g[0] = rate - x[0];
-    ///         g[1] = p[1] * rate - (p[2] + 1.0) * x[1];
-    ///     }
-    /// }
-    ///
-    /// let mut tank = DenseSystem::exact(2, &[0.0, 18.0, 3.0], 0, Tank);
-    /// let options = Options::within(0.0, 0.3);
-    /// let branch = Branch::new(&mut tank, &[0.0; 3], Direction::Increasing, &options)?;
-    /// let limits: Vec<_> = branch.filter(|point| point.kind == Kind::LimitPoint).collect();
-    /// assert!((limits[0].lambda() - 0.5 * (-1.5f64).exp()).abs() < 1e-15);
-    /// # Ok::<(), continuation::Error>(())
-    /// ```
-    ///
-    /// # Panics
-    /// If there is no parameter of the number `lambda`.
-    pub fn exact(
-        states: usize,
-        parameters: &[f64],
-        lambda: usize,
-        equations: impl Differentiable + Send + Sync + 'static,
-    ) -> Self {
-        let equations = Arc::new(equations);
-        let values = Arc::clone(&equations);
-        Self::new(states, parameters, lambda, move |x, p, g| {
-            values.residual(x, p, g);
-        })
-        .with_jacobian(move |x, p, j| derivatives(&*equations, x, p, j))
+/// Writes the derivative of G along a direction: x and p, then the rates of both.
+pub(crate) fn derivative_along(
+    equations: &impl Differentiable,
+    [x, p]: [&[f64]; 2],
+    [dx, dp]: [&[f64]; 2],
+    g: &mut [f64],
+) {
+    let along = |values: &[f64], rates: &[f64]| -> Vec<Dual<1>> {
+        let pairs = values.iter().zip(rates);
+        let dual = |(&value, &rate)| Dual {
+            value,
+            gradient: [rate],
+        };
+        pairs.map(dual).collect()
+    };
+    let mut dual = vec![Dual::constant(f64::NAN); g.len()];
+    equations.residual(&along(x, dx), &along(p, dp), &mut dual);
+    for (g, dual) in g.iter_mut().zip(dual) {
+        *g = if dual.value.is_nan() {
+            f64::NAN
+        } else {
+            dual.gradient[0]
+        };
     }
 }
 
 /// Writes the derivatives of G with respect to x and p, n × (n + parameters), row-major.
-fn derivatives(equations: &impl Differentiable, x: &[f64], p: &[f64], j: &mut [f64]) {
+pub(crate) fn derivatives(equations: &impl Differentiable, x: &[f64], p: &[f64], j: &mut [f64]) {
     let (n, columns) = (x.len(), x.len() + p.len());
     let constant = |value: &f64| Dual::<WIDTH>::constant(*value);
     let mut unknowns: Vec<_> = x.iter().chain(p).map(constant).collect();

@@ -3,7 +3,10 @@
 #[cfg(feature = "bvp")]
 mod bvp;
 mod closures;
+#[cfg(all(feature = "bvp", feature = "sparse"))]
+mod colouring;
 pub(crate) mod dense;
+pub(crate) mod difference;
 #[cfg(feature = "bvp")]
 pub(crate) mod exact;
 mod permutation;

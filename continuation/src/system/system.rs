@@ -32,6 +32,24 @@ pub trait System {
     /// [`adapted`](Self::adapted) changes that. Branch points are recognised by it.
     fn null_vector(&mut self, t: &mut [f64]);
 
+    /// The bounds of λ, told before anything else is asked: G is not to be evaluated beyond them, not even
+    /// for differences. Systems that evaluate G only where they are asked to need not look at them.
+    fn set_bounds(&mut self, bounds: [f64; 2]) {
+        let _ = bounds;
+    }
+
+    /// `g` = J(z) d, the exact derivative of G along the direction `d` of n + 1 numbers or, for systems
+    /// with a second parameter, of n + 2, the last one the rate of μ. Returns false (the default), with
+    /// nothing promised about `g`, where it is known by differences only. The last linearisation stays
+    /// valid.
+    ///
+    /// Second derivatives of G along d are then differences of these, accurate to about 1e-12, else second
+    /// differences of G, accurate to about 1e-9.
+    fn derivative_along(&mut self, z: &[f64], d: &[f64], g: &mut [f64]) -> bool {
+        let _ = (z, d, g);
+        false
+    }
+
     /// Which unknowns of x (n numbers each) measure the same quantity, and with what share: the
     /// shares of a group sum to one. Samples of one function form a group, with quadrature weights
     /// as shares, so that the arclength does not depend on their number; an unknown with share

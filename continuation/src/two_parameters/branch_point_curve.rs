@@ -15,7 +15,7 @@ use crate::difficulty::{Cause, Difficulty};
 use crate::error::{Error, check_length};
 use crate::special_points::branch_point;
 use crate::special_points::null_space::{NullSpace, solve};
-use crate::special_points::second_derivative::{FINE, ROUGH};
+use crate::special_points::second_derivative::Precision;
 use crate::system::system::{System, TwoParameter};
 use crate::two_parameters::null_surface::Surface;
 
@@ -102,6 +102,10 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
         g[n..].copy_from_slice(&phi.unwrap_or([f64::NAN; 2]));
     }
 
+    fn set_bounds(&mut self, bounds: [f64; 2]) {
+        self.surface.bounds = bounds;
+    }
+
     fn linearise(&mut self, z: &[f64]) -> Result<(), Cause> {
         let n = z.len() - 3;
         self.surface
@@ -110,7 +114,7 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
         first.push(0.0);
         second.push(0.0);
         // The third one is the way with μ, orthogonal to both.
-        let rate = self.surface.second_derivative();
+        let rate = self.surface.mu_derivative();
         let mut third: Vec<f64> = self.surface.shortest(&rate).iter().map(|v| -v).collect();
         let norm = self
             .surface
@@ -121,7 +125,9 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
         third.push(1.0);
         third.iter_mut().for_each(|v| *v /= norm);
         let [along_first, along_second] = self.surface.own_rates();
-        let along_third = self.surface.rates(&third[..=n], third[n + 2], &FINE);
+        let along_third = self
+            .surface
+            .rates(&third[..=n], third[n + 2], Precision::Fine);
         self.basis = [first, second, third];
         for (j, rates) in [along_first, along_second, along_third].iter().enumerate() {
             let slope = self.slope(rates).ok_or(Difficulty::Singular)?;
@@ -150,7 +156,7 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
         let mut right = [r[n], r[n + 1]];
         if length > 0.0 {
             let unit: Vec<f64> = v[..=n].iter().map(|v| v / length).collect();
-            let rates = self.surface.rates(&unit, 0.0, &ROUGH);
+            let rates = self.surface.rates(&unit, 0.0, Precision::Rough);
             let slope = self.slope(&rates).unwrap_or([f64::NAN; 2]);
             right
                 .iter_mut()
@@ -213,7 +219,9 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
         let [z @ .., _, _] = &vectors.first()?[..] else {
             return None;
         };
-        Self::new(fine, z).ok()
+        let mut fine = Self::new(fine, z).ok()?;
+        fine.surface.bounds = self.surface.bounds;
+        Some(fine)
     }
 
     fn tolerance(&self) -> f64 {

@@ -18,7 +18,7 @@
 use crate::difficulty::{Cause, Difficulty};
 use crate::error::{Error, check_length};
 use crate::special_points::null_space::NullSpace;
-use crate::special_points::second_derivative::ROUGH;
+use crate::special_points::second_derivative::Precision;
 use crate::system::system::{System, TwoParameter};
 use crate::two_parameters::null_surface::Surface;
 
@@ -131,6 +131,10 @@ impl<S: TwoParameter + Clone> System for LimitPointCurve<S> {
         };
     }
 
+    fn set_bounds(&mut self, bounds: [f64; 2]) {
+        self.surface.bounds = bounds;
+    }
+
     fn linearise(&mut self, z: &[f64]) -> Result<(), Cause> {
         let n = z.len() - 1;
         self.surface.linearise(&z[..n], z[n], &self.reference)?;
@@ -151,7 +155,9 @@ impl<S: TwoParameter + Clone> System for LimitPointCurve<S> {
         let mut right = r[n];
         if length > 0.0 {
             let unit: Vec<f64> = v.iter().map(|v| v / length).collect();
-            let rates = self.surface.rates(&unit[..=n], unit[n + 1], &ROUGH);
+            let rates = self
+                .surface
+                .rates(&unit[..=n], unit[n + 1], Precision::Rough);
             let (plane, metric) = (self.surface.space(), &self.surface.metric);
             right -= length * plane.determinant_rate(metric, &self.reference, &rates);
         }
@@ -194,7 +200,9 @@ impl<S: TwoParameter + Clone> System for LimitPointCurve<S> {
     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self> {
         let fine = self.surface.refined(vectors, 1)?;
         let (_, z) = vectors.first()?.split_last()?;
-        Self::new(fine, z).ok()
+        let mut fine = Self::new(fine, z).ok()?;
+        fine.surface.bounds = self.surface.bounds;
+        Some(fine)
     }
 
     fn tolerance(&self) -> f64 {

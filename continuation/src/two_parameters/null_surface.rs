@@ -5,11 +5,13 @@ use crate::curve::metric::Metric;
 use crate::difficulty::{Cause, Difficulty};
 use crate::options::Options;
 use crate::special_points::null_space::NullSpace;
-use crate::special_points::second_derivative::{FINE, Rule, bending, mixed};
+use crate::special_points::second_derivative::{Line, Precision, mixed};
+use crate::system::difference::{Stencil, Step};
 use crate::system::system::TwoParameter;
 
-/// Step of the difference for `G_μ`, relative to 1 + |μ|.
-const CENTRAL: f64 = 1e-5;
+/// `G_μ` by differences is searched with other steps where formulas of sixth and of fourth order differ by
+/// more than this share of their terms: the former is then accurate to about the power 3/2 of it.
+const RESOLVED: f64 = 1e-6;
 
 /// A place (z, μ) with the null space there.
 #[derive(Clone)]
@@ -33,6 +35,8 @@ pub(crate) struct Surface<S> {
     column: Option<Vec<f64>>,
     here: Place,
     ahead: Option<Place>,
+    /// The bounds of μ.
+    pub(crate) bounds: [f64; 2],
     /// Second derivatives of G along the basis.
     bends: [Vec<f64>; 2],
 }
@@ -48,12 +52,13 @@ impl<S: TwoParameter + Clone> Surface<S> {
         let mut metric = Metric::new(&base, &anywhere, z);
         metric.reach(&vec![0.0; z.len()]);
         let mu = base.second();
-        Self::with_metric(base, metric, z, mu, column)
+        Self::with_metric(base, metric, anywhere.bounds, z, mu, column)
     }
 
     fn with_metric(
         base: S,
         metric: Metric,
+        bounds: [f64; 2],
         z: &[f64],
         mu: f64,
         column: impl FnOnce(&mut S, &Metric) -> Result<Option<Vec<f64>>, Difficulty>,
@@ -61,7 +66,7 @@ impl<S: TwoParameter + Clone> Surface<S> {
         let (mut probe, mut corrector) = (base.clone(), Corrector::anywhere());
         probe.set_second(mu);
         let column = column(&mut probe, &metric)?;
-        let here = place(&mut probe, &mut corrector, &metric, &column, z, mu)?;
+        let here = place(&mut probe, &mut corrector, &metric, &column, z, mu, bounds)?;
         Ok(Self {
             base,
             probe,
@@ -69,6 +74,7 @@ impl<S: TwoParameter + Clone> Surface<S> {
             corrector,
             column,
             ahead: Some(here.clone()),
+            bounds,
             here,
             bends: [Vec::new(), Vec::new()],
         })
@@ -95,7 +101,15 @@ impl<S: TwoParameter + Clone> Surface<S> {
     pub(crate) fn look(&mut self, z: &[f64], mu: f64) -> Result<&NullSpace, Difficulty> {
         self.ahead = None;
         let (probe, corrector) = (&mut self.probe, &mut self.corrector);
-        let found = place(probe, corrector, &self.metric, &self.column, z, mu)?;
+        let found = place(
+            probe,
+            corrector,
+            &self.metric,
+            &self.column,
+            z,
+            mu,
+            self.bounds,
+        )?;
         Ok(&self.ahead.insert(found).space)
     }
 
@@ -113,13 +127,21 @@ impl<S: TwoParameter + Clone> Surface<S> {
             }
             _ => {
                 let (base, corrector) = (&mut self.base, &mut self.corrector);
-                place(base, corrector, &self.metric, &self.column, z, mu)?
+                place(
+                    base,
+                    corrector,
+                    &self.metric,
+                    &self.column,
+                    z,
+                    mu,
+                    self.bounds,
+                )?
             }
         };
         self.here.space.orient(&self.metric, reference);
         self.bends = [0, 1].map(|i| {
             let (direction, mu) = self.split(i);
-            self.bend(&direction, mu, &FINE)
+            self.bend(&direction, mu, Precision::Fine)
         });
         Ok(())
     }
@@ -132,15 +154,17 @@ impl<S: TwoParameter + Clone> Surface<S> {
     }
 
     /// Second derivative of G along a direction from the last linearisation.
-    fn bend(&mut self, direction: &[f64], rate: f64, rule: &Rule) -> Vec<f64> {
+    fn bend(&mut self, direction: &[f64], rate: f64, precision: Precision) -> Vec<f64> {
         self.ahead = None;
         let (probe, Place { z, mu, .. }) = (&mut self.probe, &self.here);
-        let residual = |s: f64, g: &mut [f64]| {
-            let moved: Vec<f64> = z.iter().zip(direction).map(|(z, d)| z + s * d).collect();
-            probe.set_second(mu + s * rate);
-            probe.residual(&moved, g);
+        let line = Line {
+            z: &[z, &[*mu][..]].concat(),
+            direction: &[direction, &[rate]].concat(),
+            bounds: self.bounds,
         };
-        bending(residual, z.len() - 1, rule)
+        line.second_derivative(probe, precision, |probe, z| {
+            probe.set_second(z[z.len() - 1]);
+        })
     }
 
     /// The vector w orthogonal to the null space with \[J b\] w = r.
@@ -154,12 +178,17 @@ impl<S: TwoParameter + Clone> Surface<S> {
     }
 
     /// The rates of both basis vectors along a unit direction with this μ component.
-    pub(crate) fn rates(&mut self, direction: &[f64], rate: f64, rule: &Rule) -> [Vec<f64>; 2] {
-        let own = self.bend(direction, rate, rule);
+    pub(crate) fn rates(
+        &mut self,
+        direction: &[f64],
+        rate: f64,
+        precision: Precision,
+    ) -> [Vec<f64>; 2] {
+        let own = self.bend(direction, rate, precision);
         [0, 1].map(|i| {
             let (mut both, mu) = self.split(i);
             both.iter_mut().zip(direction).for_each(|(b, d)| *b += d);
-            let both = self.bend(&both, mu + rate, rule);
+            let both = self.bend(&both, mu + rate, precision);
             self.turned(&mixed(&both, &own, &self.bends[i]))
         })
     }
@@ -168,16 +197,16 @@ impl<S: TwoParameter + Clone> Surface<S> {
     pub(crate) fn own_rates(&mut self) -> [[Vec<f64>; 2]; 2] {
         let [(first, mu), (second, nu)] = [0, 1].map(|i| self.split(i));
         let sum: Vec<f64> = first.iter().zip(&second).map(|(a, b)| a + b).collect();
-        let both = self.bend(&sum, mu + nu, &FINE);
+        let both = self.bend(&sum, mu + nu, Precision::Fine);
         let [a, b] = self.bends.clone();
         let cross = self.turned(&mixed(&both, &a, &b));
         [[self.turned(&a), cross.clone()], [cross, self.turned(&b)]]
     }
 
     /// `G_μ` at the last linearisation.
-    pub(crate) fn second_derivative(&mut self) -> Vec<f64> {
+    pub(crate) fn mu_derivative(&mut self) -> Vec<f64> {
         self.ahead = None;
-        second_derivative(&mut self.probe, &self.here.z, self.here.mu)
+        mu_derivative(&mut self.probe, &self.here.z, self.here.mu, self.bounds)
     }
 
     /// The same in a better discretisation of the base at its solution, the first of `vectors`, which
@@ -199,8 +228,9 @@ impl<S: TwoParameter + Clone> Surface<S> {
         let mut metric = self.metric.clone();
         metric.regroup(&base);
         metric.observe(z);
-        let adapted =
-            Self::with_metric(base, metric, z, mu, |base, metric| column(base, metric, z));
+        let adapted = Self::with_metric(base, metric, self.bounds, z, mu, |base, metric| {
+            column(base, metric, z)
+        });
         Ok(Some(adapted?))
     }
 
@@ -221,11 +251,12 @@ fn place<S: TwoParameter>(
     column: &Option<Vec<f64>>,
     z: &[f64],
     mu: f64,
+    bounds: [f64; 2],
 ) -> Result<Place, Difficulty> {
     system.set_second(mu);
     let column = match column {
         Some(column) => column.clone(),
-        None => second_derivative(system, z, mu),
+        None => mu_derivative(system, z, mu, bounds),
     };
     let space = NullSpace::at(system, corrector, metric, z, &column)?;
     Ok(Place {
@@ -236,19 +267,37 @@ fn place<S: TwoParameter>(
     })
 }
 
-/// `G_μ` by a central difference; leaves the system at μ.
-fn second_derivative(system: &mut impl TwoParameter, z: &[f64], mu: f64) -> Vec<f64> {
-    let h = CENTRAL * (1.0 + mu.abs());
-    let mut at = |mu: f64| {
-        let mut g = vec![f64::NAN; z.len() - 1];
-        system.set_second(mu);
-        system.residual(z, &mut g);
-        g
-    };
-    let (ahead, behind) = (at(mu + h), at(mu - h));
+/// `G_μ`, exact where the system knows it, else by differences within the bounds of μ; leaves the system at
+/// μ.
+fn mu_derivative(
+    system: &mut impl TwoParameter,
+    z: &[f64],
+    mu: f64,
+    [low, high]: [f64; 2],
+) -> Vec<f64> {
+    let mut here = vec![f64::NAN; z.len() - 1];
+    let mut direction = vec![0.0; z.len()];
+    direction.push(1.0);
     system.set_second(mu);
-    let pairs = ahead.iter().zip(&behind);
-    pairs.map(|(a, b)| (a - b) / (2.0 * h)).collect()
+    if system.derivative_along(z, &direction, &mut here) {
+        return here;
+    }
+    system.residual(z, &mut here);
+    let mut with_step = |h: f64| {
+        let (stencil, h) = Stencil::first([mu - low, high - mu], h);
+        stencil.apply(&here, h, |change, g| {
+            system.set_second((mu + change).clamp(low, high));
+            system.residual(z, g);
+        })
+    };
+    let mut found = with_step(Step::default().length(mu));
+    let sizes = vec![1.0; here.len()];
+    let left = found.unresolved(&sizes, 0.0);
+    if left > RESOLVED {
+        found = Step::searched(found, left, &sizes, with_step).1;
+    }
+    system.set_second(mu);
+    found.values
 }
 
 /// Works on vectors without their last entries, which are kept.

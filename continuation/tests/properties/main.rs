@@ -5,6 +5,7 @@ mod asymptotes;
 mod bratu;
 mod counting;
 mod curves;
+mod differences;
 mod failures;
 mod hidden;
 mod invariance;

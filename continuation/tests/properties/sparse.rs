@@ -2,9 +2,11 @@
 
 use crate::systems::{pitchfork, tank};
 use crate::{assert_close, of, trace};
+use bvp::Real;
 use continuation::Direction::{Decreasing, Increasing};
 use continuation::{
-    Branch, Cause, Difficulty, Error, Kind, LimitPointCurve, Options, Point, SparseSystem, System,
+    Branch, Cause, DenseSystem, Differentiable, Difficulty, Error, Kind, LimitPointCurve, Options,
+    Point, SparseSystem, System,
 };
 use std::f64::consts::PI;
 
@@ -187,5 +189,57 @@ fn entries_that_are_none_are_refused() {
     assert_eq!(
         refused(0, 1, f64::NAN).to_string(),
         "the jacobian is not finite"
+    );
+}
+
+/// Uᵢ₋₂ − 4 Uᵢ₋₁ + 6 Uᵢ − … with a cubic: a pentadiagonal system, and one state too many in one equation.
+struct Beam {
+    wide: bool,
+}
+
+impl Differentiable for Beam {
+    fn residual<T: Real>(&self, u: &[T], p: &[T], g: &mut [T]) {
+        let at = |i: usize, shift: usize| {
+            let place = (i + shift).checked_sub(2).and_then(|place| u.get(place));
+            place.copied().unwrap_or(T::ZERO)
+        };
+        for i in 0..u.len() {
+            let ends = at(i, 0) + at(i, 4);
+            let next = at(i, 1) + at(i, 3);
+            g[i] = ends - next * 4.0 + u[i] * 6.0 - p[0] * u[i] + u[i].powi(3) - p[1];
+        }
+        if self.wide {
+            g[3] += u[9] * 1e-3;
+        }
+    }
+}
+
+#[test]
+fn sparse_systems_with_exact_derivatives_have_the_branches_of_dense_ones() {
+    let n: usize = 20;
+    let pattern: Vec<(usize, usize)> = (0..n * n)
+        .map(|k| (k / n, k % n))
+        .filter(|(i, j)| i.abs_diff(*j) <= 2)
+        .collect();
+    let options = Options::within(0.0, 1.0);
+    let start = vec![0.0; n + 1];
+    let parameters = [0.0, 0.01];
+    let groups = vec![0; n];
+    let mut sparse = SparseSystem::exact(n, &parameters, 0, &pattern, Beam { wide: false });
+    sparse = sparse.with_groups(&groups);
+    let (points, _) = trace(&mut sparse, &start, Increasing, &options);
+    let mut dense = DenseSystem::exact(n, &parameters, 0, Beam { wide: false });
+    let (others, _) = trace(&mut dense, &start, Increasing, &options);
+    let ends = [&points, &others].map(|points| points[points.len() - 1].z.clone());
+    assert_close(&ends[0], &ends[1], 1e-9);
+    // A dependence that the pattern does not name is not overlooked.
+    let mut wide = SparseSystem::exact(n, &parameters, 0, &pattern, Beam { wide: true });
+    let refused = Branch::new(&mut wide, &start, Increasing, &options)
+        .err()
+        .unwrap();
+    assert!(
+        refused
+            .to_string()
+            .contains("equation 3 depends on states outside")
     );
 }
