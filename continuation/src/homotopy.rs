@@ -3,7 +3,7 @@
 use crate::branch::branch::{Branch, Direction};
 use crate::error::Error;
 use crate::options::Options;
-use crate::point::{Kind, Point};
+use crate::point::Point;
 use crate::stop::Stop;
 use crate::system::system::System;
 
@@ -28,7 +28,7 @@ pub fn homotopy<S: System>(
         ..options.clone()
     };
     let mut branch = Branch::new(system, start, direction, &options)?;
-    let mut last = branch.node.point(Kind::Start);
+    let mut last = branch.start();
     for point in branch.by_ref() {
         last = point;
         if last.lambda() == goal {

@@ -159,7 +159,7 @@
 //! | `THL`, `THU` | `θ` | | [`Options::weights`] |
 //! | `ILP`, `ISP`, `SP` | `detect_bifurcation`, `detect_fold` | `Singularities` | always |
 //! | `NPR` | `save_sol_every_step` | | the iterator yields every point; keep what is wanted |
-//! | `ISW = −1` | `continuation(br, ind)` | `init_BP_EP` | [`Branch::switch`], one [`Leg`] each |
+//! | `ISW = −1` | `continuation(br, ind)` | `init_BP_EP` | [`Branch::switch`], one [`HalfBranch`] each |
 //! | `ISW = 2` at LP | `continuation` of a fold | `init_LP_LP` | [`LimitPointCurve`] |
 //! | `ISW = 2` at BP | `continuation` of a branch point | `init_BP_BP` | [`BranchPointCurve`] |
 //! | `IRS` | | | [`Branch::resume`] |
@@ -192,7 +192,7 @@ mod system;
 mod two_parameters;
 
 pub use branch::branch::{Branch, Direction};
-pub use branch::switching::Leg;
+pub use branch::switching::HalfBranch;
 pub use curve::root::root;
 pub use deflation::deflate;
 pub use difficulty::{Cause, Difficulty};

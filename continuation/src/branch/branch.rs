@@ -1,29 +1,30 @@
 //! A branch as an iterator over its points.
 
-use crate::curve::corrector::{Accuracy, Condition, Corrector};
+use crate::branch::assess::Assessment;
+use crate::branch::discretisation::Discretisation;
+use crate::branch::events::Events;
+use crate::branch::labels::Labels;
+use crate::branch::progress::Progress;
+use crate::branch::start::{TURNING, correct_across, correct_start, set_out};
+use crate::branch::step::{Step, Stepper};
+use crate::branch::switching::{HalfBranch, first_step};
+use crate::curve::curve::{Curve, reverse};
 use crate::curve::metric::Metric;
-use crate::curve::predictor::History;
 use crate::difficulty::Difficulty;
 use crate::error::{Error, check_length};
 use crate::options::Options;
 use crate::point::{Kind, Point};
-use crate::special_points::branch_point::column;
-use crate::special_points::null_space::NullSpace;
-use crate::special_points::span::Node;
+use crate::special_points::branch_point::{bordering_vector, choose_border};
+use crate::special_points::node::Node;
 use crate::stop::Stop;
 use crate::system::system::System;
-use std::collections::VecDeque;
 
-/// A start whose Jacobian comes this close to a second null vector, relative to its size, is
-/// refused.
-const SINGULAR: f64 = 1e-11;
-/// λ turns, or rests, where its rate along the unit tangent, with its range as unit, is below this.
-pub(crate) const TURNING: f64 = 1e-12;
-/// The most corrections of a first point.
-const CORRECTIONS: usize = 50;
-
-/// An event function of the system and a point.
-pub(crate) type EventFunction<'a, S> = Box<dyn FnMut(&S, &Point) -> f64 + 'a>;
+/// A step that fails is repeated with this share of its length, ...
+const SHORTER: f64 = 0.5;
+/// ... or with this where the system is not defined: its domain may be far away.
+const SHORTER_UNDEFINED: f64 = 0.25;
+/// The most changes of the discretisation at one point.
+const ADAPTATIONS: usize = 3;
 
 /// Where a trace sets out from the first point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,28 +42,13 @@ pub enum Direction {
 /// are drawn by `while let Some(point) = branch.next()`, [`system`](Self::system) is the system in
 /// the discretisation of the last point yielded.
 pub struct Branch<'a, S: System> {
-    pub(crate) system: &'a mut S,
-    pub(crate) options: Options,
-    pub(crate) metric: Metric,
-    pub(crate) corrector: Corrector,
-    /// The column b of the test function for branch points.
-    pub(crate) column: Vec<f64>,
-    pub(crate) events: Vec<EventFunction<'a, S>>,
-    /// The last accepted point and those before.
-    pub(crate) node: Node,
-    pub(crate) history: History,
-    /// The first point and its tangent.
-    pub(crate) home: Node,
-    /// Whether the first point is a branch point.
-    pub(crate) from_branch_point: bool,
-    /// Whether orientation and rates at the last node mean nothing: it is a branch point.
-    pub(crate) unoriented: bool,
-    /// The rate of the height of the null space over the last step.
-    pub(crate) trend: Option<f64>,
-    pub(crate) step: f64,
-    pub(crate) steps: usize,
-    pub(crate) queue: VecDeque<Point>,
-    pub(crate) stop: Option<Stop>,
+    curve: Curve<'a, S>,
+    events: Events<'a, S>,
+    progress: Progress,
+    options: Options,
+    /// The length of the next step.
+    step: f64,
+    stop: Option<Stop>,
 }
 
 impl<'a, S: System> Branch<'a, S> {
@@ -79,13 +65,13 @@ impl<'a, S: System> Branch<'a, S> {
         options: &Options,
     ) -> Result<Self, Error> {
         let mut branch = Self::at(system, start, options)?;
-        branch.correct_start()?;
-        let rate = branch.rate(&branch.node.tangent);
+        correct_start(&mut branch.curve, &mut branch.progress.node)?;
+        let rate = branch.curve.rate(&branch.progress.node.tangent);
         let forward = match direction {
             Direction::Increasing => rate >= 0.0 || rate.abs() < TURNING,
             Direction::Decreasing => rate < 0.0 && rate.abs() >= TURNING,
         };
-        branch.set_out(forward);
+        set_out(&branch.curve, &mut branch.progress, forward);
         Ok(branch)
     }
 
@@ -96,22 +82,56 @@ impl<'a, S: System> Branch<'a, S> {
     pub fn resume(system: &'a mut S, point: &Point, options: &Options) -> Result<Self, Error> {
         let mut branch = Self::at(system, &point.z, options)?;
         check_length(&point.tangent, point.z.len())?;
-        branch.node.tangent.clone_from(&point.tangent);
-        branch.metric.reach(&point.tangent);
+        let Self {
+            curve, progress, ..
+        } = &mut branch;
+        let node = &mut progress.node;
+        node.tangent.clone_from(&point.tangent);
+        curve.metric.reach(&point.tangent);
+        let mut ahead = true;
         if point.kind == Kind::BranchPoint {
-            (branch.unoriented, branch.from_branch_point) = (true, true);
-            branch.metric.normalise(&mut branch.node.tangent);
-            branch.column = column(branch.system, &branch.corrector, &branch.metric, &point.z)
-                .map_err(Error::Start)?;
-            branch.set_out(true);
+            (progress.unoriented, progress.from_branch_point) = (true, true);
+            curve.metric.normalise(&mut node.tangent);
+            curve.border = bordering_vector(curve, &point.z).map_err(Error::Start)?;
         } else {
-            branch
-                .correct_across(point.tangent.clone())
-                .map_err(Error::Start)?;
-            branch.watch_branch_points().map_err(Error::Start)?;
-            let ahead = branch.metric.dot(&branch.node.tangent, &point.tangent) >= 0.0;
-            branch.set_out(ahead);
+            correct_across(curve, node, &point.tangent).map_err(Error::Start)?;
+            choose_border(curve, node).map_err(Error::Start)?;
+            ahead = curve.metric.dot(&node.tangent, &point.tangent) >= 0.0;
         }
+        set_out(curve, progress, ahead);
+        Ok(branch)
+    }
+
+    /// One half of the other branch at a branch point. Its first point off the branch point is found
+    /// before the branch is returned, and verified to lie in the direction of the other branch.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new); [`Error::NoSecondBranch`] and [`Error::Switch`].
+    pub fn switch(
+        system: &'a mut S,
+        point: &Point,
+        half: HalfBranch,
+        options: &Options,
+    ) -> Result<Self, Error> {
+        let Some(other) = &point.other else {
+            return Err(Error::NoSecondBranch);
+        };
+        let mut onward = point.clone();
+        onward.tangent.clone_from(other);
+        if half == HalfBranch::Backward {
+            reverse(&mut onward.tangent);
+        }
+        onward.kind = Kind::BranchPoint;
+        let mut branch = Self::resume(system, &onward, options)?;
+        let accuracy = branch.curve.accuracy(options.accuracy);
+        let directions = [&point.tangent[..], &branch.progress.node.tangent];
+        branch.step = first_step(
+            &mut branch.curve,
+            &point.z,
+            directions,
+            branch.step,
+            accuracy,
+        )?;
         Ok(branch)
     }
 
@@ -125,127 +145,15 @@ impl<'a, S: System> Branch<'a, S> {
             return Err(Error::StartOutside { lambda, low, high });
         }
         system.set_bounds(options.bounds);
-        let node = Node::new(z.to_vec(), vec![0.0; unknowns]);
+        let metric = Metric::new(system, options, z);
         Ok(Self {
-            metric: Metric::new(system, options, z),
-            system,
+            curve: Curve::new(system, metric, options.bounds),
+            events: Events::none(),
+            progress: Progress::at(Node::new(z.to_vec(), vec![0.0; unknowns])),
             options: options.clone(),
-            corrector: Corrector::within(options.bounds),
-            column: Vec::new(),
-            events: Vec::new(),
-            home: node.clone(),
-            node,
-            history: History::default(),
-            from_branch_point: false,
-            unoriented: false,
-            trend: None,
             step: options.first_step.min(options.largest_step),
-            steps: 0,
-            queue: VecDeque::new(),
             stop: None,
         })
-    }
-
-    /// Corrects the start at its λ, else across the curve, and finds its tangent.
-    fn correct_start(&mut self) -> Result<(), Error> {
-        let unknowns = self.node.z.len();
-        let condition = Condition::lambda(unknowns, self.node.z[unknowns - 1]);
-        let mut z = self.node.z.clone();
-        match self.correct_to(&mut z, &condition) {
-            Ok(()) => {
-                z[unknowns - 1] = self.node.z[unknowns - 1];
-                self.node.z = z;
-            }
-            Err(difficulty) => {
-                let tangent = self
-                    .corrector
-                    .tangent(self.system, &self.metric, &self.node.z);
-                let across = tangent.map(|tangent| self.correct_across(tangent));
-                if !matches!(across, Ok(Ok(()))) {
-                    return Err(Error::Start(difficulty));
-                }
-            }
-        }
-        self.metric.observe(&self.node.z);
-        let (system, z) = (&mut *self.system, &self.node.z);
-        let tangent = self
-            .corrector
-            .tangent(system, &self.metric, z)
-            .map_err(Error::Start)?;
-        self.metric.reach(&tangent);
-        self.node.tangent = tangent;
-        self.metric.normalise(&mut self.node.tangent);
-        self.watch_branch_points().map_err(Error::Start)?;
-        if self.node.height().abs() < SINGULAR {
-            return Err(Error::SingularStart);
-        }
-        Ok(())
-    }
-
-    /// Corrects the node across `tangent` and finds its own tangent.
-    fn correct_across(&mut self, tangent: Vec<f64>) -> Result<(), Difficulty> {
-        let mut z = self.node.z.clone();
-        let plane = Condition::plane(&self.metric, &tangent, &z);
-        self.correct_to(&mut z, &plane)?;
-        self.node.tangent = self.corrector.tangent(self.system, &self.metric, &z)?;
-        self.node.z = z;
-        Ok(())
-    }
-
-    /// Chooses the column for the test function for branch points and gives the node, where the system
-    /// was linearised last, its second null vector.
-    pub(crate) fn watch_branch_points(&mut self) -> Result<(), Difficulty> {
-        self.column = column(self.system, &self.corrector, &self.metric, &self.node.z)?;
-        let tangent = self.node.tangent.clone();
-        let second = self.second_vector(&tangent)?;
-        // The second vector is (v, −1) up to its length, with J v = b: b is enlarged until v has length
-        // one. With a short v the component η outweighs it, and pairs of branch points are missed.
-        let eta = second.last().map_or(1.0, |eta| eta.abs());
-        let length = (1.0 - eta * eta).sqrt() / eta;
-        let scale = if length > 0.0 { length.min(1.0) } else { 1.0 };
-        self.column.iter_mut().for_each(|b| *b /= scale);
-        self.node.second = self.second_vector(&tangent)?;
-        self.trend = None;
-        Ok(())
-    }
-
-    /// The second null vector of \[J b\], where the system was linearised last, for a unit tangent.
-    pub(crate) fn second_vector(&mut self, tangent: &[f64]) -> Result<Vec<f64>, Difficulty> {
-        NullSpace::second(self.system, &self.metric, tangent, &self.column)
-            .ok_or(Difficulty::Singular)
-    }
-
-    fn correct_to(&mut self, z: &mut [f64], condition: &Condition) -> Result<(), Difficulty> {
-        let accuracy = Accuracy::Rounding;
-        self.corrector
-            .correct(
-                self.system,
-                &self.metric,
-                z,
-                condition,
-                accuracy,
-                CORRECTIONS,
-            )
-            .map(|_| ())
-    }
-
-    /// Makes the node the first point, to be left along its tangent or against it.
-    fn set_out(&mut self, along: bool) {
-        if !along {
-            reverse(&mut self.node.tangent);
-        }
-        self.node.along = along;
-        self.node.cusp = self.system.cusp_function();
-        self.home = self.node.clone();
-        let start = self.node.point(Kind::Start);
-        let turning = self.rate(&self.node.tangent).abs() < TURNING;
-        if turning && !self.unoriented {
-            self.queue.push_back(Point {
-                kind: Kind::LimitPoint,
-                ..start.clone()
-            });
-        }
-        self.queue.push_front(start);
     }
 
     /// Adds a function of the system and a point, whose zeros along the branch are located and yielded
@@ -271,25 +179,168 @@ impl<'a, S: System> Branch<'a, S> {
     /// ```
     #[must_use]
     pub fn event(mut self, mut function: impl FnMut(&S, &Point) -> f64 + 'a) -> Self {
-        let value = function(self.system, &self.node.point(Kind::Regular));
-        self.node.events.push(value);
-        self.events.push(Box::new(function));
+        let node = &mut self.progress.node;
+        let value = function(self.curve.system, &node.point(Kind::Regular));
+        node.events.push(value);
+        self.events.push(function);
         self
     }
 
     /// The system, in the discretisation of the last point yielded.
     pub fn system(&self) -> &S {
-        self.system
+        self.curve.system
     }
 
     /// Why the branch has ended; `None` while it goes on.
     pub fn stop(&self) -> Option<&Stop> {
-        self.stop.as_ref().filter(|_| self.queue.is_empty())
+        self.stop
+            .as_ref()
+            .filter(|_| self.progress.queue.is_empty())
     }
 
     /// Gives up the branch for the reason why it has ended.
     pub fn into_stop(self) -> Option<Stop> {
         self.stop
+    }
+
+    /// The first point.
+    pub(crate) fn start(&self) -> Point {
+        self.progress.first.point(Kind::Start)
+    }
+
+    /// Takes one step and queues its points, or finds the reason to stop.
+    fn advance(&mut self) {
+        self.stop = self.end();
+        while self.stop.is_none() {
+            let step = self.attempt(self.step);
+            let Err(difficulty) = step.and_then(|step| self.accept(step)) else {
+                return;
+            };
+            self.step *= match difficulty {
+                Difficulty::NotFinite { .. } | Difficulty::Linearisation(_) => SHORTER_UNDEFINED,
+                _ => SHORTER,
+            };
+            if self.step < self.options.smallest_step {
+                let step = self.step;
+                self.stop = Some(Stop::StepTooSmall { step, difficulty });
+            }
+        }
+    }
+
+    /// A step of length h: predicted, corrected, assessed, and searched for labelled points.
+    fn attempt(&mut self, h: f64) -> Result<Step, Difficulty> {
+        let mut stepper = Stepper {
+            curve: &mut self.curve,
+            events: &mut self.events,
+            progress: &self.progress,
+            options: &self.options,
+        };
+        let predicted = stepper.predict(h);
+        let arrival = stepper.correct(predicted, h)?;
+        let (node, growth) = stepper.assess(&arrival, h)?;
+        let mut labels = Labels {
+            curve: &mut self.curve,
+            events: &mut self.events,
+            progress: &self.progress,
+            options: &self.options,
+        };
+        let found = labels.on_step(&node, h / self.options.largest_step)?;
+        Ok(Step {
+            node,
+            found,
+            on_bound: arrival.on_bound,
+            growth,
+        })
+    }
+
+    /// Moves on to the end of a step and queues its points; fails, with nothing changed, if the
+    /// system cannot adapt its discretisation to the new point.
+    fn accept(&mut self, step: Step) -> Result<(), Difficulty> {
+        let (progress, metric) = (&mut self.progress, &mut self.curve.metric);
+        let closed = step.found.iter().any(|found| found.kind == Kind::Closed);
+        let points = step.found.into_iter();
+        let points: Vec<Point> = points
+            .map(|found| found.point(&progress.node, metric))
+            .collect();
+        progress.queue.extend(points);
+        let mut node = step.node;
+        if closed {
+            self.stop = Some(Stop::Closed);
+        } else if step.on_bound {
+            let point = node.point(Kind::Bound);
+            let lambda = point.lambda();
+            progress.queue.push_back(point);
+            self.stop = Some(Stop::Bound { lambda });
+        } else {
+            metric.observe(&node.z);
+            metric.normalise(&mut node.tangent);
+            self.move_to(node)?;
+            self.step = (self.step * step.growth).min(self.options.largest_step);
+            self.progress.yield_node(Kind::Regular);
+        }
+        self.progress.steps += 1;
+        Ok(())
+    }
+
+    /// Makes `node` the last point, in a discretisation that suits it.
+    fn move_to(&mut self, node: Node) -> Result<(), Difficulty> {
+        let progress = &mut self.progress;
+        let length = node.arclength - progress.node.arclength;
+        let trend = (node.eta() - progress.node.eta()) / length;
+        let trend = (!progress.unoriented).then_some(trend);
+        let old_trend = std::mem::replace(&mut progress.trend, trend);
+        let left = std::mem::replace(&mut progress.node, node);
+        let history = progress.history.clone();
+        progress.history.push(left.z.clone(), left.arclength);
+        let mut discretisation = Discretisation {
+            accuracy: self.curve.accuracy(self.options.accuracy),
+            curve: &mut self.curve,
+            progress: &mut self.progress,
+        };
+        for adaptation in 0..ADAPTATIONS {
+            match discretisation.adapt(length) {
+                Ok(true) => {}
+                Err(difficulty) if adaptation == 0 => {
+                    (self.progress.node, self.progress.history) = (left, history);
+                    self.progress.trend = old_trend;
+                    self.progress.queue.clear();
+                    return Err(difficulty);
+                }
+                // The discretisation suits the point, or is better than it was; the next step asks again.
+                Ok(false) | Err(_) => break,
+            }
+        }
+        // Rates along a branch begin to mean something with the first step off a branch point.
+        self.progress.unoriented = false;
+        Ok(())
+    }
+
+    /// The reason to stop at the last point, if there is one.
+    fn end(&self) -> Option<Stop> {
+        let Progress { node, steps, .. } = &self.progress;
+        if *steps >= self.options.steps {
+            return Some(Stop::Steps { steps: *steps });
+        }
+        let n = node.z.len() - 1;
+        let (rate, lambda) = (node.tangent[n], node.z[n]);
+        let [low, high] = self.options.bounds;
+        if lambda == high && rate > 0.0 || lambda == low && rate < 0.0 {
+            return Some(Stop::Bound { lambda });
+        }
+        let bound = if rate > 0.0 { high } else { low };
+        let asymptote = self.is_asymptote(bound);
+        asymptote.then_some(Stop::Asymptote { lambda: bound })
+    }
+
+    /// Whether λ can no longer be told from a bound at the accuracy of the points, but would be there
+    /// only many steps ahead.
+    fn is_asymptote(&self, bound: f64) -> bool {
+        let Node { z, tangent, .. } = &self.progress.node;
+        let n = z.len() - 1;
+        let gap = (bound - z[n]).abs();
+        let ahead = gap / tangent[n].abs();
+        let accuracy = self.curve.accuracy(self.options.accuracy);
+        gap <= accuracy * self.curve.metric.range() && ahead > self.step
     }
 }
 
@@ -297,15 +348,21 @@ impl<S: System> Iterator for Branch<'_, S> {
     type Item = Point;
 
     fn next(&mut self) -> Option<Point> {
-        if self.queue.is_empty() && self.stop.is_none() {
+        if self.progress.queue.is_empty() && self.stop.is_none() {
             self.advance();
         }
-        let point = self.queue.pop_front()?;
-        Some(self.assessed(point))
+        let point = self.progress.queue.pop_front()?;
+        let mut assessment = Assessment {
+            curve: &mut self.curve,
+            events: &mut self.events,
+            progress: &mut self.progress,
+            options: &self.options,
+        };
+        let (point, stop) = assessment.assessed(point);
+        if stop.is_some() {
+            self.progress.queue.clear();
+            self.stop = stop;
+        }
+        Some(point)
     }
-}
-
-/// Turns a tangent round.
-pub(crate) fn reverse(tangent: &mut [f64]) {
-    tangent.iter_mut().for_each(|t| *t = -*t);
 }

@@ -1,7 +1,13 @@
-//! The curve as a sequence of labelled points: the loop, its acceptance, its switches.
+//! The trace of a branch: steps, labelled points, discretisations.
 
-pub(crate) mod assess;
+mod assess;
 pub(crate) mod branch;
-pub(crate) mod labels;
-pub(crate) mod step;
+mod closing;
+mod discretisation;
+mod events;
+mod found;
+mod labels;
+mod progress;
+mod start;
+mod step;
 pub(crate) mod switching;

@@ -1,87 +1,46 @@
 //! From a branch point onto the other branch.
 
-use crate::branch::branch::Branch;
-use crate::branch::branch::reverse;
+use crate::branch::start::CORRECTIONS;
 use crate::curve::corrector::{Accuracy, Condition};
+use crate::curve::curve::Curve;
 use crate::error::Error;
-use crate::options::Options;
-use crate::point::{Kind, Point};
 use crate::system::system::System;
 
 /// The first step onto another branch is shortened at most to this.
-const SHORTEST_SWITCH: f64 = 1e-6;
-/// The most corrections of the first point on it.
-const CORRECTIONS: usize = 50;
+const SHORTEST: f64 = 1e-6;
 
 /// The two halves of the other branch at a branch point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Leg {
-    /// Along [`Point::other`].
+pub enum HalfBranch {
+    /// Along [`Point::other`](crate::Point::other).
     Forward,
     /// Against it.
     Backward,
 }
 
-impl<'a, S: System> Branch<'a, S> {
-    /// The other branch from a branch point. Its first point off the branch point is found before
-    /// the branch is returned, and verified to lie in the direction of the other branch.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new); [`Error::NoSecondBranch`] and [`Error::Switch`].
-    pub fn switch(
-        system: &'a mut S,
-        point: &Point,
-        leg: Leg,
-        options: &Options,
-    ) -> Result<Self, Error> {
-        let Some(other) = &point.other else {
-            return Err(Error::NoSecondBranch);
-        };
-        let mut onward = point.clone();
-        onward.tangent.clone_from(other);
-        if leg == Leg::Backward {
-            reverse(&mut onward.tangent);
+/// The length of a first step along the `direction` of the other branch, at most `longest`, whose end lies
+/// on it: its direction is nearer to that of the other branch than to the `old` one.
+pub(crate) fn first_step<S: System>(
+    curve: &mut Curve<'_, S>,
+    z: &[f64],
+    [old, direction]: [&[f64]; 2],
+    longest: f64,
+    accuracy: f64,
+) -> Result<f64, Error> {
+    let cosine = curve.metric.dot(old, direction) / curve.metric.norm(old);
+    let between = cosine.abs().min(1.0).acos();
+    let mut step = longest;
+    while step >= SHORTEST {
+        let pairs = z.iter().zip(direction);
+        let mut end: Vec<f64> = pairs.map(|(z, t)| z + step * t).collect();
+        let plane = Condition::plane(&curve.metric, direction, &end);
+        let corrected = curve.correct(&mut end, &plane, Accuracy::Length(accuracy), CORRECTIONS);
+        let way: Vec<f64> = end.iter().zip(z).map(|(end, z)| end - z).collect();
+        let cosine = curve.metric.dot(&way, direction) / curve.metric.norm(&way);
+        if corrected.is_ok() && cosine.min(1.0).acos() < 0.5 * between {
+            return Ok(step);
         }
-        onward.kind = Kind::BranchPoint;
-        let mut branch = Self::resume(system, &onward, options)?;
-        let direction = branch.node.tangent.clone();
-        let mut old = point.tangent.clone();
-        branch.metric.normalise(&mut old);
-        let between = branch.metric.dot(&old, &direction).abs().min(1.0).acos();
-        while branch.step >= SHORTEST_SWITCH {
-            let predicted: Vec<f64> = point
-                .z
-                .iter()
-                .zip(&direction)
-                .map(|(z, t)| z + branch.step * t)
-                .collect();
-            if let Some(angle) = branch.first_angle(&predicted, &direction)
-                && angle < 0.5 * between
-            {
-                return Ok(branch);
-            }
-            branch.step *= 0.5;
-        }
-        Err(Error::Switch { step: branch.step })
+        step *= 0.5;
     }
-
-    /// The angle between the direction and the way to the point of the curve near `predicted`.
-    fn first_angle(&mut self, predicted: &[f64], direction: &[f64]) -> Option<f64> {
-        let mut z = predicted.to_vec();
-        let plane = Condition::plane(&self.metric, direction, predicted);
-        let accuracy = Accuracy::Length(self.accuracy());
-        self.corrector
-            .correct(
-                self.system,
-                &self.metric,
-                &mut z,
-                &plane,
-                accuracy,
-                CORRECTIONS,
-            )
-            .ok()?;
-        let way: Vec<f64> = z.iter().zip(&self.node.z).map(|(z, a)| z - a).collect();
-        let cosine = self.metric.dot(&way, direction) / self.metric.norm(&way);
-        Some(cosine.min(1.0).acos())
-    }
+    Err(Error::Switch { step })
 }

@@ -1,7 +1,8 @@
 //! Simple branch points: located to rounding, with both branches.
 //!
-//! With a column b outside the range of J, G(z) + η b = 0 is a smooth surface around a simple branch
-//! point, and the point is the saddle of the height η on it: η is zero along both branches. In
+//! With a bordering vector b outside the range of J, the unfolded system G(z) + η b = 0 has a smooth surface
+//! of solutions (z, η) around a simple branch point. The point is the saddle of η on this surface, and η is
+//! zero along both branches. In
 //! coordinates a of the tangent plane T
 //!
 //! ```text
@@ -15,12 +16,20 @@
 //! Keller (1977), section 5.
 
 use crate::curve::corrector::Corrector;
+use crate::curve::curve::Curve;
 use crate::curve::metric::Metric;
 use crate::difficulty::Difficulty;
+use crate::special_points::node::{Located, Node};
 use crate::special_points::null_space::{NullSpace, solve};
 use crate::special_points::second_derivative::{Line, Precision, mixed};
+use crate::special_points::span::Span;
 use crate::system::system::System;
 
+/// Branch points are bracketed this closely before Newton's method takes over.
+const BRACKET: f64 = 1e-3;
+/// A located branch point may lie beside the step by this share of it: by Newton's method it is the
+/// nearest one, bracketed to a thousandth.
+const BESIDE: f64 = 0.05;
 /// Newton steps shorter than this that no longer shrink are rounding.
 const ROUNDING: f64 = 1e-7;
 /// Branches that come closer than this, in the arclength norm, meet, if their system has a
@@ -42,23 +51,27 @@ pub(crate) struct Crossing {
     pub(crate) tangents: Option<[Vec<f64>; 2]>,
 }
 
-/// A column outside the range of J with certainty in practice: the size of each equation, from how
+/// A bordering vector, outside the range of J with certainty in practice: the size of each equation, from how
 /// it responds to a change of all unknowns, with irregular signs. The change is large enough that an
 /// equation whose derivatives all vanish at the branch point responds too.
-pub(crate) fn column<S: System>(
-    system: &mut S,
-    corrector: &Corrector,
-    metric: &Metric,
+pub(crate) fn bordering_vector<S: System>(
+    curve: &mut Curve<'_, S>,
     z: &[f64],
 ) -> Result<Vec<f64>, Difficulty> {
+    let Curve {
+        system,
+        metric,
+        corrector,
+        ..
+    } = curve;
     let n = z.len() - 1;
     let (mut here, mut there) = (vec![f64::NAN; n], vec![f64::NAN; n]);
-    corrector.residual(system, z, &mut here);
+    corrector.residual(*system, z, &mut here);
     for share in CHANGES {
         let change = |(i, z): (usize, &f64)| z + share * irregular(i) * metric.scale(i);
         let mut moved: Vec<f64> = z.iter().enumerate().map(change).collect();
         moved[n] = corrector.reflected(moved[n]);
-        corrector.residual(system, &moved, &mut there);
+        corrector.residual(*system, &moved, &mut there);
         let pairs = here.iter().zip(&there);
         let response: Vec<f64> = pairs.map(|(a, b)| ((b - a) / share).abs()).collect();
         let mean = response.iter().sum::<f64>() / n as f64;
@@ -70,6 +83,33 @@ pub(crate) fn column<S: System>(
         }
     }
     Err(Difficulty::Singular)
+}
+
+/// The second null vector of \[J b\], where the system was linearised last, for a unit tangent.
+pub(crate) fn second_vector<S: System>(
+    curve: &mut Curve<'_, S>,
+    tangent: &[f64],
+) -> Result<Vec<f64>, Difficulty> {
+    NullSpace::second(curve.system, &curve.metric, tangent, &curve.border)
+        .ok_or(Difficulty::Singular)
+}
+
+/// Chooses the bordering vector for a node, where the system was linearised last, and gives the node its
+/// second vector.
+pub(crate) fn choose_border<S: System>(
+    curve: &mut Curve<'_, S>,
+    node: &mut Node,
+) -> Result<(), Difficulty> {
+    curve.border = bordering_vector(curve, &node.z)?;
+    let second = second_vector(curve, &node.tangent)?;
+    // The second vector is (v, −1) up to its length, with J v = b: b is enlarged until v has length
+    // one. With a short v the component η outweighs it, and pairs of branch points are missed.
+    let eta = second.last().map_or(1.0, |eta| eta.abs());
+    let length = (1.0 - eta * eta).sqrt() / eta;
+    let scale = if length > 0.0 { length.min(1.0) } else { 1.0 };
+    curve.border.iter_mut().for_each(|b| *b /= scale);
+    node.second = second_vector(curve, &node.tangent)?;
+    Ok(())
 }
 
 /// Numbers between 0.5 and 1 of irregular size and sign.
@@ -86,12 +126,16 @@ pub(crate) fn irregular(i: usize) -> f64 {
 
 /// Finds the branch point near `z`.
 pub(crate) fn branch_point<S: System>(
-    system: &mut S,
-    corrector: &mut Corrector,
-    metric: &Metric,
+    curve: &mut Curve<'_, S>,
     z: &[f64],
-    b: &[f64],
 ) -> Result<Crossing, Difficulty> {
+    let Curve {
+        system,
+        metric,
+        corrector,
+        border: b,
+    } = curve;
+    let (system, metric, b) = (&mut **system, &*metric, &b[..]);
     let n = z.len() - 1;
     let (mut z, mut eta) = (z.to_vec(), 0.0);
     let mut residual = vec![0.0; n];
@@ -153,6 +197,61 @@ pub(crate) fn branch_point<S: System>(
         })
     });
     Ok(Crossing { z, tangents })
+}
+
+/// The branch point that changes the orientation between the nodes.
+pub(crate) fn crossing<S: System>(
+    span: &mut Span<'_, '_, S>,
+) -> Result<(Located, Crossing), Difficulty> {
+    // η changes its sign with the orientation.
+    let eta = [span.from, span.to].map(Node::eta);
+    let (along, metric) = (span.from.along, span.curve.metric.clone());
+    let border = span.curve.border.clone();
+    let start = eta[0].signum();
+    let mut signed = |system: &mut S, _: &[f64], tangent: &[f64]| {
+        let mut null = tangent.to_vec();
+        system.null_vector(&mut null);
+        let same = (metric.dot(&null, tangent) > 0.0) == along;
+        let second = NullSpace::second(system, &metric, tangent, &border);
+        let eta = second.map_or(0.0, |second| second[second.len() - 1].abs());
+        if same { start * eta } else { -start * eta }
+    };
+    let near = match span.zero(&mut signed, eta, BRACKET) {
+        Ok(near) => near.z,
+        // Too close to the branch point to stay on the curve: start from the better end.
+        Err(_) if eta[0].abs() < eta[1].abs() => span.from.z.clone(),
+        Err(_) => span.to.z.clone(),
+    };
+    let crossing = branch_point(span.curve, &near)?;
+    let place = span.place(&crossing.z);
+    // What is found must lie between the nodes.
+    let off: Vec<f64> = span
+        .secant()
+        .iter()
+        .zip(&span.from.z)
+        .zip(&crossing.z)
+        .map(|((d, a), z)| z - a - place * d)
+        .collect();
+    let length = span.curve.metric.norm(&span.secant());
+    let gap = span.curve.metric.norm(&off);
+    let tangent = match &crossing.tangents {
+        Some(pair) => span.along_secant(pair),
+        None => span.to.tangent.clone(),
+    };
+    let between = (-BESIDE..=1.0 + BESIDE).contains(&place) && gap <= length;
+    if !between || !span.leads_through(&tangent) {
+        return Err(Difficulty::Imperfect { gap });
+    }
+    let z = crossing.z.clone();
+    let u = place.clamp(0.0, 1.0);
+    let along = span.to.along;
+    let at = Located {
+        u,
+        z,
+        tangent,
+        along,
+    };
+    Ok((at, crossing))
 }
 
 /// The derivatives D of φ along the basis of `space`, column by column, and its change by `onto`.

@@ -1,5 +1,7 @@
 //! What a user states: a system with one unknown more than equations.
 
+#[cfg(feature = "sparse")]
+mod bordered;
 #[cfg(feature = "bvp")]
 mod bvp;
 mod closures;

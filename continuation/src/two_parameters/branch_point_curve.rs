@@ -1,7 +1,7 @@
 //! Curves of branch points in two parameters.
 //!
-//! With a column b outside the range of J the branch points of G(x, λ; μ) = 0 at fixed μ are the
-//! saddles of η on the surface G + η b = 0 (see `branch_point`). The curve of branch points solves
+//! With a bordering vector b outside the range of J the branch points of G(x, λ; μ) = 0 at fixed μ are the
+//! saddles of η on the solutions of the unfolded system G + η b = 0 (see `branch_point`). The curve of branch points solves
 //!
 //! ```text
 //! G(z; μ) + η b = 0,   φ(z, μ) = 0,    z = (x, λ)          n + 2 equations, n + 3 unknowns
@@ -10,16 +10,17 @@
 //! with φ the two η components of the null space of \[J b\]. η stays zero as long as the branch point
 //! persists; where it does not, the saddle goes on with η ≠ 0 and the branches part.
 
-use crate::curve::corrector::Corrector;
+use crate::curve::curve::Curve;
+use crate::curve::metric::Metric;
 use crate::difficulty::{Cause, Difficulty};
 use crate::error::{Error, check_length};
-use crate::special_points::branch_point;
+use crate::special_points::branch_point::bordering_vector;
 use crate::special_points::null_space::{NullSpace, solve};
 use crate::special_points::second_derivative::Precision;
 use crate::system::system::{System, TwoParameter};
-use crate::two_parameters::null_surface::Surface;
+use crate::two_parameters::null_surface::NullSurface;
 
-/// Saddles higher than this, relative to what a unit step in the null space of \[J b\] changes, are
+/// Saddles with η larger than this, relative to what a unit step in the null space of \[J b\] changes, are
 /// no branch points.
 const PERSISTENT: f64 = 1e-8;
 
@@ -31,7 +32,7 @@ const PERSISTENT: f64 = 1e-8;
 #[derive(Clone)]
 pub struct BranchPointCurve<S> {
     /// The null spaces of \[J b\].
-    surface: Surface<S>,
+    null_surface: NullSurface<S>,
     /// The one to whose basis φ refers.
     reference: NullSpace,
     /// Three vectors (z, η, μ) that span the null space of \[J b `G_μ`\].
@@ -52,14 +53,12 @@ impl<S: TwoParameter + Clone> BranchPointCurve<S> {
         let unknowns = system.unknowns();
         check_length(z, unknowns)?;
         let kind = "branch point";
-        let column = |system: &mut S, metric: &_| {
-            branch_point::column(system, &Corrector::anywhere(), metric, z).map(Some)
-        };
-        let surface = Surface::new(system, z, column)
+        let border = |system: &mut S, metric: &Metric| bordered(system, metric, z);
+        let null_surface = NullSurface::new(system, z, border)
             .map_err(|difficulty| Error::NotSpecial { kind, difficulty })?;
         Ok(Self {
-            reference: surface.space().clone(),
-            surface,
+            reference: null_surface.space().clone(),
+            null_surface,
             basis: [(); 3].map(|()| vec![0.0; unknowns + 2]),
             slopes: [[0.0; 3]; 2],
             tangent: vec![0.0; unknowns + 2],
@@ -73,12 +72,12 @@ impl<S: TwoParameter + Clone> BranchPointCurve<S> {
 
     /// The system whose branch points are followed.
     pub fn base(&self) -> &S {
-        &self.surface.base
+        &self.null_surface.base
     }
 
     /// The derivative of φ, where both basis vectors of the null space change at these `rates`.
     fn slope(&self, rates: &[Vec<f64>; 2]) -> Option<[f64; 2]> {
-        let (space, metric) = (self.surface.space(), &self.surface.metric);
+        let (space, metric) = (self.null_surface.space(), &self.null_surface.metric);
         space.eta_rate(metric, &self.reference, rates)
     }
 }
@@ -91,42 +90,47 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
     fn residual(&mut self, z: &[f64], g: &mut [f64]) {
         let n = g.len() - 2;
         let (eta, mu) = (z[n + 1], z[n + 2]);
-        self.surface.residual(&z[..=n], mu, &mut g[..n]);
-        let column = self.surface.column().iter();
+        self.null_surface.residual(&z[..=n], mu, &mut g[..n]);
+        let border = self.null_surface.border().iter();
         g[..n]
             .iter_mut()
-            .zip(column)
+            .zip(border)
             .for_each(|(g, b)| *g += eta * b);
-        let space = self.surface.look(&z[..=n], mu).cloned().ok();
-        let phi = space.and_then(|space| space.eta(&self.surface.metric, &self.reference));
+        let space = self.null_surface.null_space_at(&z[..=n], mu).cloned().ok();
+        let phi = space.and_then(|space| space.eta(&self.null_surface.metric, &self.reference));
         g[n..].copy_from_slice(&phi.unwrap_or([f64::NAN; 2]));
     }
 
     fn set_bounds(&mut self, bounds: [f64; 2]) {
-        self.surface.bounds = bounds;
+        self.null_surface.bounds = bounds;
     }
 
     fn linearise(&mut self, z: &[f64]) -> Result<(), Cause> {
         let n = z.len() - 3;
-        self.surface
+        self.null_surface
             .linearise(&z[..=n], z[n + 2], &self.reference)?;
-        let [mut first, mut second] = self.surface.space().0.clone();
+        let [mut first, mut second] = self.null_surface.space().0.clone();
         first.push(0.0);
         second.push(0.0);
-        // The third one is the way with μ, orthogonal to both.
-        let rate = self.surface.mu_derivative();
-        let mut third: Vec<f64> = self.surface.shortest(&rate).iter().map(|v| -v).collect();
+        // The third one is the direction with μ, orthogonal to both.
+        let rate = self.null_surface.mu_derivative();
+        let mut third: Vec<f64> = self
+            .null_surface
+            .shortest(&rate)
+            .iter()
+            .map(|v| -v)
+            .collect();
         let norm = self
-            .surface
+            .null_surface
             .metric
             .norm(&third[..=n])
             .hypot(third[n + 1])
             .hypot(1.0);
         third.push(1.0);
         third.iter_mut().for_each(|v| *v /= norm);
-        let [along_first, along_second] = self.surface.own_rates();
+        let [along_first, along_second] = self.null_surface.own_rates();
         let along_third = self
-            .surface
+            .null_surface
             .rates(&third[..=n], third[n + 2], Precision::Fine);
         self.basis = [first, second, third];
         for (j, rates) in [along_first, along_second, along_third].iter().enumerate() {
@@ -150,13 +154,13 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
 
     fn particular(&mut self, r: &[f64], v: &mut [f64]) {
         let n = r.len() - 2;
-        v[..n + 2].copy_from_slice(&self.surface.shortest(&r[..n]));
+        v[..n + 2].copy_from_slice(&self.null_surface.shortest(&r[..n]));
         v[n + 2] = 0.0;
-        let length = self.surface.metric.norm(&v[..=n]);
+        let length = self.null_surface.metric.norm(&v[..=n]);
         let mut right = [r[n], r[n + 1]];
         if length > 0.0 {
             let unit: Vec<f64> = v[..=n].iter().map(|v| v / length).collect();
-            let rates = self.surface.rates(&unit, 0.0, Precision::Rough);
+            let rates = self.null_surface.rates(&unit, 0.0, Precision::Rough);
             let slope = self.slope(&rates).unwrap_or([f64::NAN; 2]);
             right
                 .iter_mut()
@@ -194,39 +198,47 @@ impl<S: TwoParameter + Clone> System for BranchPointCurve<S> {
         if vectors[0][n + 1].abs() > PERSISTENT {
             return Err("the branch point does not persist: its branches part".into());
         }
-        let column = |system: &mut S, metric: &_, z: &[f64]| {
-            branch_point::column(system, &Corrector::anywhere(), metric, z).map(Some)
-        };
-        if let Some(surface) = self.surface.adapted(vectors, 2, column)? {
-            let unknowns = surface.base.unknowns() + 2;
+        let border = |system: &mut S, metric: &Metric, z: &[f64]| bordered(system, metric, z);
+        if let Some(null_surface) = self.null_surface.adapted(vectors, 2, border)? {
+            let unknowns = null_surface.base.unknowns() + 2;
             return Ok(Some(Self {
-                reference: surface.space().clone(),
-                surface,
+                reference: null_surface.space().clone(),
+                null_surface,
                 basis: [(); 3].map(|()| vec![0.0; unknowns]),
                 slopes: self.slopes,
                 tangent: vec![0.0; unknowns],
             }));
         }
         let z = &vectors[0];
-        let mut space = self.surface.look(&z[..=n], z[n + 2])?.clone();
-        space.align(&self.surface.metric, &self.reference);
+        let mut space = self.null_surface.null_space_at(&z[..=n], z[n + 2])?.clone();
+        space.align(&self.null_surface.metric, &self.reference);
         self.reference = space;
         Ok(None)
     }
 
     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self> {
-        let fine = self.surface.refined(vectors, 2)?;
+        let fine = self.null_surface.refined(vectors, 2)?;
         let [z @ .., _, _] = &vectors.first()?[..] else {
             return None;
         };
         let mut fine = Self::new(fine, z).ok()?;
-        fine.surface.bounds = self.surface.bounds;
+        fine.null_surface.bounds = self.null_surface.bounds;
         Some(fine)
     }
 
     fn tolerance(&self) -> f64 {
         self.base().tolerance()
     }
+}
+
+/// A bordering vector for the system at `z`.
+fn bordered<S: System>(
+    system: &mut S,
+    metric: &Metric,
+    z: &[f64],
+) -> Result<Option<Vec<f64>>, Difficulty> {
+    let anywhere = [f64::NEG_INFINITY, f64::INFINITY];
+    bordering_vector(&mut Curve::new(system, metric.clone(), anywhere), z).map(Some)
 }
 
 /// Σ aᵢ Tᵢ.

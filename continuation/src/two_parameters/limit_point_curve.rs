@@ -20,7 +20,7 @@ use crate::error::{Error, check_length};
 use crate::special_points::null_space::NullSpace;
 use crate::special_points::second_derivative::Precision;
 use crate::system::system::{System, TwoParameter};
-use crate::two_parameters::null_surface::Surface;
+use crate::two_parameters::null_surface::NullSurface;
 
 /// The limit points of a two-parameter system as a [`System`] with unknowns (z, μ): its parameter is
 /// μ, and the λ of the limit points is the last but one unknown.
@@ -47,7 +47,7 @@ use crate::two_parameters::null_surface::Surface;
 #[derive(Clone)]
 pub struct LimitPointCurve<S> {
     /// The tangent planes: null spaces of \[J `G_μ`\].
-    surface: Surface<S>,
+    null_surface: NullSurface<S>,
     /// The tangent plane to whose basis ψ refers.
     reference: NullSpace,
     /// Direction of the curve in the plane of (λ, μ), up to its sign.
@@ -65,12 +65,12 @@ impl<S: TwoParameter + Clone> LimitPointCurve<S> {
     pub fn new(system: S, z: &[f64]) -> Result<Self, Error> {
         check_length(z, system.unknowns())?;
         let kind = "limit point";
-        let surface = Surface::new(system, z, |_, _| Ok(None))
+        let null_surface = NullSurface::new(system, z, |_, _| Ok(None))
             .map_err(|difficulty| Error::NotSpecial { kind, difficulty })?;
-        let reference = surface.space().clone();
+        let reference = null_surface.space().clone();
         let direction = direction(&reference, [0.0; 2]);
         Ok(Self {
-            surface,
+            null_surface,
             reference,
             direction,
             slopes: [0.0; 2],
@@ -84,13 +84,13 @@ impl<S: TwoParameter + Clone> LimitPointCurve<S> {
 
     /// The system whose limit points are followed.
     pub fn base(&self) -> &S {
-        &self.surface.base
+        &self.null_surface.base
     }
 
     /// The tangent of the curve.
     fn tangent(&self) -> Vec<f64> {
         let [d1, d2] = self.slopes;
-        self.surface.space().combine([-d2, d1])
+        self.null_surface.space().combine([-d2, d1])
     }
 }
 
@@ -124,22 +124,23 @@ impl<S: TwoParameter + Clone> System for LimitPointCurve<S> {
     fn residual(&mut self, z: &[f64], g: &mut [f64]) {
         let n = g.len() - 1;
         let (z, mu) = (&z[..=n], z[n + 1]);
-        self.surface.residual(z, mu, &mut g[..n]);
-        g[n] = match self.surface.look(z, mu).cloned() {
-            Ok(plane) => plane.determinant(&self.surface.metric, &self.reference),
+        self.null_surface.residual(z, mu, &mut g[..n]);
+        g[n] = match self.null_surface.null_space_at(z, mu).cloned() {
+            Ok(plane) => plane.determinant(&self.null_surface.metric, &self.reference),
             Err(_) => f64::NAN,
         };
     }
 
     fn set_bounds(&mut self, bounds: [f64; 2]) {
-        self.surface.bounds = bounds;
+        self.null_surface.bounds = bounds;
     }
 
     fn linearise(&mut self, z: &[f64]) -> Result<(), Cause> {
         let n = z.len() - 1;
-        self.surface.linearise(&z[..n], z[n], &self.reference)?;
-        let rates = self.surface.own_rates();
-        let (plane, metric) = (self.surface.space(), &self.surface.metric);
+        self.null_surface
+            .linearise(&z[..n], z[n], &self.reference)?;
+        let rates = self.null_surface.own_rates();
+        let (plane, metric) = (self.null_surface.space(), &self.null_surface.metric);
         self.slopes = rates.map(|rates| plane.determinant_rate(metric, &self.reference, &rates));
         if self.slopes.iter().all(|slope| slope.is_finite()) {
             Ok(())
@@ -150,20 +151,23 @@ impl<S: TwoParameter + Clone> System for LimitPointCurve<S> {
 
     fn particular(&mut self, r: &[f64], v: &mut [f64]) {
         let n = r.len() - 1;
-        v.copy_from_slice(&self.surface.shortest(&r[..n]));
-        let length = self.surface.metric.norm(&v[..=n]).hypot(v[n + 1]);
+        v.copy_from_slice(&self.null_surface.shortest(&r[..n]));
+        let length = self.null_surface.metric.norm(&v[..=n]).hypot(v[n + 1]);
         let mut right = r[n];
         if length > 0.0 {
             let unit: Vec<f64> = v.iter().map(|v| v / length).collect();
             let rates = self
-                .surface
+                .null_surface
                 .rates(&unit[..=n], unit[n + 1], Precision::Rough);
-            let (plane, metric) = (self.surface.space(), &self.surface.metric);
+            let (plane, metric) = (self.null_surface.space(), &self.null_surface.metric);
             right -= length * plane.determinant_rate(metric, &self.reference, &rates);
         }
         let [d1, d2] = self.slopes;
         let factor = right / (d1 * d1 + d2 * d2);
-        let along = self.surface.space().combine([factor * d1, factor * d2]);
+        let along = self
+            .null_surface
+            .space()
+            .combine([factor * d1, factor * d2]);
         v.iter_mut().zip(along).for_each(|(v, a)| *v += a);
     }
 
@@ -179,29 +183,29 @@ impl<S: TwoParameter + Clone> System for LimitPointCurve<S> {
     }
 
     fn adapted(&mut self, vectors: &mut [Vec<f64>]) -> Result<Option<Self>, Cause> {
-        if let Some(surface) = self.surface.adapted(vectors, 1, |_, _, _| Ok(None))? {
-            let reference = surface.space().clone();
+        if let Some(null_surface) = self.null_surface.adapted(vectors, 1, |_, _, _| Ok(None))? {
+            let reference = null_surface.space().clone();
             return Ok(Some(Self {
                 direction: direction(&reference, self.direction),
-                surface,
+                null_surface,
                 reference,
                 slopes: self.slopes,
             }));
         }
         let z = &vectors[0];
         let n = z.len() - 1;
-        let mut plane = self.surface.look(&z[..n], z[n])?.clone();
-        plane.align(&self.surface.metric, &self.reference);
+        let mut plane = self.null_surface.null_space_at(&z[..n], z[n])?.clone();
+        plane.align(&self.null_surface.metric, &self.reference);
         self.direction = direction(&plane, self.direction);
         self.reference = plane;
         Ok(None)
     }
 
     fn refined(&self, vectors: &mut [Vec<f64>]) -> Option<Self> {
-        let fine = self.surface.refined(vectors, 1)?;
+        let fine = self.null_surface.refined(vectors, 1)?;
         let (_, z) = vectors.first()?.split_last()?;
         let mut fine = Self::new(fine, z).ok()?;
-        fine.surface.bounds = self.surface.bounds;
+        fine.null_surface.bounds = self.null_surface.bounds;
         Some(fine)
     }
 
@@ -212,7 +216,7 @@ impl<S: TwoParameter + Clone> System for LimitPointCurve<S> {
     fn cusp_function(&self) -> Option<f64> {
         let (along, [a, b]) = (
             self.tangent(),
-            direction(self.surface.space(), self.direction),
+            direction(self.null_surface.space(), self.direction),
         );
         let n = along.len();
         let [d1, d2] = self.slopes;

@@ -18,41 +18,41 @@ const RESOLVED: f64 = 1e-6;
 struct Place {
     z: Vec<f64>,
     mu: f64,
-    column: Vec<f64>,
+    border: Vec<f64>,
     space: NullSpace,
 }
 
 /// A two-parameter system with the null space of \[J b\] and its rates of change.
 #[derive(Clone)]
-pub(crate) struct Surface<S> {
+pub(crate) struct NullSurface<S> {
     /// Linearised at `here`.
     pub(crate) base: S,
     /// Linearised at `ahead`.
     probe: S,
     pub(crate) metric: Metric,
     corrector: Corrector,
-    /// The column b; `G_μ` where there is none.
-    column: Option<Vec<f64>>,
+    /// The bordering vector b; `G_μ` where there is none.
+    border: Option<Vec<f64>>,
     here: Place,
     ahead: Option<Place>,
     /// The bounds of μ.
     pub(crate) bounds: [f64; 2],
     /// Second derivatives of G along the basis.
-    bends: [Vec<f64>; 2],
+    own_second: [Vec<f64>; 2],
 }
 
-impl<S: TwoParameter + Clone> Surface<S> {
-    /// The surface at `z` and the present μ of the system, with the column that `column` chooses.
+impl<S: TwoParameter + Clone> NullSurface<S> {
+    /// The surface at `z` and the present μ of the system, with the bordering vector that `border` chooses.
     pub(crate) fn new(
         base: S,
         z: &[f64],
-        column: impl FnOnce(&mut S, &Metric) -> Result<Option<Vec<f64>>, Difficulty>,
+        border: impl FnOnce(&mut S, &Metric) -> Result<Option<Vec<f64>>, Difficulty>,
     ) -> Result<Self, Difficulty> {
         let anywhere = Options::within(f64::NEG_INFINITY, f64::INFINITY);
         let mut metric = Metric::new(&base, &anywhere, z);
         metric.reach(&vec![0.0; z.len()]);
         let mu = base.second();
-        Self::with_metric(base, metric, anywhere.bounds, z, mu, column)
+        Self::with_metric(base, metric, anywhere.bounds, z, mu, border)
     }
 
     fn with_metric(
@@ -61,22 +61,22 @@ impl<S: TwoParameter + Clone> Surface<S> {
         bounds: [f64; 2],
         z: &[f64],
         mu: f64,
-        column: impl FnOnce(&mut S, &Metric) -> Result<Option<Vec<f64>>, Difficulty>,
+        border: impl FnOnce(&mut S, &Metric) -> Result<Option<Vec<f64>>, Difficulty>,
     ) -> Result<Self, Difficulty> {
         let (mut probe, mut corrector) = (base.clone(), Corrector::anywhere());
         probe.set_second(mu);
-        let column = column(&mut probe, &metric)?;
-        let here = place(&mut probe, &mut corrector, &metric, &column, z, mu, bounds)?;
+        let border = border(&mut probe, &metric)?;
+        let here = place(&mut probe, &mut corrector, &metric, &border, z, mu, bounds)?;
         Ok(Self {
             base,
             probe,
             metric,
             corrector,
-            column,
+            border,
             ahead: Some(here.clone()),
             bounds,
             here,
-            bends: [Vec::new(), Vec::new()],
+            own_second: [Vec::new(), Vec::new()],
         })
     }
 
@@ -85,9 +85,9 @@ impl<S: TwoParameter + Clone> Surface<S> {
         &self.here.space
     }
 
-    /// The column b at the last linearisation.
-    pub(crate) fn column(&self) -> &[f64] {
-        self.column.as_deref().unwrap_or(&self.here.column)
+    /// The bordering vector b at the last linearisation.
+    pub(crate) fn border(&self) -> &[f64] {
+        self.border.as_deref().unwrap_or(&self.here.border)
     }
 
     /// Evaluates G away from the linearisation.
@@ -98,14 +98,14 @@ impl<S: TwoParameter + Clone> Surface<S> {
     }
 
     /// The null space away from the linearisation.
-    pub(crate) fn look(&mut self, z: &[f64], mu: f64) -> Result<&NullSpace, Difficulty> {
+    pub(crate) fn null_space_at(&mut self, z: &[f64], mu: f64) -> Result<&NullSpace, Difficulty> {
         self.ahead = None;
         let (probe, corrector) = (&mut self.probe, &mut self.corrector);
         let found = place(
             probe,
             corrector,
             &self.metric,
-            &self.column,
+            &self.border,
             z,
             mu,
             self.bounds,
@@ -131,7 +131,7 @@ impl<S: TwoParameter + Clone> Surface<S> {
                     base,
                     corrector,
                     &self.metric,
-                    &self.column,
+                    &self.border,
                     z,
                     mu,
                     self.bounds,
@@ -139,9 +139,9 @@ impl<S: TwoParameter + Clone> Surface<S> {
             }
         };
         self.here.space.orient(&self.metric, reference);
-        self.bends = [0, 1].map(|i| {
+        self.own_second = [0, 1].map(|i| {
             let (direction, mu) = self.split(i);
-            self.bend(&direction, mu, Precision::Fine)
+            self.second_derivative(&direction, mu, Precision::Fine)
         });
         Ok(())
     }
@@ -150,11 +150,16 @@ impl<S: TwoParameter + Clone> Surface<S> {
     fn split(&self, i: usize) -> (Vec<f64>, f64) {
         let mut direction = self.here.space.0[i].clone();
         let last = direction.pop().unwrap_or(0.0);
-        (direction, if self.column.is_none() { last } else { 0.0 })
+        (direction, if self.border.is_none() { last } else { 0.0 })
     }
 
     /// Second derivative of G along a direction from the last linearisation.
-    fn bend(&mut self, direction: &[f64], rate: f64, precision: Precision) -> Vec<f64> {
+    fn second_derivative(
+        &mut self,
+        direction: &[f64],
+        rate: f64,
+        precision: Precision,
+    ) -> Vec<f64> {
         self.ahead = None;
         let (probe, Place { z, mu, .. }) = (&mut self.probe, &self.here);
         let line = Line {
@@ -169,12 +174,12 @@ impl<S: TwoParameter + Clone> Surface<S> {
 
     /// The vector w orthogonal to the null space with \[J b\] w = r.
     pub(crate) fn shortest(&mut self, r: &[f64]) -> Vec<f64> {
-        let Place { column, space, .. } = &self.here;
-        space.shortest(&mut self.base, &self.metric, column, r)
+        let Place { border, space, .. } = &self.here;
+        space.shortest(&mut self.base, &self.metric, border, r)
     }
 
-    fn turned(&mut self, bend: &[f64]) -> Vec<f64> {
-        self.shortest(bend).iter().map(|w| -w).collect()
+    fn turned(&mut self, second: &[f64]) -> Vec<f64> {
+        self.shortest(second).iter().map(|w| -w).collect()
     }
 
     /// The rates of both basis vectors along a unit direction with this μ component.
@@ -184,12 +189,12 @@ impl<S: TwoParameter + Clone> Surface<S> {
         rate: f64,
         precision: Precision,
     ) -> [Vec<f64>; 2] {
-        let own = self.bend(direction, rate, precision);
+        let own = self.second_derivative(direction, rate, precision);
         [0, 1].map(|i| {
             let (mut both, mu) = self.split(i);
             both.iter_mut().zip(direction).for_each(|(b, d)| *b += d);
-            let both = self.bend(&both, mu + rate, precision);
-            self.turned(&mixed(&both, &own, &self.bends[i]))
+            let both = self.second_derivative(&both, mu + rate, precision);
+            self.turned(&mixed(&both, &own, &self.own_second[i]))
         })
     }
 
@@ -197,8 +202,8 @@ impl<S: TwoParameter + Clone> Surface<S> {
     pub(crate) fn own_rates(&mut self) -> [[Vec<f64>; 2]; 2] {
         let [(first, mu), (second, nu)] = [0, 1].map(|i| self.split(i));
         let sum: Vec<f64> = first.iter().zip(&second).map(|(a, b)| a + b).collect();
-        let both = self.bend(&sum, mu + nu, Precision::Fine);
-        let [a, b] = self.bends.clone();
+        let both = self.second_derivative(&sum, mu + nu, Precision::Fine);
+        let [a, b] = self.own_second.clone();
         let cross = self.turned(&mixed(&both, &a, &b));
         [[self.turned(&a), cross.clone()], [cross, self.turned(&b)]]
     }
@@ -210,12 +215,12 @@ impl<S: TwoParameter + Clone> Surface<S> {
     }
 
     /// The same in a better discretisation of the base at its solution, the first of `vectors`, which
-    /// have `more` entries behind those of z, μ the last; `column` then chooses a new column.
+    /// have `more` entries behind those of z, μ the last; `border` then chooses a new one.
     pub(crate) fn adapted(
         &mut self,
         vectors: &mut [Vec<f64>],
         more: usize,
-        column: impl FnOnce(&mut S, &Metric, &[f64]) -> Result<Option<Vec<f64>>, Difficulty>,
+        border: impl FnOnce(&mut S, &Metric, &[f64]) -> Result<Option<Vec<f64>>, Difficulty>,
     ) -> Result<Option<Self>, Cause> {
         let mu = vectors[0][vectors[0].len() - 1];
         self.base.set_second(mu);
@@ -229,7 +234,7 @@ impl<S: TwoParameter + Clone> Surface<S> {
         metric.regroup(&base);
         metric.observe(z);
         let adapted = Self::with_metric(base, metric, self.bounds, z, mu, |base, metric| {
-            column(base, metric, z)
+            border(base, metric, z)
         });
         Ok(Some(adapted?))
     }
@@ -248,21 +253,21 @@ fn place<S: TwoParameter>(
     system: &mut S,
     corrector: &mut Corrector,
     metric: &Metric,
-    column: &Option<Vec<f64>>,
+    border: &Option<Vec<f64>>,
     z: &[f64],
     mu: f64,
     bounds: [f64; 2],
 ) -> Result<Place, Difficulty> {
     system.set_second(mu);
-    let column = match column {
-        Some(column) => column.clone(),
+    let border = match border {
+        Some(border) => border.clone(),
         None => mu_derivative(system, z, mu, bounds),
     };
-    let space = NullSpace::at(system, corrector, metric, z, &column)?;
+    let space = NullSpace::at(system, corrector, metric, z, &border)?;
     Ok(Place {
         z: z.to_vec(),
         mu,
-        column,
+        border,
         space,
     })
 }

@@ -3,7 +3,7 @@
 use crate::systems::pitchfork;
 use crate::{assert_close, finish, of, trace};
 use continuation::Direction::{Decreasing, Increasing};
-use continuation::{Branch, DenseSystem, Kind, Leg, LimitPointCurve, Options, Stop};
+use continuation::{Branch, DenseSystem, HalfBranch, Kind, LimitPointCurve, Options, Stop};
 use std::sync::{Arc, Mutex};
 
 /// x₁ (λ − a − x₁²) = 0 and x₂ (λ − a − gap − x₂²) = 0: decoupled pitchforks.
@@ -181,8 +181,8 @@ fn loops_entered_at_a_branch_point_are_closed() {
         .collect();
     assert_eq!(crossings.len(), 2);
     for (i, crossing) in crossings.iter().enumerate() {
-        for leg in [Leg::Forward, Leg::Backward] {
-            let branch = Branch::switch(&mut system, crossing, leg, &options).unwrap();
+        for half in [HalfBranch::Forward, HalfBranch::Backward] {
+            let branch = Branch::switch(&mut system, crossing, half, &options).unwrap();
             let (points, stop) = finish(branch);
             assert!(matches!(stop, Stop::Closed), "{stop}");
             // Half way round it crosses the first branch again, and nowhere else.

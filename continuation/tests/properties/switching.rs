@@ -3,7 +3,7 @@
 use crate::systems::{circle, pitchfork, transcritical};
 use crate::{assert_close, finish, of, trace};
 use continuation::Direction::Increasing;
-use continuation::{Branch, Error, Kind, Leg, Options, Point, Stop};
+use continuation::{Branch, Error, HalfBranch, Kind, Options, Point, Stop};
 
 fn options() -> Options {
     Options::within(-1.0, 2.0)
@@ -15,12 +15,12 @@ fn branch_point(system: &mut continuation::DenseSystem, start: &[f64]) -> Point 
 }
 
 #[test]
-fn both_legs_of_a_pitchfork_are_followed_to_the_bound() {
+fn both_halves_of_a_pitchfork_are_followed_to_the_bound() {
     let mut system = pitchfork(0.0);
     let crossing = branch_point(&mut system, &[0.0, -1.0]);
     let side = crossing.other.as_ref().unwrap()[0].signum();
-    for (leg, side) in [(Leg::Forward, side), (Leg::Backward, -side)] {
-        let branch = Branch::switch(&mut system, &crossing, leg, &options()).unwrap();
+    for (half, side) in [(HalfBranch::Forward, side), (HalfBranch::Backward, -side)] {
+        let branch = Branch::switch(&mut system, &crossing, half, &options()).unwrap();
         let (points, stop) = finish(branch);
         assert_eq!(points[0].kind, Kind::Start);
         for point in &points[1..] {
@@ -39,12 +39,12 @@ fn both_legs_of_a_pitchfork_are_followed_to_the_bound() {
 }
 
 #[test]
-fn both_legs_of_a_transcritical_point_are_followed() {
+fn both_halves_of_a_transcritical_point_are_followed() {
     let mut system = transcritical();
     let crossing = branch_point(&mut system, &[-0.3, -1.0]);
     let mut ends = Vec::new();
-    for leg in [Leg::Forward, Leg::Backward] {
-        let branch = Branch::switch(&mut system, &crossing, leg, &options()).unwrap();
+    for half in [HalfBranch::Forward, HalfBranch::Backward] {
+        let branch = Branch::switch(&mut system, &crossing, half, &options()).unwrap();
         let (points, _) = finish(branch);
         assert!(points.iter().all(|p| (p.z[0] + p.z[1] - 0.1).abs() < 1e-8));
         ends.push(points.last().unwrap().lambda());
@@ -61,8 +61,8 @@ fn a_limit_point_right_behind_a_branch_point_is_found() {
     });
     let crossing = branch_point(&mut system, &[0.0, -1.0]);
     let mut limits = Vec::new();
-    for leg in [Leg::Forward, Leg::Backward] {
-        let branch = Branch::switch(&mut system, &crossing, leg, &options()).unwrap();
+    for half in [HalfBranch::Forward, HalfBranch::Backward] {
+        let branch = Branch::switch(&mut system, &crossing, half, &options()).unwrap();
         let (points, stop) = finish(branch);
         assert!(matches!(stop, Stop::Bound { lambda: 2.0 }));
         limits.extend(of(&points, Kind::LimitPoint).into_iter().cloned());
@@ -80,7 +80,7 @@ fn points_without_a_second_branch_are_refused() {
         &Options::within(-2.0, 2.0),
     );
     let limit = of(&points, Kind::LimitPoint)[0];
-    let error = Branch::switch(&mut circle(), limit, Leg::Forward, &options()).err();
+    let error = Branch::switch(&mut circle(), limit, HalfBranch::Forward, &options()).err();
     assert!(matches!(error, Some(Error::NoSecondBranch)));
 }
 
@@ -98,11 +98,11 @@ fn a_direction_without_a_branch_is_refused() {
             .collect()
     };
     crossing.other = Some(between(0.5));
-    let error = Branch::switch(&mut system, &crossing, Leg::Forward, &options()).err();
+    let error = Branch::switch(&mut system, &crossing, HalfBranch::Forward, &options()).err();
     assert!(matches!(error, Some(Error::Switch { .. })), "{error:?}");
     // Slightly off it is found all the same.
     crossing.other = Some(between(0.1));
-    let branch = Branch::switch(&mut system, &crossing, Leg::Forward, &options()).unwrap();
+    let branch = Branch::switch(&mut system, &crossing, HalfBranch::Forward, &options()).unwrap();
     let (points, _) = finish(branch);
     assert!((points.last().unwrap().z[0].abs() - 2f64.sqrt()).abs() < 1e-12);
 }

@@ -3,7 +3,7 @@
 
 use crate::{assert_close, family, first, labelled, of, to};
 use bvp::{Ends, Family, Problem, Real, Segment};
-use continuation::{Branch, Direction, Kind, Leg, Options, Point};
+use continuation::{Branch, Direction, HalfBranch, Kind, Options, Point};
 use std::f64::consts::PI;
 
 struct Eigenproblem;
@@ -63,7 +63,7 @@ fn a_vertical_branch_is_followed_and_left_with_its_norm_held() {
     let branch = Branch::new(&mut system, &z, Direction::Increasing, &options).unwrap();
     let (mut there, crossing) = first(branch, Kind::BranchPoint);
     let norm = |_: &Family<'_>, point: &Point| point.z[point.z.len() - 2] - 1.0;
-    let branch = Branch::switch(&mut there, &crossing, Leg::Forward, &options).unwrap();
+    let branch = Branch::switch(&mut there, &crossing, HalfBranch::Forward, &options).unwrap();
     let (system, normed) = first(branch.event(norm), Kind::Event(0));
     assert_close(normed.lambda(), 1.0, 1e-10);
 

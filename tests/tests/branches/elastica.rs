@@ -3,7 +3,7 @@
 
 use crate::{assert_close, family, first, labelled, of, to};
 use bvp::{Ends, Family, Problem, Real, Segment};
-use continuation::{Branch, Direction, Kind, Leg, Options, Stop};
+use continuation::{Branch, Direction, HalfBranch, Kind, Options, Stop};
 use std::f64::consts::PI;
 
 struct Elastica;
@@ -72,7 +72,7 @@ fn the_upright_state_has_none() {
 }
 
 #[test]
-fn both_legs_of_the_first_three_pitchforks_are_followed() {
+fn both_halves_of_the_first_three_pitchforks_are_followed() {
     let (mut system, z) = family(&Elastica, 0, &[], &[0.0; 2], &[1.0], &to(1e-9));
     let mut at = (system.clone(), z);
     for n in 1..=3 {
@@ -81,13 +81,13 @@ fn both_legs_of_the_first_three_pitchforks_are_followed() {
         let branch = Branch::new(&mut system, &at.1, Direction::Increasing, &ahead).unwrap();
         let (there, crossing) = first(branch, Kind::BranchPoint);
         let mut sides = 0.0;
-        for leg in [Leg::Forward, Leg::Backward] {
+        for half in [HalfBranch::Forward, HalfBranch::Backward] {
             let mut system = there.clone();
             let options = Options {
                 targets: vec![],
                 ..Options::within(1.0, 67.0 * square)
             };
-            let mut branch = Branch::switch(&mut system, &crossing, leg, &options).unwrap();
+            let mut branch = Branch::switch(&mut system, &crossing, half, &options).unwrap();
             for (height, _) in TABLE {
                 branch = branch.event(move |system: &Family<'_>, point| {
                     system.solution(&point.z).start(0)[0].abs() - height
