@@ -20,11 +20,11 @@
 //! so only n systems with Mᵀ are solved per interval, whatever the number of parameters. Ascher,
 //! Mattheij & Russell (1995), section 5.6.
 //!
-//! Only the part of M that belongs to the free states is factored ([`OrderReduction`]). Where the free
-//! state u is the derivative of order d of state c, its blocks are
+//! Only the part of M that belongs to the free states is factored ([`OrderReduction`]). Where `C_c` times the
+//! free state u is the derivative of order d of state c, its blocks are
 //!
 //! ```text
-//! M_vu = δ_vu I − Σ_c diag(J_vc) h^(d+1) A^(d+1)      over all c whose highest derivative is u
+//! M_vu = δ_vu I − Σ_c C_c diag(J_vc) h^(d+1) A^(d+1)      over all c whose highest derivative is u
 //! ```
 //!
 //! and det M is the determinant of this part.
@@ -168,10 +168,10 @@ impl Condensation {
         )
     }
 
-    /// Whether a state is the derivative of another one.
+    /// Whether a state is the derivative of another one, but for a constant factor.
     pub(crate) fn is_slope(&self, state: usize) -> bool {
         let mut sources = self.reduction.sources.iter();
-        sources.any(|&(_, source)| source == state)
+        sources.any(|&(_, source, _)| source == state)
     }
 
     /// The number of exchanges and of negative pivots of all M: odd if the product of their

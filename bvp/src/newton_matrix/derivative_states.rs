@@ -1,28 +1,28 @@
-//! Order reduction: states whose derivative is another state.
+//! Order reduction: states whose derivative is a constant multiple of another state.
 //!
-//! An equation of order two or more is written as a first-order system with y' = z, z' = …. Here y is a
-//! *derivative state* and z is its *source*; the row of y in the Jacobian is a unit vector. On an interval
-//! the slopes of a derivative state follow from those of its source, `K = h A K_source + known`, so only
-//! the slopes of the other states, the *free* states, are unknown. The linear system for them is as small
+//! An equation of order two or more is written as a first-order system with y' = z, z' = …, or y' = c z
+//! in other units. Here y is a *derivative state*, z is its *source* and c its *factor*; the row of y in the
+//! Jacobian is c times a unit vector. On an interval the slopes of a derivative state follow from those of
+//! its source, `K = c h A K_source + known`, so only the slopes of the other states, the *free* states, are unknown. The linear system for them is as small
 //! as if the equation were collocated without reducing its order, and the solution is the same. A free
-//! state y⁽ᵈ⁾ acts on y through h^(d+1) A^(d+1), as in the Runge-Kutta-Nyström form of the scheme (Hairer,
+//! state acts on a derivative state of order d through C h^(d+1) A^(d+1), C the product of all d factors, as in the Runge-Kutta-Nyström form of the scheme (Hairer,
 //! Nørsett & Wanner, *Solving Ordinary Differential Equations I*, section II.14).
 
 use crate::discretisation::tableau::POWERS;
 use std::ops::Range;
 
 /// What the Jacobians of a segment have shown so far about the row of one state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Row {
     /// No Jacobian has been observed.
     Unseen,
-    /// Every row was the unit vector with its one in this column.
-    Unit(usize),
+    /// Every row was zero but for this factor in the column of this source.
+    Multiple { source: usize, factor: f64 },
     /// Anything else.
     Other,
 }
 
-/// Which rows of the Jacobian are the same unit vector at all stages of a segment.
+/// Which rows of the Jacobian are the same multiple of a unit vector at all stages of a segment.
 #[derive(Clone, Debug)]
 pub(crate) struct ObservedRows {
     rows: Vec<Row>,
@@ -60,27 +60,38 @@ impl ObservedRows {
             let mut rows = jacobians[state * columns..]
                 .chunks(n * columns)
                 .map(|rows| &rows[..n]);
-            let column = match *seen {
-                Row::Other => None,
-                Row::Unit(column) => Some(column),
-                Row::Unseen => jacobians[state * columns..][..n]
-                    .iter()
-                    .position(|&x| x == 1.0),
+            let expected = match *seen {
+                Row::Unseen => first_entry(&jacobians[state * columns..][..n]),
+                row => row,
             };
-            *seen = match column {
-                Some(column) if rows.all(|row| is_unit(row, column)) => Row::Unit(column),
+            *seen = match expected {
+                Row::Multiple { source, factor }
+                    if rows.all(|row| is_multiple(row, source, factor)) =>
+                {
+                    expected
+                }
                 _ => Row::Other,
             };
         }
     }
 }
 
-/// Whether a row is the unit vector with the one in this column.
+/// The first entry of a row that is not zero, as if the others were.
 #[inline(always)]
-fn is_unit(row: &[f64], column: usize) -> bool {
-    let unit = |j: usize| if j == column { 1.0 } else { 0.0 };
+fn first_entry(row: &[f64]) -> Row {
+    let source = row.iter().position(|&x| x != 0.0);
+    source.map_or(Row::Other, |source| Row::Multiple {
+        source,
+        factor: row[source],
+    })
+}
+
+/// Whether a row is zero but for this factor in the column of this source.
+#[inline(always)]
+fn is_multiple(row: &[f64], source: usize, factor: f64) -> bool {
+    let expected = |j: usize| if j == source { factor } else { 0.0 };
     let entries = row.iter().enumerate();
-    entries.fold(true, |all, (j, &x)| all & (x == unit(j)))
+    entries.fold(true, |all, (j, &x)| all & (x == expected(j)))
 }
 
 /// The free and the derivative states of a segment.
@@ -90,15 +101,19 @@ pub(crate) struct OrderReduction {
     rows: Vec<Row>,
     /// The free states.
     pub(crate) free: Vec<usize>,
-    /// Each derivative state with its source; a derivative state that is itself a source comes first.
-    pub(crate) sources: Vec<(usize, usize)>,
+    /// Each derivative state with its source and its factor; a derivative state that is itself a source
+    /// comes first.
+    pub(crate) sources: Vec<(usize, usize, f64)>,
     /// For each state: the index in `free` of its highest derivative that is a state, and the order of that
     /// derivative (0 for a free state).
     pub(crate) highest: Vec<(usize, usize)>,
+    /// For each state: the product of the factors from it to its highest derivative (1 for a free state).
+    pub(crate) factors: Vec<f64>,
     /// For each free state: the range of `members` with the states whose highest derivative it is.
     pub(crate) groups: Vec<Range<usize>>,
-    /// States with the orders of their highest derivatives, grouped by free state.
-    pub(crate) members: Vec<(usize, usize)>,
+    /// States with the orders of their highest derivatives and their [`factors`](Self::factors), grouped by
+    /// free state.
+    pub(crate) members: Vec<(usize, usize, f64)>,
 }
 
 impl OrderReduction {
@@ -110,11 +125,12 @@ impl OrderReduction {
         let n = observed.rows.len();
         *self = Self {
             rows: observed.rows.clone(),
+            factors: vec![1.0; n],
             ..Self::default()
         };
         let mut highest = vec![None; n];
         for (c, (highest, row)) in highest.iter_mut().zip(&observed.rows).enumerate() {
-            if !matches!(row, Row::Unit(source) if *source != c) {
+            if !matches!(row, Row::Multiple { source, .. } if *source != c) {
                 *highest = Some((self.free.len(), 0));
                 self.free.push(c);
             }
@@ -124,12 +140,13 @@ impl OrderReduction {
         while let Some(cut) = highest.iter().position(Option::is_none) {
             let before = self.sources.len();
             for c in 0..n {
-                if let (None, Row::Unit(source)) = (highest[c], observed.rows[c])
+                if let (None, Row::Multiple { source, factor }) = (highest[c], observed.rows[c])
                     && let Some((place, order)) = highest[source]
                     && order + 1 < POWERS
                 {
                     highest[c] = Some((place, order + 1));
-                    self.sources.push((c, source));
+                    self.factors[c] = factor * self.factors[source];
+                    self.sources.push((c, source, factor));
                 }
             }
             if self.sources.len() == before {
@@ -143,7 +160,7 @@ impl OrderReduction {
             let states = self.highest.iter().enumerate();
             let group = states.filter(|(_, (of, _))| *of == place);
             self.members
-                .extend(group.map(|(c, &(_, order))| (c, order)));
+                .extend(group.map(|(c, &(_, order))| (c, order, self.factors[c])));
             self.groups.push(first..self.members.len());
         }
         true
@@ -153,6 +170,14 @@ impl OrderReduction {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn multiple(source: usize, factor: f64) -> Row {
+        Row::Multiple { source, factor }
+    }
+
+    fn unit(source: usize) -> Row {
+        multiple(source, 1.0)
+    }
 
     fn reduction(rows: &[Row]) -> OrderReduction {
         let observed = ObservedRows {
@@ -166,29 +191,29 @@ mod tests {
     }
 
     #[test]
-    fn equal_unit_rows_of_all_stages_are_observed() {
+    fn equal_rows_with_one_entry_at_all_stages_are_observed() {
         let mut observed = ObservedRows::new(3);
         observed.observe(
-            &[0.0, 1.0, 0.0, 9.0, 0.0, 0.0, 1.0, 9.0, 1.0, 1.0, 0.0, 9.0],
+            &[0.0, 1.0, 0.0, 9.0, 0.0, 0.0, -3.0, 9.0, 1.0, 1.0, 0.0, 9.0],
             3,
             4,
         );
-        assert_eq!(observed.rows, [Row::Unit(1), Row::Unit(2), Row::Other]);
+        assert_eq!(observed.rows, [unit(1), multiple(2, -3.0), Row::Other]);
         observed.observe(
-            &[0.0, 1.0, 0.0, 8.0, 0.0, 1.0, 0.0, 8.0, 1.0, 0.0, 0.0, 8.0],
+            &[0.0, 1.0, 0.0, 8.0, 0.0, 0.0, -2.0, 8.0, 1.0, 0.0, 0.0, 8.0],
             3,
             4,
         );
-        assert_eq!(observed.rows, [Row::Unit(1), Row::Other, Row::Other]);
+        assert_eq!(observed.rows, [unit(1), Row::Other, Row::Other]);
     }
 
     #[test]
     fn merged_observations_of_two_parts_equal_those_of_the_whole() {
-        let rows = [Row::Unseen, Row::Unit(0), Row::Unit(1), Row::Other];
-        // The first of two rows; the second is never a unit vector.
+        let rows = [Row::Unseen, unit(0), multiple(1, 2.0), Row::Other];
+        // The first of two rows; the second always has two entries.
         let shown = |row: Row| match row {
-            Row::Unit(0) => [1.0, 0.0, 0.5, 0.5],
-            Row::Unit(_) => [0.0, 1.0, 0.5, 0.5],
+            Row::Multiple { source: 0, factor } => [factor, 0.0, 0.5, 0.5],
+            Row::Multiple { factor, .. } => [0.0, factor, 0.5, 0.5],
             _ => [0.5; 4],
         };
         for (one, other) in rows.iter().flat_map(|a| rows.map(|b| (*a, b))) {
@@ -206,20 +231,25 @@ mod tests {
 
     #[test]
     fn derivative_states_lead_to_free_states() {
-        use Row::{Other, Unit};
-        // y₀' = y₁, y₁' = y₂, y₃' = y₁, and y₄' = y₄ is its own derivative.
-        let found = reduction(&[Unit(1), Unit(2), Other, Unit(1), Unit(4)]);
+        // y₀' = y₁, y₁' = 3 y₂, y₃' = 2 y₁, and y₄' = y₄ is its own derivative.
+        let found = reduction(&[
+            unit(1),
+            multiple(2, 3.0),
+            Row::Other,
+            multiple(1, 2.0),
+            unit(4),
+        ]);
         assert_eq!(found.free, [2, 4]);
-        assert_eq!(found.sources, [(1, 2), (3, 1), (0, 1)]);
+        assert_eq!(found.sources, [(1, 2, 3.0), (3, 1, 2.0), (0, 1, 1.0)]);
         assert_eq!(found.highest, [(0, 2), (0, 1), (0, 0), (0, 2), (1, 0)]);
+        assert_eq!(found.factors, [3.0, 3.0, 1.0, 6.0, 1.0]);
     }
 
     #[test]
     fn cycles_and_orders_above_the_highest_are_cut() {
-        use Row::{Other, Unit};
-        let cycle = reduction(&[Unit(1), Unit(0)]);
-        assert_eq!((cycle.free, cycle.sources), (vec![0], vec![(1, 0)]));
-        let high: Vec<Row> = (1..8).map(Unit).chain([Other]).collect();
+        let cycle = reduction(&[unit(1), multiple(0, -4.0)]);
+        assert_eq!((cycle.free, cycle.sources), (vec![0], vec![(1, 0, -4.0)]));
+        let high: Vec<Row> = (1..8).map(unit).chain([Row::Other]).collect();
         let high = reduction(&high);
         assert!(high.highest.iter().all(|(_, order)| *order < POWERS));
         assert_eq!(high.free.len() + high.sources.len(), 8);

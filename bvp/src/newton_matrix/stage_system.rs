@@ -90,9 +90,9 @@ impl<'a> StageSystem<'a> {
                 let row = &mut matrix[(v * m + j) * f * m..][..f * m];
                 for (place, block) in row.chunks_exact_mut(m).enumerate() {
                     let mut sums = if place == v { *unit } else { [0.0; MAX_STAGES] };
-                    for &(c, order) in self.members_of(place) {
+                    for &(c, order, factor) in self.members_of(place) {
                         let a = &t.powers[(order * m + j) * m..][..m];
-                        add_scaled(&mut sums[..m], -slopes[c] * powers[order], a);
+                        add_scaled(&mut sums[..m], -slopes[c] * (factor * powers[order]), a);
                     }
                     block.copy_from_slice(&sums[..m]);
                 }
@@ -100,10 +100,10 @@ impl<'a> StageSystem<'a> {
         }
     }
 
-    /// The states whose highest derivative is a given free state, with its order. These are all states if
-    /// there is only one free state.
+    /// The states whose highest derivative is a given free state, with its order and their factors. These are
+    /// all states if there is only one free state.
     #[inline(always)]
-    fn members_of(&self, place: usize) -> &[(usize, usize)] {
+    fn members_of(&self, place: usize) -> &[(usize, usize, f64)] {
         if self.f == 1 {
             &self.reduction.members[..self.n]
         } else {
@@ -124,16 +124,18 @@ impl<'a> StageSystem<'a> {
         } = self;
         let powers = powers_of(h);
         rows.fill(0.0);
-        for (row, &(place, order)) in reduction.highest[..n].iter().enumerate() {
+        let states = reduction.highest[..n].iter().zip(&reduction.factors);
+        for (row, (&(place, order), factor)) in states.enumerate() {
             let of_free = &mut rows[(row * f + place) * m..][..m];
-            add_scaled(of_free, powers[order], &t.weights[order * m..][..m]);
+            let weights = &t.weights[order * m..][..m];
+            add_scaled(of_free, factor * powers[order], weights);
         }
     }
 
     /// Xᵀ from its columns of the free states: for a derivative state c and all states d with source c
     ///
     /// ```text
-    /// x_c = h b + h Aᵀ ( Σ_v diag(J_vc) x_v + Σ_d x_d )      h b only in the row of c
+    /// x_c = h b + h Aᵀ ( Σ_v diag(J_vc) x_v + Σ_d J_dc x_d )      h b only in the row of c
     /// ```
     #[inline(always)]
     pub(crate) fn expand(self, h: f64, jacobians: &[f64], rows: &[f64], adjoint: &mut [f64]) {
@@ -153,7 +155,7 @@ impl<'a> StageSystem<'a> {
                     adjoint[j * n + v] = x_free[place * m + j];
                 }
             }
-            for &(c, _) in reduction.sources.iter().rev() {
+            for &(c, _, _) in reduction.sources.iter().rev() {
                 let mut sums = [0.0; MAX_STAGES];
                 let sums = &mut sums[..m];
                 for (x, &v) in x_free.chunks_exact(m).zip(&reduction.free) {
@@ -161,10 +163,10 @@ impl<'a> StageSystem<'a> {
                         *sum += jacobians[(j * n + v) * (n + k) + c] * x[j];
                     }
                 }
-                for &(d, source) in &reduction.sources {
+                for &(d, source, factor) in &reduction.sources {
                     if source == c {
                         for (j, sum) in sums.iter_mut().enumerate() {
-                            *sum += adjoint[j * n + d];
+                            *sum += factor * adjoint[j * n + d];
                         }
                     }
                 }
@@ -211,10 +213,10 @@ impl<'a> StageSystem<'a> {
     /// order d has the slopes
     ///
     /// ```text
-    /// K_c = T_c + h^d A^d K_free,    T_c = ρ_c + h A T_source      without the last term if the source is free
+    /// K_c = T_c + C h^d A^d K_free,    T_c = ρ_c + J_cs h A T_s      without the last term if its source s is free
     /// ```
     ///
-    /// T is left in the place of ρ. `known` holds h A T.
+    /// with the product C of the factors from c on. T is left in the place of ρ. `known` holds h A T.
     #[inline(always)]
     pub(crate) fn gather_free(
         self,
@@ -237,14 +239,14 @@ impl<'a> StageSystem<'a> {
                 free[place * m + j] = stages[j * n + v];
             }
         }
-        for &(c, source) in &reduction.sources {
+        for &(c, source, factor) in &reduction.sources {
             let mut slopes = [0.0; MAX_STAGES];
             for j in 0..m {
                 slopes[j] = stages[j * n + c];
             }
             if reduction.highest[source].1 > 0 {
                 for j in 0..m {
-                    slopes[j] += known[source * m + j];
+                    slopes[j] += factor * known[source * m + j];
                     stages[j * n + c] = slopes[j];
                 }
             }
@@ -278,11 +280,12 @@ impl<'a> StageSystem<'a> {
                 stages[j * n + v] = free[place * m + j];
             }
         }
-        for &(c, _) in &reduction.sources {
+        for &(c, _, _) in &reduction.sources {
             let (place, order) = reduction.highest[c];
             let products = product(&t.powers[(order - 1) * m * m..], m, &free[place * m..]);
+            let factor = reduction.factors[c] * powers[order - 1];
             for j in 0..m {
-                stages[j * n + c] += powers[order - 1] * products[j];
+                stages[j * n + c] += factor * products[j];
             }
         }
     }
