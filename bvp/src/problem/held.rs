@@ -139,6 +139,39 @@ impl<'a> Held<'a> {
         })
     }
 
+    /// The equations as stated, where every segment is its own piece and there are no units.
+    #[inline(always)]
+    fn as_stated(&self) -> Option<&'a dyn Equations> {
+        self.equations
+            .as_stated()
+            .filter(|_| self.pieces.are_plain())
+    }
+
+    /// The right-hand side of a piece.
+    #[inline(never)]
+    fn evaluate_piece(&self, piece: usize, t: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
+        let (segment, s, sign) = self.pieces.place(piece, t);
+        self.equations.evaluate_rhs(segment, s, y, p, dy);
+        scale(dy, sign);
+    }
+
+    /// The same with its derivatives.
+    #[inline(never)]
+    fn piece_jacobian(
+        &self,
+        piece: usize,
+        t: f64,
+        y: &[f64],
+        p: &[f64],
+        dy: &mut [f64],
+        jacobian: &mut [f64],
+    ) {
+        let (segment, s, sign) = self.pieces.place(piece, t);
+        self.equations.rhs_jacobian(segment, s, y, p, dy, jacobian);
+        scale(dy, sign);
+        scale(jacobian, sign);
+    }
+
     /// Writes the held values, in their units, into `p`.
     pub(crate) fn fill(&self, p: &mut [f64]) {
         for &(index, value) in &self.values {
@@ -156,15 +189,15 @@ impl Equations for Held<'_> {
         }
     }
 
+    #[inline(always)]
     fn evaluate_rhs(&self, piece: usize, t: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
-        if self.pieces.are_plain() {
-            return self.equations.evaluate_rhs(piece, t, y, p, dy);
+        match self.as_stated() {
+            Some(equations) => equations.evaluate_rhs(piece, t, y, p, dy),
+            None => self.evaluate_piece(piece, t, y, p, dy),
         }
-        let (segment, s, sign) = self.pieces.place(piece, t);
-        self.equations.evaluate_rhs(segment, s, y, p, dy);
-        scale(dy, sign);
     }
 
+    #[inline(always)]
     fn rhs_jacobian(
         &self,
         piece: usize,
@@ -174,13 +207,10 @@ impl Equations for Held<'_> {
         dy: &mut [f64],
         jacobian: &mut [f64],
     ) {
-        if self.pieces.are_plain() {
-            return self.equations.rhs_jacobian(piece, t, y, p, dy, jacobian);
+        match self.as_stated() {
+            Some(equations) => equations.rhs_jacobian(piece, t, y, p, dy, jacobian),
+            None => self.piece_jacobian(piece, t, y, p, dy, jacobian),
         }
-        let (segment, s, sign) = self.pieces.place(piece, t);
-        self.equations.rhs_jacobian(segment, s, y, p, dy, jacobian);
-        scale(dy, sign);
-        scale(jacobian, sign);
     }
 
     fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {

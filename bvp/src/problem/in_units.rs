@@ -150,6 +150,15 @@ impl<'a> InUnits<'a> {
         self.units.as_deref()
     }
 
+    /// The equations as stated, if there are no units.
+    #[inline(always)]
+    pub(crate) fn as_stated(&self) -> Option<&'a dyn Equations> {
+        match self.units {
+            None => Some(self.equations),
+            Some(_) => None,
+        }
+    }
+
     /// The unit of a parameter.
     pub(crate) fn parameter_unit(&self, index: usize) -> f64 {
         self.units().map_or(1.0, |units| units.parameters[index])
@@ -161,7 +170,6 @@ impl Equations for InUnits<'_> {
         self.equations.shape()
     }
 
-    #[inline(always)]
     fn evaluate_rhs(&self, segment: usize, s: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
         let Some(units) = self.units() else {
             return self.equations.evaluate_rhs(segment, s, y, p, dy);
@@ -173,7 +181,6 @@ impl Equations for InUnits<'_> {
         divide(dy, y_units);
     }
 
-    #[inline(always)]
     fn rhs_jacobian(
         &self,
         segment: usize,
