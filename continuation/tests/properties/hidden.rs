@@ -32,6 +32,19 @@ fn two_branch_points_in_a_step_are_both_found() {
 }
 
 #[test]
+fn decoupled_pitchforks_a_tenth_apart_are_found_at_a_hundred_places() {
+    // 52 were missed when only the orientation of the null vector was followed.
+    let options = Options::within(-1.0, 1.0);
+    for i in 0..100 {
+        let a = -0.95 + 0.0183 * f64::from(i);
+        let (points, _) = trace(&mut pair(a, 0.1), &[0.0, 0.0, -1.0], Increasing, &options);
+        let found = of(&points, Kind::BranchPoint);
+        let found: Vec<f64> = found.iter().map(|point| point.lambda()).collect();
+        assert_close(&found, &[a, a + 0.1], 1e-8);
+    }
+}
+
+#[test]
 fn a_double_branch_point_is_labelled_approximate() {
     for a in [-0.51, 0.02, 0.4] {
         let options = Options::within(-1.0, 1.0);

@@ -16,6 +16,7 @@ mod sheets;
 mod solutions;
 mod sparse;
 mod special_points;
+mod swift_hohenberg;
 mod switching;
 mod systems;
 mod work;
