@@ -101,9 +101,13 @@ impl Metric {
                 reached[group] = reached[group].max((t / rate).abs() * self.range);
             }
         }
+        // Of a vertical tangent the rate of λ is rounding, and so are the sizes that it reaches.
+        let vertical = reached
+            .iter()
+            .any(|&reached| reached.is_nan() || reached > farthest);
         for (size, reached) in self.size.iter_mut().zip(reached) {
             let empty = *size <= negligible.max(ROUNDED * reached);
-            if empty && reached <= farthest {
+            if empty && !vertical {
                 *size = size.max(reached);
             }
         }

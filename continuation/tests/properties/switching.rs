@@ -3,13 +3,13 @@
 use crate::systems::{circle, pitchfork, transcritical};
 use crate::{assert_close, finish, of, trace};
 use continuation::Direction::Increasing;
-use continuation::{Branch, Error, HalfBranch, Kind, Options, Point, Stop};
+use continuation::{Branch, DenseSystem, Error, HalfBranch, Kind, Options, Point, Stop};
 
 fn options() -> Options {
     Options::within(-1.0, 2.0)
 }
 
-fn branch_point(system: &mut continuation::DenseSystem, start: &[f64]) -> Point {
+fn branch_point(system: &mut DenseSystem, start: &[f64]) -> Point {
     let (points, _) = trace(system, start, Increasing, &options());
     of(&points, Kind::BranchPoint)[0].clone()
 }
@@ -56,7 +56,7 @@ fn both_halves_of_a_transcritical_point_are_followed() {
 #[test]
 fn a_limit_point_right_behind_a_branch_point_is_found() {
     // x (λ − x − 20 x²) = 0: λ = x + 20 x² turns at x = −1/40, λ = −1/80.
-    let mut system = continuation::DenseSystem::new(1, &[0.0], 0, |x, p, g| {
+    let mut system = DenseSystem::new(1, &[0.0], 0, |x, p, g| {
         g[0] = x[0] * (p[0] - x[0] - 20.0 * x[0] * x[0]);
     });
     let crossing = branch_point(&mut system, &[0.0, -1.0]);
@@ -115,4 +115,40 @@ fn a_branch_goes_straight_on_from_a_branch_point() {
     assert!(points.iter().all(|point| point.z[0].abs() < 1e-12));
     assert_eq!(points.last().unwrap().lambda(), 2.0);
     assert!(of(&points, Kind::BranchPoint).is_empty());
+}
+
+#[test]
+fn every_half_of_two_coupled_modes_is_followed_with_either_derivatives() {
+    let residual = |x: &[f64], p: &[f64], g: &mut [f64]| {
+        g[0] = x[0] * (p[0] - x[0] * x[0] - 2.0 * x[1] * x[1]);
+        g[1] = x[1] * (p[0] - 0.5 - x[1] * x[1] - 0.5 * x[0] * x[0]);
+    };
+    let plain = DenseSystem::new(2, &[0.0], 0, residual);
+    let exact = plain.clone().with_jacobian(|x, p, j| {
+        let (a, b) = (x[0] * x[0], x[1] * x[1]);
+        let first = [p[0] - 3.0 * a - 2.0 * b, -4.0 * x[0] * x[1], x[0]];
+        let second = [-x[0] * x[1], p[0] - 0.5 - 3.0 * b - 0.5 * a, x[1]];
+        j[..3].copy_from_slice(&first);
+        j[3..].copy_from_slice(&second);
+    });
+    let options = Options::within(-1.0, 2.0);
+    for mut system in [plain, exact] {
+        let (points, _) = trace(&mut system, &[0.0, 0.0, -1.0], Increasing, &options);
+        let crossings: Vec<Point> = of(&points, Kind::BranchPoint)
+            .into_iter()
+            .cloned()
+            .collect();
+        assert_eq!(crossings.len(), 2);
+        for crossing in &crossings {
+            for half in [HalfBranch::Forward, HalfBranch::Backward] {
+                let branch = Branch::switch(&mut system, crossing, half, &options).unwrap();
+                let (points, stop) = finish(branch);
+                assert!(matches!(stop, Stop::Bound { lambda: 2.0 }), "{stop}");
+                // Both meet the branch of mixed modes at λ = 1.
+                let again = of(&points, Kind::BranchPoint);
+                assert_eq!(again.len(), 1);
+                assert!((again[0].lambda() - 1.0).abs() < 1e-9);
+            }
+        }
+    }
 }
