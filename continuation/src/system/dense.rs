@@ -2,7 +2,7 @@
 
 use crate::difficulty::Cause;
 use crate::system::closures::Closures;
-use crate::system::difference::{Difference, ROUNDING, SHORTER, Stencil, Step};
+use crate::system::difference::{Difference, ROUNDING, Stencil, Step};
 #[cfg(feature = "bvp")]
 use crate::system::exact::{Differentiable, derivative_along, derivatives};
 use crate::system::permutation::parity;
@@ -180,13 +180,17 @@ impl DenseSystem {
         // The size of an equation is the largest change that it shows.
         let largest = |i: usize| columns.iter().fold(0.0, |m: f64, c| m.max(c.terms[i]));
         let sizes: Vec<f64> = (0..n).map(largest).collect();
+        let along_lambda = columns[n].values.clone();
+        let range = self.closures.bounds[1] - self.closures.bounds[0];
         for (j, mut column) in columns.into_iter().enumerate() {
             let known = self.steps[j];
             let mut at = |h: f64| self.column(z, j, h, &centre);
-            if known.is_none() {
-                let h = Step::default().length(z[j]);
-                let mut others = SHORTER.iter().map(|share| at(share * h));
-                if let Some(other) = others.find(|other| column.contradicts(other, &sizes)) {
+            let expected = known
+                .is_none()
+                .then(|| reach(&column, &along_lambda) * range);
+            if let Some(h) = expected.and_then(|reach| Step::narrow(z[j], reach)) {
+                let other = at(h);
+                if column.contradicts(&other, &sizes) {
                     column = other;
                 }
             }
@@ -223,6 +227,14 @@ impl DenseSystem {
             self.residual(&moved, g);
         })
     }
+}
+
+/// The largest change of an unknown with this column of J that a unit change of λ can be compensated by in
+/// one equation.
+fn reach(column: &Difference, along_lambda: &[f64]) -> f64 {
+    let pairs = column.values.iter().zip(along_lambda);
+    let reaches = pairs.filter(|(value, _)| **value != 0.0);
+    reaches.fold(0.0, |m: f64, (value, rate)| m.max((rate / value).abs()))
 }
 
 impl System for DenseSystem {

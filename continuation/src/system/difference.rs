@@ -15,6 +15,11 @@ const RESOLVED: f64 = 1e-8;
 pub(crate) const ROUNDING: f64 = f64::EPSILON / STEP;
 /// Where they differ by more than this, a step is no good.
 const IRREGULAR: f64 = 1e-2;
+/// Where they differ by less than this, the functions are regular on the scale of the step: those a little
+/// shorter resolve them, and much shorter ones would only resolve noise.
+const REGULAR: f64 = 1e-4;
+/// The shorter steps that are tried then.
+const FEW_TRIALS: i32 = 2;
 /// A step is taken for better if it resolves the function this many times better. Truncation changes by 4096
 /// from step to step; less may be chance in noise, which shorter steps enlarge.
 const BETTER: f64 = 4.0;
@@ -23,9 +28,10 @@ pub(crate) const UNCHANGED: f64 = f64::MAX;
 /// A longer step is taken for no better if it changes a derivative by more than this many times what is
 /// unresolved of it: over a narrow feature formulas with long steps agree that there is none.
 const UNCERTAIN: f64 = 30.0;
-/// Shorter steps that are tried once for every unknown, as shares of the usual one, ...
-pub(crate) const SHORTER: [f64; 2] = [1e-3, 1e-6];
-/// ... and the share of its terms by which they contradict a difference: rounding leaves 1e-7 in the latter.
+/// Shorter steps are tried at once where the unknown is expected to change by less than this share of the
+/// usual scale, ...
+const NARROW: f64 = 1e-2;
+/// ... and taken if they contradict a difference by this share of its terms.
 const CONTRADICTION: f64 = 1e-3;
 /// From one step to the next one tried.
 const RATIO: f64 = 8.0;
@@ -213,6 +219,13 @@ impl Step {
         self.length.unwrap_or(STEP * (1.0 + z.abs()))
     }
 
+    /// The length for an unknown that is expected to change by `reach`, where that is much shorter than the
+    /// usual one.
+    pub(crate) fn narrow(z: f64, reach: f64) -> Option<f64> {
+        let scale = z.abs() + reach;
+        (scale > 0.0 && scale < NARROW * (1.0 + z.abs())).then_some(STEP * scale)
+    }
+
     /// Whether the step serves, with which a difference is unresolved to this share.
     pub(crate) fn serves(&self, unresolved: f64) -> bool {
         if self.unresolved > IRREGULAR {
@@ -234,7 +247,8 @@ impl Step {
         let length = first.step;
         let (mut unresolved, mut best) = (left, first);
         for ratio in [RATIO.recip(), RATIO] {
-            for trial in 1..=TRIALS {
+            let few = ratio < 1.0 && unresolved <= REGULAR;
+            for trial in 1..=if few { FEW_TRIALS } else { TRIALS } {
                 if unresolved <= RESOLVED {
                     break;
                 }

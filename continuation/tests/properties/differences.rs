@@ -142,3 +142,33 @@ fn the_second_parameter_may_have_any_unit() {
         assert!(cusps[0].z[2].abs() < 1e-7 * unit);
     }
 }
+
+#[test]
+fn noise_spoils_no_differences() {
+    for exponent in 9..=13 {
+        let amplitude = 10f64.powi(-exponent);
+        for phase in [1.0, 2.0, 3.0] {
+            // λ = x₁ + sin(3 x₁) and x₂ = x₁².
+            let mut system = DenseSystem::new(2, &[0.0], 0, move |x, p, g| {
+                let noise = |k: f64| {
+                    let wild = (x[0] * 1.1e5 + x[1] * 2.3e5 + p[0] * 3.7e5 + k * phase).sin();
+                    amplitude * ((wild * 43_758.545_3).rem_euclid(1.0) - 0.5)
+                };
+                g[0] = p[0] - x[0] - (3.0 * x[0]).sin() + noise(1.0);
+                g[1] = x[1] - x[0] * x[0] + noise(2.0);
+            });
+            let options = Options::within(-1.0, 4.0);
+            let (points, stop) = trace(&mut system, &[0.0; 3], Increasing, &options);
+            assert!(
+                matches!(stop, Stop::Bound { .. }),
+                "{amplitude:e}, {phase}: {stop}"
+            );
+            assert_eq!(
+                of(&points, Kind::LimitPoint).len(),
+                4,
+                "{amplitude:e}, {phase}"
+            );
+            assert!(of(&points, Kind::BranchPoint).is_empty());
+        }
+    }
+}
