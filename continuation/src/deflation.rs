@@ -34,7 +34,7 @@ const CORRECTIONS: usize = 30;
 const DISTINCT: f64 = 1e-5;
 
 /// Finds a solution of G(x, λ) = 0 at the λ of `guess` that is none of the `known` ones (their λ is
-/// not looked at): the way to branches that are connected to no known one. Where the iteration from
+/// ignored): the way to branches that are connected to no known one. Where the iteration from
 /// the guess fails, it is tried from places around the guess.
 ///
 /// # Errors

@@ -50,7 +50,7 @@ pub enum Difficulty {
         /// λ there.
         lambda: f64,
     },
-    /// The tangent turns too much: another branch, or a corner.
+    /// The tangent turns too much: another branch, or a kink.
     #[error("the tangent turns by {angle:.2} rad in one step, limit {limit:.2}")]
     Turn {
         /// Angle between the tangents, rad.

@@ -69,8 +69,8 @@
 //!    derivatives at the branch point, and verifies that the first point lies there
 //!    ([`Branch::switch`]).
 //! 7. **Two parameters**: [`LimitPointCurve`] and [`BranchPointCurve`] are systems themselves, whose
-//!    parameter is μ. Their derivatives come from second differences of G and the linearisation of
-//!    the system itself (compare Govaerts 2000, chapters 4 and 8).
+//!    parameter is μ. Their derivatives come from second derivatives of G along directions and the
+//!    linearisation of the system itself (compare Govaerts 2000, chapters 4 and 8).
 //! 8. **Deflation** ([`deflate`]; Farrell, Birkisson & Funke 2015) finds solutions on branches that are
 //!    connected to no known one, and a [`homotopy`] one solution at a wanted λ.
 //!
@@ -96,7 +96,7 @@
 //! A branch ends with a [`Stop`] that says why. Extrema of any quantity are events of its derivative;
 //! extrema of μ on a curve of limit points, where isolated branches are born or merge, are limit points
 //! of that curve. Branch points at which the determinant does not change its sign (of even multiplicity)
-//! and Hopf bifurcations are not looked for.
+//! and Hopf bifurcations are not detected.
 //!
 //! # Boundary value problems
 //!
@@ -151,7 +151,7 @@
 //! | `ICP` | `lens` | `ap` | the parameter of the system, and [`TwoParameter`] |
 //! | `DS`, `DSMAX`, `DSMIN` | `ds`, `dsmax`, `dsmin` | `InitStepsize`, `MaxStepsize`, `MinStepsize` | [`Options::first_step`], [`largest_step`](Options::largest_step), [`smallest_step`](Options::smallest_step), in units of the range of λ; the sign of `DS` is the [`Direction`] |
 //! | `NMX` | `max_steps` | `MaxNumPoints` | [`Options::steps`] |
-//! | `RL0`, `RL1` | `p_min`, `p_max` | | [`Options::bounds`], as walls |
+//! | `RL0`, `RL1` | `p_min`, `p_max` | | [`Options::bounds`], never passed |
 //! | `UZR` in λ | `SaveAtEvent` | `Userfunctions` | [`Options::targets`] |
 //! | `UZR` in others, `PVLS` | `ContinuousEvent` | `Userfunctions` | [`Branch::event`] |
 //! | `EPSL`, `EPSU`, `EPSS` | `tol` | `FunTolerance`, `VarTolerance` | [`Options::accuracy`]; special points always to rounding |

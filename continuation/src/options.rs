@@ -13,7 +13,7 @@ use crate::error::Error;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Options {
-    /// Hard walls of λ: the system is never evaluated beyond them, and a branch that reaches one
+    /// Hard bounds of λ: the system is never evaluated beyond them, and a branch that reaches one
     /// lands on it and stops. Their distance is the unit of λ in the arclength (the larger of 1 and
     /// |λ| of the first point where it is infinite).
     pub bounds: [f64; 2],
@@ -86,7 +86,7 @@ impl Options {
         }
     }
 
-    /// Checks every setting against a system with so many unknowns.
+    /// Checks every setting against a system with this many unknowns.
     pub(crate) fn validate(&self, unknowns: usize) -> Result<(), Error> {
         let [low, high] = self.bounds;
         if low.is_nan() || high.is_nan() || low >= high {

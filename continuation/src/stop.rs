@@ -23,7 +23,7 @@ pub enum Stop {
     /// The branch is a closed curve; the last point is the first one.
     #[error("the branch is closed")]
     Closed,
-    /// As many steps were taken as asked for.
+    /// The number of steps asked for has been taken.
     #[error("{steps} steps taken")]
     Steps {
         /// Number of steps.

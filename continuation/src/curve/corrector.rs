@@ -44,7 +44,7 @@ impl Condition {
         Self { row, value }
     }
 
-    /// A prescribed λ, for so many unknowns.
+    /// A prescribed λ, for this many unknowns.
     pub(crate) fn lambda(unknowns: usize, value: f64) -> Self {
         let mut row = vec![0.0; unknowns];
         row[unknowns - 1] = 1.0;
@@ -72,27 +72,27 @@ pub(crate) enum Accuracy {
     Rounding,
 }
 
-/// Newton's method between walls of λ, with its buffers.
+/// Newton's method between bounds of λ, with its buffers.
 #[derive(Clone, Debug)]
 pub(crate) struct Corrector {
     /// λ may not leave them on the way to a solution.
-    walls: [f64; 2],
+    bounds: [f64; 2],
     residual: Vec<f64>,
     particular: Vec<f64>,
     null: Vec<f64>,
 }
 
 impl Corrector {
-    pub(crate) fn within(walls: [f64; 2]) -> Self {
+    pub(crate) fn within(bounds: [f64; 2]) -> Self {
         Self {
-            walls,
+            bounds,
             residual: Vec::new(),
             particular: Vec::new(),
             null: Vec::new(),
         }
     }
 
-    /// Without walls.
+    /// Without bounds.
     pub(crate) fn anywhere() -> Self {
         Self::within([f64::NEG_INFINITY, f64::INFINITY])
     }
@@ -121,7 +121,7 @@ impl Corrector {
             contraction: 0.0,
             drift: 0.0,
         };
-        z[n] = z[n].clamp(self.walls[0], self.walls[1]);
+        z[n] = z[n].clamp(self.bounds[0], self.bounds[1]);
         let wanted = match accuracy {
             Accuracy::Length(length) => length,
             Accuracy::Rounding => 0.0,
@@ -152,7 +152,7 @@ impl Corrector {
                 (before, keep) = (None, false);
                 continue;
             }
-            let (lambda, [low, high]) = (z[n] + self.particular[n], self.walls);
+            let (lambda, [low, high]) = (z[n] + self.particular[n], self.bounds);
             if lambda < low || lambda > high {
                 return Err(Difficulty::OutOfBounds { lambda });
             }
@@ -192,10 +192,10 @@ impl Corrector {
         }
     }
 
-    /// Evaluates G, which beyond the walls is taken for undefined.
+    /// Evaluates G, which beyond the bounds counts as undefined.
     pub(crate) fn residual<S: System>(&self, system: &mut S, z: &[f64], g: &mut [f64]) {
         g.fill(f64::NAN);
-        let [low, high] = self.walls;
+        let [low, high] = self.bounds;
         if (low..=high).contains(&z[z.len() - 1]) {
             system.residual(z, g);
         }
@@ -203,12 +203,12 @@ impl Corrector {
 
     /// The bounds of λ.
     pub(crate) fn bounds(&self) -> [f64; 2] {
-        self.walls
+        self.bounds
     }
 
-    /// λ, or its mirror image at the wall that it lies beyond.
+    /// λ, or its mirror image at the bound that it lies beyond.
     pub(crate) fn reflected(&self, lambda: f64) -> f64 {
-        let [low, high] = self.walls;
+        let [low, high] = self.bounds;
         2.0 * lambda.clamp(low, high) - lambda
     }
 

@@ -1,6 +1,6 @@
 //! Prediction of the next point.
 
-/// The points that the prediction looks back on.
+/// The number of earlier points that the prediction uses.
 const MEMORY: usize = 2;
 
 /// The last points of a branch with their arclengths, newest first.

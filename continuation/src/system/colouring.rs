@@ -41,11 +41,11 @@ impl<E: Differentiable> Coloured<E> {
             );
             columns[column].push(row);
         }
-        let mut taken: Vec<Vec<usize>> = vec![Vec::new(); states];
+        let mut used: Vec<Vec<usize>> = vec![Vec::new(); states];
         let colours = columns.iter().map(|rows| {
-            let free = |colour: &usize| rows.iter().all(|&row| !taken[row].contains(colour));
+            let free = |colour: &usize| rows.iter().all(|&row| !used[row].contains(colour));
             let colour = (0..).find(free).unwrap_or(0);
-            rows.iter().for_each(|&row| taken[row].push(colour));
+            rows.iter().for_each(|&row| used[row].push(colour));
             colour
         });
         Self {

@@ -63,7 +63,7 @@ struct Factors {
 }
 
 impl DenseSystem {
-    /// The system with so many states, values of all parameters of which number `lambda` varies
+    /// The system with this many states, values of all parameters of which number `lambda` varies
     /// along branches, and `residual(x, p, g)`.
     ///
     /// # Panics

@@ -32,7 +32,7 @@ const EXCHANGES: usize = 2;
 ///
 /// One of the parameters p is λ. The closure `entries(x, p, put)` calls `put(row, column, value)` for
 /// every derivative that can be different from zero: in column j < n with respect to xⱼ, in column
-/// n + i to parameter i, where only that of λ is looked at. Entries named twice are added up. As long as
+/// n + i to parameter i, of which only that of λ is used. Entries named twice are added up. As long as
 /// they are named in the same order, the structure is analysed once.
 ///
 /// J is completed by one row that names an unknown which is left over, and factored by elimination with
@@ -84,7 +84,7 @@ pub struct SparseSystem {
 }
 
 impl SparseSystem {
-    /// The system with so many states, values of all parameters of which number `lambda` varies along
+    /// The system with this many states, values of all parameters of which number `lambda` varies along
     /// branches, `residual(x, p, g)` and the `entries(x, p, put)` of its Jacobian.
     ///
     /// # Panics

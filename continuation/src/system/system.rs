@@ -33,7 +33,7 @@ pub trait System {
     fn null_vector(&mut self, t: &mut [f64]);
 
     /// The bounds of λ, told before anything else is asked: G is not to be evaluated beyond them, not even
-    /// for differences. Systems that evaluate G only where they are asked to need not look at them.
+    /// for differences. Systems that evaluate G only where they are asked to can ignore them.
     fn set_bounds(&mut self, bounds: [f64; 2]) {
         let _ = bounds;
     }

@@ -26,7 +26,7 @@ fn predictions_that_leave_the_domain_of_a_logarithm_are_shortened() {
 }
 
 #[test]
-fn without_a_wall_the_branch_goes_on_into_the_singularity() {
+fn without_a_bound_the_branch_goes_on_into_the_singularity() {
     let options = Options {
         steps: 100,
         ..Options::within(-1.0, 2.0)
