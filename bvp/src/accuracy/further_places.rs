@@ -16,6 +16,7 @@ use crate::discretisation::iterate::{Interval, Iterate};
 use crate::discretisation::mesh::{Mesh, split};
 use crate::discretisation::scheme::MAX_STAGES;
 use crate::discretisation::tableau::Tableau;
+use crate::kernels::dense::max_or_nan;
 use crate::problem::equations::Equations;
 use crate::result::quality::Defects;
 use crate::result::stats::Stats;
@@ -35,6 +36,11 @@ const GAP: f64 = 0.1;
 const NEAR: f64 = 0.1;
 /// A place is that many spacings of floating-point numbers off a node, so that it is on its own side.
 const SPACINGS: f64 = 16.0;
+/// In an interval so short that this is much of it, the place is this share of it off the node.
+const LARGEST_SHARE: f64 = 0.4;
+/// Nearer to a node than any place, a defect may grow like the distance to the power of −1 and this: what is
+/// steeper is the little that is not explained beside a mapped infinite end.
+const STEEPEST: f64 = 0.05;
 /// The rungs of the ladder by which a defect near a node is integrated are this far apart, which is how
 /// precisely a jump between two of them is placed.
 const RUNG: f64 = 0.1;
@@ -48,6 +54,7 @@ pub(crate) struct FurtherPlaces {
     last: f64,
     /// Segments and places where an unseen defect was found.
     found: Vec<(usize, f64)>,
+    scratch: Scratch,
 }
 
 impl FurtherPlaces {
@@ -55,14 +62,8 @@ impl FurtherPlaces {
         Self {
             last: 0.5,
             found: vec![],
+            scratch: Scratch::default(),
         }
-    }
-
-    /// The next place in \[0, 1).
-    fn next(&mut self) -> f64 {
-        const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_8;
-        self.last = (self.last + INVERSE_GOLDEN_RATIO).fract();
-        self.last
     }
 
     /// The mesh with all intervals cut in which an unseen defect adds more to the solution `x` than is
@@ -91,12 +92,14 @@ impl FurtherPlaces {
                 tolerance,
             };
             let mut pieces = vec![1; nodes.len() - 1];
-            segment.near_nodes(&mut pieces, &mut self.found, stats);
+            self.scratch.resize(segment.n());
+            let (found, scratch) = (&mut self.found, &mut self.scratch);
+            segment.near_nodes(&mut pieces, found, scratch, stats);
             for _ in 0..PLACES.div_ceil(pieces.len()) {
-                let theta = self.next();
-                segment.inside(theta, &mut pieces, &mut self.found, stats);
+                let theta = next(&mut self.last);
+                segment.inside(theta, &mut pieces, found, scratch, stats);
             }
-            segment.again(&mut pieces, &self.found, stats);
+            segment.again(&mut pieces, found, scratch, stats);
             if pieces.iter().any(|&pieces| pieces > 1) {
                 let finer = finer.get_or_insert_with(|| mesh.clone());
                 finer[index] = split(nodes, &pieces);
@@ -104,6 +107,13 @@ impl FurtherPlaces {
         }
         finer
     }
+}
+
+/// Goes on from the last place in \[0, 1) to the next one.
+fn next(last: &mut f64) -> f64 {
+    const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_8;
+    *last = (*last + INVERSE_GOLDEN_RATIO).fract();
+    *last
 }
 
 /// A solution on one segment, and what is allowed of its defect.
@@ -124,36 +134,67 @@ struct SegmentLook<'a> {
 
 impl SegmentLook<'_> {
     /// Looks next to all nodes from both sides.
-    fn near_nodes(&self, pieces: &mut [usize], found: &mut Vec<(usize, f64)>, stats: &mut Stats) {
+    fn near_nodes(
+        &self,
+        pieces: &mut [usize],
+        found: &mut Vec<(usize, f64)>,
+        scratch: &mut Scratch,
+        stats: &mut Stats,
+    ) {
         let gap = self.t.defect_rule.points[0];
         let slope = self.largest_slope();
-        let mut scratch = Scratch::new(self.n());
+        let ends = [0.0, 1.0].map(|theta| Weights::at(self.t, theta));
         for (i, pieces) in pieces.iter_mut().enumerate() {
             let interval = self.interval(i);
-            for right in [false, true] {
-                let theta = |distance: f64| if right { 1.0 - distance } else { distance };
-                let nearest = self.nearest(i, slope).min(0.5 * gap);
-                let mut last = gap;
-                let at = |distance: f64, scratch: &mut Scratch, stats: &mut Stats| {
-                    self.defect(&interval, theta(distance), scratch, stats)
-                };
-                let mut sum = interval.h * gap * at(nearest, &mut scratch, stats);
-                if self.is_unseen(sum, self.local[i]) {
-                    sum = 0.0;
-                    while last > nearest {
-                        let distance = (RUNG * last).max(nearest);
-                        let defect =
-                            self.unexplained(&interval, theta(distance), &mut scratch, stats);
-                        sum += interval.h * (last - distance) * defect;
-                        last = distance;
-                    }
-                    if self.is_unseen(sum, self.local[i]) {
+            let nearest = self.nearest(i, slope);
+            let first = gap.max(2.0 * nearest);
+            for (right, end) in [false, true].into_iter().zip(&ends) {
+                let theta = if right { 1.0 - nearest } else { nearest };
+                let s = interval.place(theta);
+                let defect = self.defect(&interval, s, end, scratch, stats);
+                let jumps = self.is_unseen(interval.h * first * defect, self.local[i]);
+                let grows = interval.h * nearest * scratch.rate() > 2.0 * self.near;
+                if jumps || grows {
+                    let sum = self.near_node(&interval, right, [first, nearest], scratch, stats);
+                    if sum > self.allowed && (grows || sum > self.local[i]) {
                         *pieces = PARTS;
-                        found.push((self.index, interval.place(theta(nearest))));
+                        found.push((self.index, s));
                     }
                 }
             }
         }
+    }
+
+    /// The integral of the defect beside the left or right node of an interval, over the shares of it up to
+    /// the first one: down to the nearest by the rungs of a ladder, beyond it that of the right-hand side by
+    /// the power law of the last two.
+    fn near_node(
+        &self,
+        interval: &Interval<'_>,
+        right: bool,
+        [first, nearest]: [f64; 2],
+        scratch: &mut Scratch,
+        stats: &mut Stats,
+    ) -> f64 {
+        let mut at = |distance: f64| {
+            let theta = if right { 1.0 - distance } else { distance };
+            self.unexplained(interval, theta, scratch, stats)
+        };
+        let (mut sum, mut power, mut last) = (0.0, 0.0f64, first);
+        let [mut defect, mut rate] = at(first);
+        while last > nearest {
+            let distance = (RUNG * last).max(nearest);
+            let before = rate;
+            [defect, rate] = at(distance);
+            sum += (last - distance) * defect;
+            power = (rate / before).ln() / (last / distance).ln();
+            last = distance;
+        }
+        let beyond = match power > 0.0 {
+            true => rate * power / (1.0 - power).max(STEEPEST),
+            false => 0.0,
+        };
+        interval.h * (sum + nearest * (defect + beyond))
     }
 
     /// Looks at the same place of all intervals.
@@ -162,11 +203,12 @@ impl SegmentLook<'_> {
         theta: f64,
         pieces: &mut [usize],
         found: &mut Vec<(usize, f64)>,
+        scratch: &mut Scratch,
         stats: &mut Stats,
     ) {
-        let mut scratch = Scratch::new(self.n());
+        let weights = Weights::at(self.t, theta);
         for (i, pieces) in pieces.iter_mut().enumerate() {
-            if self.is_unseen_at(i, theta, &mut scratch, stats) {
+            if self.is_unseen_at(i, theta, &weights, scratch, stats) {
                 *pieces = PARTS;
                 found.push((self.index, self.interval(i).place(theta)));
             }
@@ -174,8 +216,13 @@ impl SegmentLook<'_> {
     }
 
     /// Looks where something was found before.
-    fn again(&self, pieces: &mut [usize], found: &[(usize, f64)], stats: &mut Stats) {
-        let mut scratch = Scratch::new(self.n());
+    fn again(
+        &self,
+        pieces: &mut [usize],
+        found: &[(usize, f64)],
+        scratch: &mut Scratch,
+        stats: &mut Stats,
+    ) {
         for &(_, s) in found.iter().filter(|(index, _)| *index == self.index) {
             let i = self
                 .nodes
@@ -183,19 +230,27 @@ impl SegmentLook<'_> {
                 .clamp(1, pieces.len())
                 - 1;
             let theta = (s - self.nodes[i]) / (self.nodes[i + 1] - self.nodes[i]);
-            if pieces[i] == 1 && self.is_unseen_at(i, theta, &mut scratch, stats) {
+            let weights = Weights::at(self.t, theta);
+            if pieces[i] == 1 && self.is_unseen_at(i, theta, &weights, scratch, stats) {
                 pieces[i] = PARTS;
             }
         }
     }
 
     /// Whether the defect at a place of interval i is neither that of the polynomials nor harmless.
-    fn is_unseen_at(&self, i: usize, theta: f64, scratch: &mut Scratch, stats: &mut Stats) -> bool {
+    fn is_unseen_at(
+        &self,
+        i: usize,
+        theta: f64,
+        weights: &Weights,
+        scratch: &mut Scratch,
+        stats: &mut Stats,
+    ) -> bool {
         let interval = self.interval(i);
         let expected = GAP * EXPECTED * self.local[i];
-        let seen = GAP * interval.h * self.defect(&interval, theta, scratch, stats);
-        self.is_unseen(seen, expected) && {
-            let defect = self.unexplained(&interval, theta, scratch, stats);
+        let defect = self.defect(&interval, interval.place(theta), weights, scratch, stats);
+        self.is_unseen(GAP * interval.h * defect, expected) && {
+            let [defect, _] = self.unexplained(&interval, theta, scratch, stats);
             self.is_unseen(GAP * interval.h * defect, expected)
         }
     }
@@ -220,7 +275,9 @@ impl SegmentLook<'_> {
     fn nearest(&self, i: usize, slope: f64) -> f64 {
         let (left, right) = (self.nodes[i], self.nodes[i + 1]);
         let spacing = f64::EPSILON * left.abs().max(right.abs());
-        (self.near / slope).max(SPACINGS * spacing) / (right - left)
+        let h = right - left;
+        let harmless = (self.near / slope / h).min(0.5 * self.t.defect_rule.points[0]);
+        harmless.max(SPACINGS * spacing / h).min(LARGEST_SHARE)
     }
 
     /// The largest |dy/ds| / (1 + |y|) at the collocation points of the segment, at least that of a state
@@ -233,16 +290,18 @@ impl SegmentLook<'_> {
         })
     }
 
-    /// The largest defect at a place of an interval, relative to 1 + |y|, less what an error of the states
-    /// within the tolerance makes of the right-hand side: next to a singular end that is much.
+    /// The largest defect and the largest right-hand side at a place of an interval, relative to 1 + |y|, less
+    /// what an error of the states within the tolerance makes of the right-hand side: next to a singular end
+    /// that is much.
     fn unexplained(
         &self,
         interval: &Interval<'_>,
         theta: f64,
         scratch: &mut Scratch,
         stats: &mut Stats,
-    ) -> f64 {
-        self.defect(interval, theta, scratch, stats);
+    ) -> [f64; 2] {
+        let weights = Weights::at(self.t, theta);
+        self.defect(interval, interval.place(theta), &weights, scratch, stats);
         let Scratch { y, f, slope } = scratch;
         let (n, columns) = (y.len(), y.len() + self.x.p.len());
         let (mut jacobian, s) = (vec![0.0; n * columns], interval.place(theta));
@@ -251,43 +310,58 @@ impl SegmentLook<'_> {
         stats.jacobian_evaluations += 1;
         let rows = jacobian.chunks_exact(columns);
         let each = slope.iter().zip(&*f).zip(&*y).zip(rows);
-        let largest = each.fold(0.0f64, |m, (((slope, f), y_own), row)| {
+        let largest = each.fold([0.0f64; 2], |largest, (((slope, f), y_own), row)| {
             let terms = row.iter().zip(&*y);
             let explained: f64 = terms.map(|(j, y)| j.abs() * (1.0 + y.abs())).sum();
-            let defect = (slope - f).abs() - self.tolerance * explained;
-            m.max(defect / (1.0 + y_own.abs()))
+            let sizes = [(slope - f).abs(), f.abs()];
+            let sizes = sizes.map(|size| (size - self.tolerance * explained) / (1.0 + y_own.abs()));
+            [0, 1].map(|i| largest[i].max(sizes[i]))
         });
-        if largest.is_finite() { largest } else { 0.0 }
+        largest.map(|size| if size.is_finite() { size } else { 0.0 })
     }
 
-    /// The largest defect at a place of an interval, relative to 1 + |y|; zero where it is not finite.
+    /// The largest defect at a place s of an interval, with the weights of it or of the node beside it,
+    /// relative to 1 + |y|; zero where it is not finite.
     fn defect(
         &self,
         interval: &Interval<'_>,
-        theta: f64,
+        s: f64,
+        weights: &Weights,
         scratch: &mut Scratch,
         stats: &mut Stats,
     ) -> f64 {
         let Scratch { y, f, slope } = scratch;
-        let mut weights = [0.0; MAX_STAGES];
-        let weights = &mut weights[..self.t.stages];
-        self.t.value_weights(theta, weights);
-        interval.state(weights, y);
-        self.t.slope_weights(theta, weights);
-        interval.slope(weights, slope);
+        let m = self.t.stages;
+        interval.state(&weights.value[..m], y);
+        interval.slope(&weights.slope[..m], slope);
         f.fill(f64::NAN);
-        let s = interval.place(theta);
         self.equations.evaluate_rhs(self.index, s, y, &self.x.p, f);
         stats.rhs_evaluations += 1;
         let defects = slope.iter().zip(&*f).zip(&*y);
         let largest = defects.fold(0.0f64, |m, ((slope, f), y)| {
-            m.max((slope - f).abs() / (1.0 + y.abs()))
+            max_or_nan(m, (slope - f).abs() / (1.0 + y.abs()))
         });
         if largest.is_finite() { largest } else { 0.0 }
     }
 }
 
+/// The weights of the slopes for the state and the slope at a place of all intervals.
+struct Weights {
+    value: [f64; MAX_STAGES],
+    slope: [f64; MAX_STAGES],
+}
+
+impl Weights {
+    fn at(t: &Tableau, theta: f64) -> Self {
+        let [mut value, mut slope] = [[0.0; MAX_STAGES]; 2];
+        t.value_weights(theta, &mut value[..t.stages]);
+        t.slope_weights(theta, &mut slope[..t.stages]);
+        Self { value, slope }
+    }
+}
+
 /// One state, its right-hand side and its slope.
+#[derive(Clone, Debug, Default)]
 struct Scratch {
     y: Vec<f64>,
     f: Vec<f64>,
@@ -295,8 +369,15 @@ struct Scratch {
 }
 
 impl Scratch {
-    fn new(n: usize) -> Self {
-        let [y, f, slope] = [(); 3].map(|()| vec![0.0; n]);
-        Self { y, f, slope }
+    /// The largest |f| relative to 1 + |y|.
+    fn rate(&self) -> f64 {
+        let rates = self.f.iter().zip(&self.y);
+        rates.fold(0.0, |m, (f, y)| m.max(f.abs() / (1.0 + y.abs())))
+    }
+
+    fn resize(&mut self, n: usize) {
+        for values in [&mut self.y, &mut self.f, &mut self.slope] {
+            values.resize(n, 0.0);
+        }
     }
 }
