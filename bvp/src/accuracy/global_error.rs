@@ -33,22 +33,21 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl Collocation<'_> {
     /// The global errors of the solution `x`, which was last linearised nearby, from its defects and the
-    /// local ones, and from what it jumps by at the nodes if `jumps`. `None` if one is not finite. Writes `residual` and leaves w in `w`.
+    /// local ones, and from what it jumps by at the nodes. `None` if one is not finite. Writes `residual`
+    /// and leaves w in `w`.
     ///
     /// Errors are evaluated at the nodes and at the two collocation points in the middle of every interval:
     /// D has its extrema at these points, the largest in the middle.
     pub(crate) fn global_errors(
         &mut self,
         x: &Iterate,
-        (samples, local, jumps): (&Samples, &[Vec<f64>], bool),
+        (samples, local): (&Samples, &[Vec<f64>]),
         residual: &mut Residual,
         w: &mut Iterate,
     ) -> Option<GlobalErrors> {
         let m = self.tableau.stages;
         self.integrate_defects(samples, residual);
-        if jumps {
-            self.add_jumps(x, residual);
-        }
+        self.add_jumps(x, residual);
         self.conditions(x, &mut residual.conditions).ok()?;
         self.correction(residual, w);
         let each = samples.iter().zip(local).enumerate();
@@ -76,7 +75,8 @@ impl Collocation<'_> {
         }
     }
 
-    /// Adds what S jumps by at the nodes beyond its own rounding: what that of long Newton steps leaves.
+    /// Adds what S jumps by at the nodes beyond its own rounding and that of one: the elimination rounds
+    /// relative to what is largest anywhere, as at the end of an exponential growth.
     fn add_jumps(&self, x: &Iterate, residual: &mut Residual) {
         let t = &*self.tableau;
         for (index, segment) in self.equations.segments().iter().enumerate() {
@@ -87,7 +87,7 @@ impl Collocation<'_> {
                 let interval = Interval::new(&x.segments[index], n, t, i, ends);
                 interval.continuity(t, &mut jump);
                 for (component, (to, jump)) in to.iter_mut().zip(&jump).enumerate() {
-                    if jump.abs() > ROUNDING * interval.size(component) {
+                    if jump.abs() > ROUNDING * interval.size(component).max(1.0) {
                         *to += jump;
                     }
                 }

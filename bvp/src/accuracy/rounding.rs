@@ -26,10 +26,11 @@
 //! the conditions. Rounding inside the right-hand side beyond that of J y is not seen.
 
 use crate::discretisation::iterate::{Interval, Iterate, Residual, SegmentIterate};
+use crate::discretisation::ratio::{Component, largest_ratio};
 use crate::kernels::dense::dot;
 use crate::kernels::random::Signs;
 use crate::newton::collocation::{Collocation, gather_ends};
-use crate::newton::newton::norm_by_component;
+use crate::problem::problem::Segment;
 
 /// The unit roundoff u of double precision.
 pub(crate) const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
@@ -57,6 +58,9 @@ const AGREED: f64 = 0.03;
 /// problems without one is at most 0.6 tolerances, and problems that must be refused have pivots
 /// below 1e-7.
 const HARMLESS_PIVOT: f64 = 1e-6;
+
+/// Rounding is measured relative to no less than this share of the largest state of a component.
+const SMALL_STATE: f64 = 0.01;
 
 /// Whether a solution within the tolerance by all other measures may be nothing but rounding, by the
 /// rounding measured and by the amplification a. The product of a with the unit roundoff counts where what
@@ -125,6 +129,13 @@ impl Collocation<'_> {
             *r = dot(row, &unknowns);
         }
     }
+}
+
+/// The largest entry of a correction relative to 1 + |x|, and to a share of the largest |x| of its component
+/// on the segment: where a state is far smaller than elsewhere, rounding elsewhere is what counts.
+fn norm_by_component(segments: &[Segment], x: &Iterate, correction: &Iterate) -> f64 {
+    let of_state = |y: &Component<'_>, i| 1.0 + SMALL_STATE * y.largest + y.at(i).abs();
+    largest_ratio(segments, x, correction, of_state, |p| 1.0 + p.abs())
 }
 
 /// x with random signs.

@@ -343,62 +343,75 @@ impl Run<'_> {
         } = self;
         solution.quality.errors = newton.global_errors(collocation, &solution.x, samples, local);
         match self.collocation.is_suspect() {
-            true => self.refuse_rounding(solution),
+            true => {
+                let a = self.amplification(&solution.x);
+                self.refuse_rounding(solution, a)
+            }
             false => Ok(()),
         }
+    }
+
+    /// Linearises at a solution, and lets Newton's method go on from it where its correction is not small
+    /// beside the tolerance, once on a mesh; returns whether it did. A smaller correction is in the estimate of
+    /// the error.
+    fn goes_on(&mut self, solution: &mut Solution) -> Result<bool, Error> {
+        let correction = self.correction(&solution.x);
+        let is_small = |&size: &f64| size <= AIM * self.options.tolerance;
+        if correction.as_ref().is_ok_and(is_small) {
+            return Ok(false);
+        }
+        if std::mem::replace(&mut self.moved, true) {
+            return match correction {
+                Ok(_) => Ok(false),
+                Err(failure) => Err(self.failed(failure, solution.x.clone())),
+            };
+        }
+        let mut x = solution.x.clone();
+        *solution = match self.iterate(&mut x) {
+            Ok(()) => self.assess(x)?,
+            Err(failure) => return Err(self.failed(failure, x)),
+        };
+        Ok(true)
     }
 
     /// Takes a second look at a solution within the tolerance: what was found of it must hold at the
     /// solution itself, it must be isolated, and no layer may hide from the mesh.
     fn confirm(&mut self, solution: &mut Solution) -> Result<Confirmed, Error> {
-        let mut a = self.amplification(&solution.x);
-        let harmless = HARMLESS * self.options.tolerance;
-        // A long step leaves its rounding, too.
-        if !self.newton.is_current() || a * UNIT_ROUNDOFF * self.newton.moved > harmless {
-            let wanted = AIM * self.options.tolerance;
-            let correction = self.correction(&solution.x);
-            if !correction.as_ref().is_ok_and(|&size| size <= wanted) && !self.moved {
-                self.moved = true;
-                let mut x = solution.x.clone();
-                *solution = match self.iterate(&mut x) {
-                    Ok(()) => self.assess(x)?,
-                    Err(failure) => return Err(self.failed(failure, x)),
-                };
-                return Ok(Confirmed::Moved);
-            }
-            // What is left of it is in the estimate of the error.
-            if let Err(failure) = correction {
-                return Err(self.failed(failure, solution.x.clone()));
-            }
-            a = self.amplification(&solution.x);
+        if !self.newton.is_current() && self.goes_on(solution)? {
+            return Ok(Confirmed::Moved);
         }
+        let a = self.amplification(&solution.x);
+        let harmless = HARMLESS * self.options.tolerance;
         if a * UNIT_ROUNDOFF > harmless || self.collocation.is_suspect() {
-            self.refuse_rounding(solution)?;
+            self.refuse_rounding(solution, a)?;
         }
         if is_open(a) && self.rounds(solution) {
-            let direction = self.newton.amplified(&self.collocation, &solution.x);
+            let direction = self.amplified(&solution.x);
             return self.doubt(direction, solution).map(Confirmed::On);
         }
         if is_amplified(a, self.options.tolerance)
-            && let Some(direction) = self.direction(solution)
+            && let Some(direction) = self.direction(&solution.x, &solution.quality.defects.local, a)
         {
             return self.doubt(direction, solution).map(Confirmed::On);
         }
         if let Some(mesh) = self.look_further(solution) {
             return Ok(Confirmed::On(mesh));
         }
-        if !std::mem::replace(&mut self.probed, true)
-            && let Some(mesh) = self.collocation.with_possible_layers()
+        let layers = match std::mem::replace(&mut self.probed, true) {
+            true => None,
+            false => self.collocation.with_possible_layers(),
+        };
+        if is_high(a) && self.may_halve(&solution.mesh) {
+            let direction = self.amplified(&solution.x);
+            let (_, _, on_halved) = self.amplification_on(halved(&solution.mesh), solution);
+            if !is_steady(a, on_halved) {
+                return self.doubt(direction, solution).map(Confirmed::On);
+            }
+        }
+        if let Some(mesh) = layers
             && !self.is_kept(solution, &mesh)
         {
             return Ok(Confirmed::On(mesh));
-        }
-        if is_high(a) && self.may_halve(&solution.mesh) {
-            self.amplification(&solution.x);
-            let direction = self.newton.amplified(&self.collocation, &solution.x);
-            if !is_steady(a, self.amplification_on(halved(&solution.mesh), solution)) {
-                return self.doubt(direction, solution).map(Confirmed::On);
-            }
         }
         Ok(Confirmed::Yes)
     }
@@ -426,23 +439,12 @@ impl Run<'_> {
                 break;
             }
             mesh = halved(&mesh);
-            let a = self.amplification_on(mesh.clone(), solution);
+            let (x, local, a) = self.amplification_on(mesh.clone(), solution);
             if is_open(a) {
                 break;
             }
-            let Self {
-                newton,
-                collocation,
-                samples,
-                stats,
-                ..
-            } = self;
-            let x = transfer(&mesh, &collocation.tableau, solution);
             if !is_amplified(a, self.options.tolerance)
-                || is_steady(before, a)
-                    && newton
-                        .direction(collocation, &x, samples, a, stats)
-                        .is_none()
+                || is_steady(before, a) && self.direction(&x, &local, a).is_none()
             {
                 return Ok(mesh);
             }
@@ -452,9 +454,13 @@ impl Run<'_> {
         Err(self.undetermined(None, direction, solution.clone()))
     }
 
-    /// The amplification of forcings at a solution on another mesh, infinite where nothing can be told of it;
-    /// leaves the linearisation and the estimate of the error there.
-    fn amplification_on(&mut self, mesh: Mesh, solution: &Solution) -> f64 {
+    /// A solution on another mesh, its local defects and the amplification of forcings there, infinite where
+    /// nothing can be told of it; leaves the linearisation there.
+    fn amplification_on(
+        &mut self,
+        mesh: Mesh,
+        solution: &Solution,
+    ) -> (Iterate, Vec<Vec<f64>>, f64) {
         self.set_mesh(mesh);
         let Self {
             newton,
@@ -465,14 +471,15 @@ impl Run<'_> {
         } = self;
         let (t, mesh) = (&collocation.tableau, &collocation.mesh);
         let x = transfer(mesh, t, solution);
-        let Ok(defects) = defects(self.equations, t, mesh, &x, samples, stats) else {
-            return f64::INFINITY;
+        let local = match defects(self.equations, t, mesh, &x, samples, stats) {
+            Ok(defects) => defects.local,
+            Err(_) => return (x, vec![], f64::INFINITY),
         };
-        if newton.correction(collocation, &x, stats).is_err() {
-            return f64::INFINITY;
-        }
-        newton.global_errors(collocation, &x, samples, &defects.local);
-        newton.amplification(collocation, &x)
+        let a = match newton.correction(collocation, &x, stats) {
+            Ok(_) => newton.amplification(collocation, &x, self.options.tolerance),
+            Err(_) => f64::INFINITY,
+        };
+        (x, local, a)
     }
 
     /// The mesh for what the right-hand side shows of a solution at further places.
@@ -507,11 +514,20 @@ impl Run<'_> {
 
     /// The amplification of forcings by the last linearisation.
     fn amplification(&mut self, x: &Iterate) -> f64 {
-        self.newton.amplification(&mut self.collocation, x)
+        let tolerance = self.options.tolerance;
+        self.newton
+            .amplification(&mut self.collocation, x, tolerance)
     }
 
-    /// The direction in which a solution is not isolated, if so.
-    fn direction(&mut self, solution: &Solution) -> Option<Direction> {
+    /// The direction of the last amplification.
+    fn amplified(&self, x: &Iterate) -> Direction {
+        self.newton
+            .amplified(&self.collocation, x, self.options.tolerance)
+    }
+
+    /// The direction in which a solution with these local defects is not isolated, if so, after its
+    /// amplification a.
+    fn direction(&mut self, x: &Iterate, local: &[Vec<f64>], a: f64) -> Option<Direction> {
         let Self {
             newton,
             collocation,
@@ -519,21 +535,18 @@ impl Run<'_> {
             stats,
             ..
         } = self;
-        let local = &solution.quality.defects.local;
-        newton.global_errors(collocation, &solution.x, samples, local);
-        let a = newton.amplification(collocation, &solution.x);
-        newton.direction(collocation, &solution.x, samples, a, stats)
+        newton.global_errors(collocation, x, samples, local);
+        newton.direction(collocation, x, samples, a, self.options.tolerance, stats)
     }
 
-    /// Refuses a solution that may be nothing but rounding.
-    fn refuse_rounding(&mut self, solution: &Solution) -> Result<(), Error> {
+    /// Refuses a solution with the amplification a that may be nothing but rounding.
+    fn refuse_rounding(&mut self, solution: &Solution, a: f64) -> Result<(), Error> {
         let rounding = self.collocation.rounding(&solution.x);
-        let a = self.amplification(&solution.x);
         if !exceeds(rounding, a, self.options.tolerance) {
             return Ok(());
         }
         let rounding = rounding.max(a * UNIT_ROUNDOFF);
-        let direction = self.newton.amplified(&self.collocation, &solution.x);
+        let direction = self.amplified(&solution.x);
         self.refused = true;
         Err(self.undetermined(Some(rounding), direction, solution.clone()))
     }
@@ -619,7 +632,7 @@ impl Run<'_> {
             _ => None,
         };
         if matches!(failure, Failure::NoConvergence { .. }) && is_open(self.amplification(&x)) {
-            let direction = self.newton.amplified(&self.collocation, &x);
+            let direction = self.amplified(&x);
             let best = self.solution(x, Quality::unknown(&self.collocation.mesh));
             return self.undetermined(Some(f64::INFINITY), direction, best);
         }
