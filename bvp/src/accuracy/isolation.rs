@@ -79,7 +79,7 @@ const FELT: f64 = 1e-3;
 
 impl Collocation<'_> {
     /// The amplification a of forcings with random signs by the last linearisation, which must be at `x`,
-    /// a solution with this tolerance; leaves v in `v`.
+    /// a solution with this tolerance; leaves them in `residual` and the nodes of v in `v`.
     pub(crate) fn amplification(
         &mut self,
         x: &Iterate,
@@ -87,6 +87,13 @@ impl Collocation<'_> {
         residual: &mut Residual,
         v: &mut Iterate,
     ) -> f64 {
+        self.force(x, tolerance, residual);
+        self.node_correction(residual, v);
+        self.local_size(x, tolerance, v)
+    }
+
+    /// Forcings of the size of the solution `x`, with random signs.
+    fn force(&mut self, x: &Iterate, tolerance: f64, residual: &mut Residual) {
         let mut signs = Signs::default();
         let m = self.tableau.stages;
         for (index, r) in residual.equations.iter_mut().enumerate() {
@@ -110,8 +117,6 @@ impl Collocation<'_> {
         for (r, scale) in residual.conditions.iter_mut().zip(scales) {
             *r = signs.turn(scale);
         }
-        self.correction(residual, v);
-        self.local_size(x, tolerance, v)
     }
 
     /// The largest entry of a correction relative to the states at its node and the two beside it, or to one
@@ -146,17 +151,19 @@ impl Collocation<'_> {
     }
 
     /// The direction in which the solution `x` with the error of [`global_errors`](Self::global_errors),
-    /// left in `w`, is not isolated, if so; `v` and `a` are those of
-    /// [`amplification`](Self::amplification). Writes `residual`.
+    /// left in `w`, is not isolated, if so, with the [`amplification`](Self::amplification) a; leaves v in
+    /// `v`. Writes `residual`.
     pub(crate) fn direction(
         &mut self,
         x: &Iterate,
         (samples, w): (&Samples, &Iterate),
-        (v, a): (&Iterate, f64),
+        (v, a): (&mut Iterate, f64),
         tolerance: f64,
         residual: &mut Residual,
         stats: &mut Stats,
     ) -> Option<Direction> {
+        self.force(x, tolerance, residual);
+        self.correction(residual, v);
         let mut z = self.zeros();
         z.set_sum(&z.clone(), 1.0 / a, v);
         let samples = self.linear_defects(x, &z, (samples, w), stats);

@@ -234,7 +234,8 @@ impl Newton {
         x: &Iterate,
         stats: &mut Stats,
     ) -> Result<f64, Failure> {
-        self.linearise(collocation, x, stats)?;
+        self.factor(collocation, x, stats)?;
+        collocation.node_correction(&self.residual, &mut self.delta);
         Ok(norm(x, &[(1.0, &self.delta)]).largest)
     }
 
@@ -273,7 +274,7 @@ impl Newton {
         stats: &mut Stats,
     ) -> Option<Direction> {
         let error = (samples, &self.delta);
-        let null = (&self.simplified, a);
+        let null = (&mut self.simplified, a);
         collocation.direction(x, error, null, tolerance, &mut self.residual, stats)
     }
 
@@ -302,12 +303,23 @@ impl Newton {
         x: &Iterate,
         stats: &mut Stats,
     ) -> Result<(), Failure> {
+        self.factor(collocation, x, stats)?;
+        collocation.correction(&self.residual, &mut self.delta);
+        Ok(())
+    }
+
+    /// Linearises at `x` and factors the matrix; leaves the residual.
+    fn factor(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &Iterate,
+        stats: &mut Stats,
+    ) -> Result<(), Failure> {
         let linearised = collocation.linearise(x, &mut self.residual, stats);
         linearised.map_err(|error| match error.into() {
             Failure::Ends(_) => Failure::Ends(collocation.dependence()),
             other => other,
         })?;
-        collocation.correction(&self.residual, &mut self.delta);
         self.moved = 0.0;
         Ok(())
     }

@@ -28,7 +28,7 @@ fn amplified_rounding_is_seen() {
     let mut score = Score::default();
     for tolerance in [1e-3, 1e-6, 1e-9] {
         for lambda in [0.6, 7.1, 20.0, 30.0] {
-            for exponent in [5.0, 10.0, 15.0, 20.0, 25.0, 30.0] {
+            for exponent in [5.0, 10.0, 15.0, 20.0, 25.0, 30.0, 35.0, 40.0, 60.0, 100.0] {
                 let length = exponent / lambda;
                 let problem = Growth { lambda, length };
                 let guess = Constant {
