@@ -269,10 +269,11 @@ pub enum Error {
         best: Box<Solution>,
     },
     /// The tolerance is not met although many meshes were tried, or intervals shrank to the spacing
-    /// of floating-point numbers: the right-hand side is probably not smooth there. Put a junction
-    /// between two segments at a kink or jump.
+    /// of floating-point numbers: either the right-hand side is not smooth there, which
+    /// [`Segment::joined`](crate::Segment::joined) tells the solver, or the solution has a layer whose place
+    /// hardly feels the conditions, which [`solve_embedded`](crate::solve_embedded) may follow.
     #[error(
-        "defect {defect:.1e}, estimated error {}, tolerance {tolerance:.1e} after {meshes} meshes; worst in segment {segment} near s = {s}, interval length {length:.1e}; put a junction between two segments at a kink or jump",
+        "defect {defect:.1e}, estimated error {}, tolerance {tolerance:.1e} after {meshes} meshes; worst in segment {segment} near s = {s}, interval length {length:.1e}; a kink or jump of the right-hand side needs a joined point there, a layer inside solve_embedded from a wider one",
         estimate(*.error)
     )]
     Unresolved {

@@ -268,7 +268,7 @@ fn the_mesh_limit_says_what_is_missing() {
 }
 
 #[test]
-fn a_jump_is_to_be_a_junction() {
+fn a_jump_is_to_be_a_joined_point() {
     let options = Options {
         scheme: Some(Scheme::LobattoIIIA { stages: 3 }),
         control: Control::Defect,
@@ -290,7 +290,8 @@ fn a_jump_is_to_be_a_junction() {
         format!(
             "defect {defect:.1e}, estimated error not known, tolerance 1.0e-6 after {meshes} \
              meshes; worst in segment 0 near s = {s}, interval length {length:.1e}; \
-             put a junction between two segments at a kink or jump"
+             a kink or jump of the right-hand side needs a joined point there, a layer inside \
+             solve_embedded from a wider one"
         )
     );
 }
