@@ -115,7 +115,7 @@ pub(crate) struct Newton {
     /// infinite where nothing is known.
     pub(crate) curvature: f64,
     /// ‖Δx‖ over all steps since the last linearisation.
-    moved: f64,
+    pub(crate) moved: f64,
     delta: Iterate,
     simplified: Iterate,
     trial: Iterate,

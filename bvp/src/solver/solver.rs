@@ -377,11 +377,18 @@ impl Run<'_> {
     /// Takes a second look at a solution within the tolerance: what was found of it must hold at the
     /// solution itself, it must be isolated, and no layer may hide from the mesh.
     fn confirm(&mut self, solution: &mut Solution) -> Result<Confirmed, Error> {
-        if !self.newton.is_current() && self.goes_on(solution)? {
-            return Ok(Confirmed::Moved);
-        }
-        let a = self.amplification(&solution.x);
         let harmless = HARMLESS * self.options.tolerance;
+        let mut a = match self.newton.is_current() {
+            true => self.amplification(&solution.x),
+            false => f64::INFINITY,
+        };
+        // A long step leaves its rounding, too.
+        if a * UNIT_ROUNDOFF * self.newton.moved > harmless {
+            if self.goes_on(solution)? {
+                return Ok(Confirmed::Moved);
+            }
+            a = self.amplification(&solution.x);
+        }
         if a * UNIT_ROUNDOFF > harmless || self.collocation.is_suspect() {
             self.refuse_rounding(solution, a)?;
         }
