@@ -1,7 +1,8 @@
-//! Order reduction: states whose derivative is a constant multiple of another state.
+//! Order reduction: states whose derivative is another state, in its units or in others.
 //!
 //! An equation of order two or more is written as a first-order system with y' = z, z' = …, or y' = c z
-//! in other units. Here y is a *derivative state*, z is its *source* and c its *factor*; the row of y in the
+//! in other units, which are powers of two, so that c is one. Other factors, which may change from step to step
+//! as an unknown length does, would ask for another reduction each time. Here y is a *derivative state*, z is its *source* and c its *factor*; the row of y in the
 //! Jacobian is c times a unit vector. On an interval the slopes of a derivative state follow from those of
 //! its source, `K = c h A K_source + known`, so only the slopes of the other states, the *free* states, are unknown. The linear system for them is as small
 //! as if the equation were collocated without reducing its order, and the solution is the same. A free
@@ -76,14 +77,23 @@ impl ObservedRows {
     }
 }
 
-/// The first entry of a row that is not zero, as if the others were.
+/// The first entry of a row that is not zero, as if the others were, if it is a power of two.
 #[inline(always)]
 fn first_entry(row: &[f64]) -> Row {
-    let source = row.iter().position(|&x| x != 0.0);
-    source.map_or(Row::Other, |source| Row::Multiple {
-        source,
-        factor: row[source],
-    })
+    match row.iter().position(|&x| x != 0.0) {
+        Some(source) if is_power_of_two(row[source]) => Row::Multiple {
+            source,
+            factor: row[source],
+        },
+        _ => Row::Other,
+    }
+}
+
+/// Whether a number is a power of two: positive, with an empty fraction.
+#[inline(always)]
+fn is_power_of_two(x: f64) -> bool {
+    const FRACTION: u64 = (1 << (f64::MANTISSA_DIGITS - 1)) - 1;
+    x.is_normal() && x > 0.0 && x.to_bits() & FRACTION == 0
 }
 
 /// Whether a row is zero but for this factor in the column of this source.
@@ -194,13 +204,13 @@ mod tests {
     fn equal_rows_with_one_entry_at_all_stages_are_observed() {
         let mut observed = ObservedRows::new(3);
         observed.observe(
-            &[0.0, 1.0, 0.0, 9.0, 0.0, 0.0, -3.0, 9.0, 1.0, 1.0, 0.0, 9.0],
+            &[0.0, 1.0, 0.0, 9.0, 0.0, 0.0, 4.0, 9.0, 1.0, 1.0, 0.0, 9.0],
             3,
             4,
         );
-        assert_eq!(observed.rows, [unit(1), multiple(2, -3.0), Row::Other]);
+        assert_eq!(observed.rows, [unit(1), multiple(2, 4.0), Row::Other]);
         observed.observe(
-            &[0.0, 1.0, 0.0, 8.0, 0.0, 0.0, -2.0, 8.0, 1.0, 0.0, 0.0, 8.0],
+            &[0.0, 1.0, 0.0, 8.0, 0.0, 0.0, 2.0, 8.0, 1.0, 0.0, 0.0, 8.0],
             3,
             4,
         );
