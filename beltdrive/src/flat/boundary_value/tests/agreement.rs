@@ -123,9 +123,7 @@ fn closed_form_and_boundary_value_problem_agree() {
         for (worst, this) in worst.iter_mut().zip(these) {
             *worst = worst.max(this);
         }
-        // The tolerance is relative to one unit and a tension, and the unit is up to 41 times the smaller
-        // tension: 4e-11 of it. Measured: 1.0e-11 on one soft drive, below 1e-11 on all others.
-        assert!(these.iter().all(|d| *d < 2e-11), "{name}: {}", show(&these));
+        assert!(these.iter().all(|d| *d < 1e-11), "{name}: {}", show(&these));
         assert!(found.error_estimate().is_some_and(|error| error < 1e-11));
     }
     println!(
