@@ -141,8 +141,8 @@
 //! takes the place of the error. With [`Control::Defect`] nothing is estimated and the mesh is chosen
 //! for the relative defect, with [`Control::Both`] for both.
 //!
-//! **Derivative states.** A state whose derivative is a constant multiple of another state, as in an equation of
-//! second order, is eliminated from the stage systems in advance, so that writing such an equation as a
+//! **Derivative states.** A state whose derivative is another state, or a power of two times it (that state in other
+//! units), as in an equation of second order, is eliminated from the stage systems in advance, so that writing such an equation as a
 //! first-order system costs nothing.
 //!
 //! # What success means

@@ -87,8 +87,6 @@ impl FurtherPlaces {
                 index,
                 nodes,
                 local: &defects.local[index],
-                allowed: ALLOWED * tolerance,
-                near: NEAR * tolerance,
                 tolerance,
             };
             let mut pieces = vec![1; nodes.len() - 1];
@@ -125,10 +123,6 @@ struct SegmentLook<'a> {
     nodes: &'a [f64],
     /// The local defects of its intervals.
     local: &'a [f64],
-    /// The largest addition to the solution, relative to 1 + |y|, ...
-    allowed: f64,
-    /// ... and that of a jump next to a node.
-    near: f64,
     tolerance: f64,
 }
 
@@ -153,10 +147,10 @@ impl SegmentLook<'_> {
                 let s = interval.place(theta);
                 let defect = self.defect(&interval, s, end, scratch, stats);
                 let jumps = self.is_unseen(interval.h * first * defect, self.local[i]);
-                let grows = interval.h * nearest * scratch.rate() > 2.0 * self.near;
+                let grows = interval.h * nearest * scratch.rate() > 2.0 * NEAR * self.tolerance;
                 if jumps || grows {
                     let sum = self.near_node(&interval, right, [first, nearest], scratch, stats);
-                    if sum > self.allowed && (grows || sum > self.local[i]) {
+                    if sum > ALLOWED * self.tolerance && (grows || sum > self.local[i]) {
                         *pieces = PARTS;
                         found.push((self.index, s));
                     }
@@ -257,7 +251,7 @@ impl SegmentLook<'_> {
 
     /// Whether an addition to the solution is more than is allowed and than is expected.
     fn is_unseen(&self, addition: f64, expected: f64) -> bool {
-        addition > self.allowed && addition > expected
+        addition > ALLOWED * self.tolerance && addition > expected
     }
 
     /// The number of states n.
@@ -276,7 +270,7 @@ impl SegmentLook<'_> {
         let (left, right) = (self.nodes[i], self.nodes[i + 1]);
         let spacing = f64::EPSILON * left.abs().max(right.abs());
         let h = right - left;
-        let harmless = (self.near / slope / h).min(0.5 * self.t.defect_rule.points[0]);
+        let harmless = (NEAR * self.tolerance / slope / h).min(0.5 * self.t.defect_rule.points[0]);
         harmless.max(SPACINGS * spacing / h).min(LARGEST_SHARE)
     }
 
@@ -300,8 +294,7 @@ impl SegmentLook<'_> {
         scratch: &mut Scratch,
         stats: &mut Stats,
     ) -> [f64; 2] {
-        let weights = Weights::at(self.t, theta);
-        self.defect(interval, interval.place(theta), &weights, scratch, stats);
+        self.interpolate(interval, &Weights::at(self.t, theta), scratch);
         let Scratch { y, f, slope } = scratch;
         let (n, columns) = (y.len(), y.len() + self.x.p.len());
         let (mut jacobian, s) = (vec![0.0; n * columns], interval.place(theta));
@@ -330,10 +323,8 @@ impl SegmentLook<'_> {
         scratch: &mut Scratch,
         stats: &mut Stats,
     ) -> f64 {
+        self.interpolate(interval, weights, scratch);
         let Scratch { y, f, slope } = scratch;
-        let m = self.t.stages;
-        interval.state(&weights.value[..m], y);
-        interval.slope(&weights.slope[..m], slope);
         f.fill(f64::NAN);
         self.equations.evaluate_rhs(self.index, s, y, &self.x.p, f);
         stats.rhs_evaluations += 1;
@@ -342,6 +333,13 @@ impl SegmentLook<'_> {
             max_or_nan(m, (slope - f).abs() / (1.0 + y.abs()))
         });
         if largest.is_finite() { largest } else { 0.0 }
+    }
+
+    /// The state and the slope of the solution at a place of an interval.
+    fn interpolate(&self, interval: &Interval<'_>, weights: &Weights, scratch: &mut Scratch) {
+        let m = self.t.stages;
+        interval.state(&weights.value[..m], &mut scratch.y);
+        interval.slope(&weights.slope[..m], &mut scratch.slope);
     }
 }
 

@@ -8,13 +8,14 @@
 //! w' = J (w − D) + F_p δp,       g(S) + g' · e = 0
 //! ```
 //!
-//! to first order. The equation of w is collocated on the same mesh with the same scheme, so that the
-//! factors of the last Newton step solve it: residuals of the stages are J D, those of the continuity
-//! D at the right ends. d is sampled at the m + 1 Gauss points of the defect, whose rule integrates
-//! over an interval even what makes the nodes superconvergent, of degree 2m. What is left of Newton's
-//! corrections is in d, too, and what S jumps by at the nodes is added to D at the right ends. H. J. Stetter, "The defect correction principle and discretization
-//! methods", Numer. Math. 29 (1978) 425-443; with integrals of the defect, A. Dutt, L. Greengard & V.
-//! Rokhlin, "Spectral deferred correction methods for ordinary differential equations", BIT 40 (2000)
+//! to first order. The equation of w is collocated on the same mesh with the same scheme, so that the factors
+//! of the last Newton step solve it: residuals of the stages are J D, those of the continuity D at the right
+//! ends. d is sampled at the m + 1 Gauss points of the defect, whose rule integrates over an interval even
+//! what makes the nodes superconvergent, of degree 2m. What is left of Newton's corrections is in d, too, and
+//! what S jumps by at the nodes is added to D at the right ends. H. J. Stetter, "The defect correction
+//! principle and discretization methods", Numer. Math. 29 (1978) 425-443; with integrals of the defect, A.
+//! Dutt, L. Greengard & V. Rokhlin, "Spectral deferred correction methods for ordinary differential
+//! equations", BIT 40 (2000)
 //! 241-266.
 
 use crate::discretisation::iterate::{Interval, Iterate, Residual, SegmentIterate};

@@ -26,9 +26,9 @@ const MOST: usize = 1 << 24;
 /// Where at most this share of the intervals is too long, only they are cut.
 const FEW: f64 = 0.12;
 
-/// The next mesh, from the relative defects r on this one and the tolerance they must meet, given
-/// that r ∝ hᵐ, and how much neighbours may differ. Each interval wants to be cut into ν = (r / aim)^(1/m) parts; the new nodes
-/// equidistribute the density ν/h, per segment.
+/// The next mesh, from the relative defects r on this one and the tolerance they must meet, given that r ∝
+/// hᵐ, and how much neighbours may differ. Each interval wants to be cut into ν = (r / aim)^(1/m) parts; the
+/// new nodes equidistribute the density ν/h, per segment.
 pub(crate) fn next_mesh(
     mesh: &Mesh,
     defects: &[Vec<f64>],

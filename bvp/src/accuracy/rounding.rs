@@ -78,7 +78,8 @@ impl Collocation<'_> {
         self.smallest_pivot() < HARMLESS_PIVOT
     }
 
-    /// The rounding error of the solution `x`, the largest over states and parameters relative to 1 + |x|, by the factored matrix of the last linearisation, which must be near `x`.
+    /// The rounding error of the solution `x`, the largest over states and parameters relative to 1 + |x|, by
+    /// the factored matrix of the last linearisation, which must be near `x`.
     pub(crate) fn rounding(&mut self, x: &Iterate) -> f64 {
         let known = with_random_signs(x);
         let (mut image, mut residual) = (self.residual_buffer(), self.residual_buffer());

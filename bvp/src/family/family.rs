@@ -209,10 +209,10 @@ impl<'a> Family<'a> {
         self.write(t);
     }
 
-    /// Which unknowns but λ (n numbers each) sample one function: `group` is its number from zero,
-    /// `share` the part of it that the unknown stands for. A state of a segment, or of a piece of it between
-    /// joined points, is a group, its nodes have the shares of the trapezoidal rule and its stage slopes none; each free parameter is a
-    /// group with share one. The shares of every group sum to one.
+    /// Which unknowns but λ (n numbers each) sample one function: `group` is its number from zero, `share`
+    /// the part of it that the unknown stands for. A state of a segment, or of a piece of it between joined
+    /// points, is a group, its nodes have the shares of the trapezoidal rule and its stage slopes none; each
+    /// free parameter is a group with share one. The shares of every group sum to one.
     ///
     /// # Panics
     /// If `group` or `share` is too short.

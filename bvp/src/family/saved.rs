@@ -13,8 +13,8 @@ use crate::solver::options::Options;
 use crate::solver::statement::{check_nodes, in_units};
 
 impl<'a> Family<'a> {
-    /// The nodes of every segment, from its beginning to its end. With a point and the values of the parameters that are
-    /// held this is all that [`on_mesh`](Self::on_mesh) needs.
+    /// The nodes of every segment, from its beginning to its end. With a point and the values of the
+    /// parameters that are held this is all that [`on_mesh`](Self::on_mesh) needs.
     pub fn mesh(&self) -> Vec<Vec<f64>> {
         let Collocation {
             equations, mesh, ..

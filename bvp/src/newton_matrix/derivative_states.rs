@@ -1,15 +1,18 @@
 //! Order reduction: states whose derivative is another state, in its units or in others.
 //!
-//! An equation of order two or more is written as a first-order system with y' = z, z' = …, or y' = c z
-//! in other units, which are powers of two, so that c is one. Other factors, which may change from step to step
-//! as an unknown length does, would ask for another reduction each time. Here y is a *derivative state*, z is its *source* and c its *factor*; the row of y in the
-//! Jacobian is c times a unit vector. On an interval the slopes of a derivative state follow from those of
-//! its source, `K = c h A K_source + known`, so only the slopes of the other states, the *free* states, are unknown. The linear system for them is as small
-//! as if the equation were collocated without reducing its order, and the solution is the same. A free
-//! state acts on a derivative state of order d through C h^(d+1) A^(d+1), C the product of all d factors, as in the Runge-Kutta-Nyström form of the scheme (Hairer,
-//! Nørsett & Wanner, *Solving Ordinary Differential Equations I*, section II.14).
+//! An equation of order two or more is written as a first-order system with y' = z, z' = …, or y' = c z in
+//! other units, which are powers of two, so that c is one. Other factors, which may change from step to step
+//! as an unknown length does, would ask for another reduction each time. Here y is a *derivative state*, z is
+//! its *source* and c its *factor*; the row of y in the Jacobian is c times a unit vector. On an interval the
+//! slopes of a derivative state follow from those of its source, `K = c h A K_source + known`, so only the
+//! slopes of the other states, the *free* states, are unknown. The linear system for them is as small as if
+//! the equation were collocated without reducing its order, and the solution is the same. A free state acts
+//! on a derivative state of order d through C h^(d+1) A^(d+1), C the product of all d factors, as in the
+//! Runge-Kutta-Nyström form of the scheme (Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations
+//! I*, section II.14).
 
 use crate::discretisation::tableau::POWERS;
+use crate::problem::in_units::power_of_two;
 use std::ops::Range;
 
 /// What the Jacobians of a segment have shown so far about the row of one state.
@@ -89,11 +92,10 @@ fn first_entry(row: &[f64]) -> Row {
     }
 }
 
-/// Whether a number is a power of two: positive, with an empty fraction.
+/// Whether a number is a power of two.
 #[inline(always)]
 fn is_power_of_two(x: f64) -> bool {
-    const FRACTION: u64 = (1 << (f64::MANTISSA_DIGITS - 1)) - 1;
-    x.is_normal() && x > 0.0 && x.to_bits() & FRACTION == 0
+    x.is_normal() && x > 0.0 && x == power_of_two(x)
 }
 
 /// Whether a row is zero but for this factor in the column of this source.

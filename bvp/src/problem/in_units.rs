@@ -67,7 +67,8 @@ impl Units {
 }
 
 /// The largest power of two that is not larger than a normal positive number: without its fraction.
-fn power_of_two(size: f64) -> f64 {
+#[inline(always)]
+pub(crate) fn power_of_two(size: f64) -> f64 {
     const SIGN_AND_EXPONENT: u64 = 0xfff0_0000_0000_0000;
     f64::from_bits(size.to_bits() & SIGN_AND_EXPONENT)
 }
