@@ -17,7 +17,9 @@ use crate::discretisation::mesh::{Mesh, split};
 use crate::discretisation::scheme::MAX_STAGES;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::max_or_nan;
+use crate::kernels::specialise::specialise;
 use crate::problem::equations::Equations;
+use crate::problem::held::Held;
 use crate::result::quality::Defects;
 use crate::result::stats::Stats;
 
@@ -71,7 +73,7 @@ impl FurtherPlaces {
     /// solution may touch the end of its domain.
     pub(crate) fn look(
         &mut self,
-        equations: &dyn Equations,
+        equations: &Held<'_>,
         t: &Tableau,
         mesh: &Mesh,
         (x, defects): (&Iterate, &Defects),
@@ -90,13 +92,16 @@ impl FurtherPlaces {
                 tolerance,
             };
             let mut pieces = vec![1; nodes.len() - 1];
-            self.scratch.resize(segment.n());
+            let n = segment.n();
+            self.scratch.resize(n);
             let (found, scratch) = (&mut self.found, &mut self.scratch);
-            segment.near_nodes(&mut pieces, found, scratch, stats);
-            for _ in 0..PLACES.div_ceil(pieces.len()) {
-                let theta = next(&mut self.last);
-                segment.inside(theta, &mut pieces, found, scratch, stats);
-            }
+            specialise!(n in [1, 2, 3, 4, 5, 6] => {
+                segment.near_nodes(n, &mut pieces, found, scratch, stats);
+                for _ in 0..PLACES.div_ceil(pieces.len()) {
+                    let theta = next(&mut self.last);
+                    segment.inside(n, theta, &mut pieces, found, scratch, stats);
+                }
+            });
             segment.again(&mut pieces, found, scratch, stats);
             if pieces.iter().any(|&pieces| pieces > 1) {
                 let finer = finer.get_or_insert_with(|| mesh.clone());
@@ -116,7 +121,7 @@ fn next(last: &mut f64) -> f64 {
 
 /// A solution on one segment, and what is allowed of its defect.
 struct SegmentLook<'a> {
-    equations: &'a dyn Equations,
+    equations: &'a Held<'a>,
     t: &'a Tableau,
     x: &'a Iterate,
     index: usize,
@@ -128,8 +133,10 @@ struct SegmentLook<'a> {
 
 impl SegmentLook<'_> {
     /// Looks next to all nodes from both sides.
+    #[inline(always)]
     fn near_nodes(
         &self,
+        n: usize,
         pieces: &mut [usize],
         found: &mut Vec<(usize, f64)>,
         scratch: &mut Scratch,
@@ -139,13 +146,13 @@ impl SegmentLook<'_> {
         let slope = self.largest_slope();
         let ends = [0.0, 1.0].map(|theta| Weights::at(self.t, theta));
         for (i, pieces) in pieces.iter_mut().enumerate() {
-            let interval = self.interval(i);
+            let interval = self.interval(n, i);
             let nearest = self.nearest(i, slope);
             let first = gap.max(2.0 * nearest);
             for (right, end) in [false, true].into_iter().zip(&ends) {
                 let theta = if right { 1.0 - nearest } else { nearest };
                 let s = interval.place(theta);
-                let defect = self.defect(&interval, s, end, scratch, stats);
+                let defect = self.defect(n, &interval, s, end, scratch, stats);
                 let jumps = self.is_unseen(interval.h * first * defect, self.local[i]);
                 let grows = interval.h * nearest * scratch.rate() > 2.0 * NEAR * self.tolerance;
                 if jumps || grows {
@@ -192,8 +199,10 @@ impl SegmentLook<'_> {
     }
 
     /// Looks at the same place of all intervals.
+    #[inline(always)]
     fn inside(
         &self,
+        n: usize,
         theta: f64,
         pieces: &mut [usize],
         found: &mut Vec<(usize, f64)>,
@@ -202,9 +211,9 @@ impl SegmentLook<'_> {
     ) {
         let weights = Weights::at(self.t, theta);
         for (i, pieces) in pieces.iter_mut().enumerate() {
-            if self.is_unseen_at(i, theta, &weights, scratch, stats) {
+            if self.is_unseen_at(n, i, theta, &weights, scratch, stats) {
                 *pieces = PARTS;
-                found.push((self.index, self.interval(i).place(theta)));
+                found.push((self.index, self.interval(n, i).place(theta)));
             }
         }
     }
@@ -225,24 +234,26 @@ impl SegmentLook<'_> {
                 - 1;
             let theta = (s - self.nodes[i]) / (self.nodes[i + 1] - self.nodes[i]);
             let weights = Weights::at(self.t, theta);
-            if pieces[i] == 1 && self.is_unseen_at(i, theta, &weights, scratch, stats) {
+            if pieces[i] == 1 && self.is_unseen_at(self.n(), i, theta, &weights, scratch, stats) {
                 pieces[i] = PARTS;
             }
         }
     }
 
     /// Whether the defect at a place of interval i is neither that of the polynomials nor harmless.
+    #[inline(always)]
     fn is_unseen_at(
         &self,
+        n: usize,
         i: usize,
         theta: f64,
         weights: &Weights,
         scratch: &mut Scratch,
         stats: &mut Stats,
     ) -> bool {
-        let interval = self.interval(i);
+        let interval = self.interval(n, i);
         let expected = GAP * EXPECTED * self.local[i];
-        let defect = self.defect(&interval, interval.place(theta), weights, scratch, stats);
+        let defect = self.defect(n, &interval, interval.place(theta), weights, scratch, stats);
         self.is_unseen(GAP * interval.h * defect, expected) && {
             let [defect, _] = self.unexplained(&interval, theta, scratch, stats);
             self.is_unseen(GAP * interval.h * defect, expected)
@@ -259,9 +270,10 @@ impl SegmentLook<'_> {
         self.x.segments[self.index].nodes.len() / self.nodes.len()
     }
 
-    fn interval(&self, i: usize) -> Interval<'_> {
+    #[inline(always)]
+    fn interval(&self, n: usize, i: usize) -> Interval<'_> {
         let x = &self.x.segments[self.index];
-        Interval::new(x, self.n(), self.t, i, &self.nodes[i..i + 2])
+        Interval::new(x, n, self.t, i, &self.nodes[i..i + 2])
     }
 
     /// How near to the nodes of interval i a jump by as much as the largest slope is harmless, as a share of
@@ -278,7 +290,8 @@ impl SegmentLook<'_> {
     /// that changes by one.
     fn largest_slope(&self) -> f64 {
         let least = 1.0 / (self.nodes[self.nodes.len() - 1] - self.nodes[0]);
-        let intervals = (0..self.nodes.len() - 1).map(|i| self.interval(i));
+        let n = self.n();
+        let intervals = (0..self.nodes.len() - 1).map(|i| self.interval(n, i));
         intervals.fold(least, |m, interval| {
             m.max(interval.largest_relative_slope())
         })
@@ -287,6 +300,7 @@ impl SegmentLook<'_> {
     /// The largest defect and the largest right-hand side at a place of an interval, relative to 1 + |y|, less
     /// what an error of the states within the tolerance makes of the right-hand side: next to a singular end
     /// that is much.
+    #[inline(never)]
     fn unexplained(
         &self,
         interval: &Interval<'_>,
@@ -294,7 +308,7 @@ impl SegmentLook<'_> {
         scratch: &mut Scratch,
         stats: &mut Stats,
     ) -> [f64; 2] {
-        self.interpolate(interval, &Weights::at(self.t, theta), scratch);
+        self.interpolate(self.n(), interval, &Weights::at(self.t, theta), scratch);
         let Scratch { y, f, slope } = scratch;
         let (n, columns) = (y.len(), y.len() + self.x.p.len());
         let (mut jacobian, s) = (vec![0.0; n * columns], interval.place(theta));
@@ -313,22 +327,25 @@ impl SegmentLook<'_> {
         largest.map(|size| if size.is_finite() { size } else { 0.0 })
     }
 
-    /// The largest defect at a place s of an interval, with the weights of it or of the node beside it,
+    /// The largest defect at a place s of an interval with n states, with the weights of it or of the node beside it,
     /// relative to 1 + |y|; zero where it is not finite.
+    #[inline(always)]
     fn defect(
         &self,
+        n: usize,
         interval: &Interval<'_>,
         s: f64,
         weights: &Weights,
         scratch: &mut Scratch,
         stats: &mut Stats,
     ) -> f64 {
-        self.interpolate(interval, weights, scratch);
+        self.interpolate(n, interval, weights, scratch);
         let Scratch { y, f, slope } = scratch;
+        let (y, f, slope) = (&y[..n], &mut f[..n], &slope[..n]);
         f.fill(f64::NAN);
         self.equations.evaluate_rhs(self.index, s, y, &self.x.p, f);
         stats.rhs_evaluations += 1;
-        let defects = slope.iter().zip(&*f).zip(&*y);
+        let defects = slope.iter().zip(&*f).zip(y);
         let largest = defects.fold(0.0f64, |m, ((slope, f), y)| {
             max_or_nan(m, (slope - f).abs() / (1.0 + y.abs()))
         });
@@ -336,10 +353,17 @@ impl SegmentLook<'_> {
     }
 
     /// The state and the slope of the solution at a place of an interval.
-    fn interpolate(&self, interval: &Interval<'_>, weights: &Weights, scratch: &mut Scratch) {
+    #[inline(always)]
+    fn interpolate(
+        &self,
+        n: usize,
+        interval: &Interval<'_>,
+        weights: &Weights,
+        scratch: &mut Scratch,
+    ) {
         let m = self.t.stages;
-        interval.state(&weights.value[..m], &mut scratch.y);
-        interval.slope(&weights.slope[..m], &mut scratch.slope);
+        interval.state(&weights.value[..m], &mut scratch.y[..n]);
+        interval.slope(&weights.slope[..m], &mut scratch.slope[..n]);
     }
 }
 

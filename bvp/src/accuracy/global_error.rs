@@ -15,8 +15,7 @@
 //! what S jumps by at the nodes is added to D at the right ends. H. J. Stetter, "The defect correction
 //! principle and discretization methods", Numer. Math. 29 (1978) 425-443; with integrals of the defect, A.
 //! Dutt, L. Greengard & V. Rokhlin, "Spectral deferred correction methods for ordinary differential
-//! equations", BIT 40 (2000)
-//! 241-266.
+//! equations", BIT 40 (2000) 241-266.
 
 use crate::discretisation::iterate::{Interval, Iterate, Residual, SegmentIterate};
 use crate::kernels::dense::{add_scaled, dot, max_or_nan};
