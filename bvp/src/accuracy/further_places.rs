@@ -16,7 +16,7 @@ use crate::discretisation::iterate::{Interval, Iterate};
 use crate::discretisation::mesh::{Mesh, split};
 use crate::discretisation::scheme::MAX_STAGES;
 use crate::discretisation::tableau::Tableau;
-use crate::kernels::dense::max_or_nan;
+use crate::kernels::dense::{add_scaled, max_or_nan};
 use crate::kernels::specialise::specialise;
 use crate::problem::equations::Equations;
 use crate::problem::held::Held;
@@ -375,9 +375,23 @@ struct Weights {
 
 impl Weights {
     fn at(t: &Tableau, theta: f64) -> Self {
+        let m = t.stages;
+        specialise!(m in [4, 5, 6, 7] => Self::by_powers(m, &t.powers_of_slope, theta))
+    }
+
+    /// From the coefficients of the powers of u = 2θ − 1 in the slope, whose integrals from 0 to θ are
+    /// (uᵏ⁺¹ − (−1)ᵏ⁺¹) / (2 (k + 1)).
+    #[inline(always)]
+    fn by_powers(m: usize, coefficients: &[f64], theta: f64) -> Self {
         let [mut value, mut slope] = [[0.0; MAX_STAGES]; 2];
-        t.value_weights(theta, &mut value[..t.stages]);
-        t.slope_weights(theta, &mut slope[..t.stages]);
+        let u = 2.0 * theta - 1.0;
+        let (mut power, mut at_start, mut twice) = (1.0, -1.0, 2.0);
+        for coefficients in coefficients.chunks_exact(m) {
+            add_scaled(&mut slope[..m], power, coefficients);
+            power *= u;
+            add_scaled(&mut value[..m], (power - at_start) / twice, coefficients);
+            (at_start, twice) = (-at_start, twice + 2.0);
+        }
         Self { value, slope }
     }
 }
