@@ -1,0 +1,212 @@
+//! Whether a solution is good enough: what was found of it must hold at the solution itself.
+
+use crate::accuracy::further_places::FurtherPlaces;
+use crate::accuracy::isolation::{is_amplified, is_high, is_open, is_steady};
+use crate::accuracy::mesh_selection::AIM;
+use crate::accuracy::rounding::{UNIT_ROUNDOFF, exceeds};
+use crate::discretisation::mesh::{Mesh, halved};
+use crate::result::error::Error;
+use crate::result::quality::Direction;
+use crate::result::solution::Solution;
+use crate::solver::discretised::Discretised;
+
+/// An amplified unit roundoff that is this share of the tolerance or less needs no closer look: the
+/// amplification of random forcings is a lower bound, ten to a thousand times less than κ.
+const HARMLESS: f64 = 0.1;
+/// How often a mesh is halved because the solution on it does not seem to be isolated: where that is so by
+/// a coarse mesh alone, a halved one shows it.
+const DOUBTS: usize = 3;
+
+/// What a second look at a solution within the tolerance says.
+pub(crate) enum Confirmed {
+    Yes,
+    /// Newton's method went on from it.
+    Moved,
+    /// It is to be sought again on this mesh.
+    On(Mesh),
+}
+
+/// What has been asked of the solutions of one problem.
+pub(crate) struct Acceptance {
+    places: FurtherPlaces,
+    /// Whether layers have been looked for that the mesh might not show.
+    pub(crate) layers_sought: bool,
+    /// Whether Newton's method has gone on from a solution on this mesh.
+    pub(crate) moved: bool,
+    /// Whether a solution was refused because it is not isolated.
+    pub(crate) refused: bool,
+}
+
+impl Acceptance {
+    pub(crate) fn new() -> Self {
+        Self {
+            places: FurtherPlaces::new(),
+            layers_sought: false,
+            moved: false,
+            refused: false,
+        }
+    }
+
+    /// Estimates the error of a solution by the last linearisation.
+    pub(crate) fn estimate(
+        &mut self,
+        problem: &mut Discretised<'_>,
+        solution: &mut Solution,
+    ) -> Result<(), Error> {
+        let (samples, local) = (&problem.samples, &solution.quality.defects.local);
+        let Discretised {
+            newton,
+            collocation,
+            ..
+        } = problem;
+        solution.quality.errors = newton.global_errors(collocation, &solution.x, samples, local);
+        match problem.collocation.is_suspect() {
+            true => {
+                let a = problem.amplification(&solution.x);
+                self.refuse_rounding(problem, solution, a)
+            }
+            false => Ok(()),
+        }
+    }
+
+    /// Takes a second look at a solution within the tolerance: what was found of it must hold at the
+    /// solution itself, it must be isolated, and no layer may hide from the mesh.
+    pub(crate) fn confirm(
+        &mut self,
+        problem: &mut Discretised<'_>,
+        solution: &mut Solution,
+    ) -> Result<Confirmed, Error> {
+        let harmless = HARMLESS * problem.options.tolerance;
+        let mut a = match problem.newton.is_current() {
+            true => problem.amplification(&solution.x),
+            false => f64::INFINITY,
+        };
+        // A long step leaves its rounding, too.
+        if a * UNIT_ROUNDOFF * problem.newton.moved > harmless {
+            if self.goes_on(problem, solution)? {
+                return Ok(Confirmed::Moved);
+            }
+            a = problem.amplification(&solution.x);
+        }
+        if a * UNIT_ROUNDOFF > harmless || problem.collocation.is_suspect() {
+            self.refuse_rounding(problem, solution, a)?;
+        }
+        if is_open(a) && problem.rounds(solution) {
+            let direction = problem.amplified(&solution.x);
+            return self.doubt(problem, direction, solution).map(Confirmed::On);
+        }
+        if is_amplified(a, problem.options.tolerance)
+            && let Some(direction) =
+                problem.direction(&solution.x, &solution.quality.defects.local, a)
+        {
+            return self.doubt(problem, direction, solution).map(Confirmed::On);
+        }
+        if let Some(mesh) = self.look_further(problem, solution) {
+            return Ok(Confirmed::On(mesh));
+        }
+        let layers = match std::mem::replace(&mut self.layers_sought, true) {
+            true => None,
+            false => problem.collocation.with_possible_layers(),
+        };
+        if is_high(a) && problem.may_halve(&solution.mesh) {
+            let direction = problem.amplified(&solution.x);
+            let (_, _, on_halved) = problem.amplification_on(halved(&solution.mesh), solution);
+            if !is_steady(a, on_halved) {
+                return self.doubt(problem, direction, solution).map(Confirmed::On);
+            }
+        }
+        if let Some(mesh) = layers
+            && !problem.is_kept(solution, &mesh)
+        {
+            return Ok(Confirmed::On(mesh));
+        }
+        Ok(Confirmed::Yes)
+    }
+
+    /// Linearises at a solution, and lets Newton's method go on from it where its correction is not small
+    /// beside the tolerance, once on a mesh; returns whether it did. A smaller correction is in the estimate of
+    /// the error.
+    fn goes_on(
+        &mut self,
+        problem: &mut Discretised<'_>,
+        solution: &mut Solution,
+    ) -> Result<bool, Error> {
+        let correction = problem.correction(&solution.x);
+        let is_small = |&size: &f64| size <= AIM * problem.options.tolerance;
+        if correction.as_ref().is_ok_and(is_small) {
+            return Ok(false);
+        }
+        if std::mem::replace(&mut self.moved, true) {
+            return match correction {
+                Ok(_) => Ok(false),
+                Err(failure) => Err(problem.failed(failure, solution.x.clone())),
+            };
+        }
+        let mut x = solution.x.clone();
+        *solution = match problem.iterate(&mut x) {
+            Ok(()) => problem.assess(x)?,
+            Err(failure) => return Err(problem.failed(failure, x)),
+        };
+        Ok(true)
+    }
+
+    /// The mesh for what the right-hand side shows of a solution at further places.
+    fn look_further(&mut self, problem: &mut Discretised<'_>, solution: &Solution) -> Option<Mesh> {
+        let found = (&solution.x, &solution.quality.defects);
+        self.places.look(
+            problem.equations,
+            &problem.collocation.tableau,
+            &solution.mesh,
+            found,
+            problem.options.tolerance,
+            &mut problem.stats,
+        )
+    }
+
+    /// The halved mesh on which a solution proves isolated that does not so on its own; an error if there is
+    /// none.
+    fn doubt(
+        &mut self,
+        problem: &mut Discretised<'_>,
+        direction: Direction,
+        solution: &Solution,
+    ) -> Result<Mesh, Error> {
+        let mut mesh = solution.mesh.clone();
+        let mut before = f64::INFINITY;
+        for _ in 0..DOUBTS {
+            if !problem.may_halve(&mesh) {
+                break;
+            }
+            mesh = halved(&mesh);
+            let (x, local, a) = problem.amplification_on(mesh.clone(), solution);
+            if is_open(a) {
+                break;
+            }
+            if !is_amplified(a, problem.options.tolerance)
+                || is_steady(before, a) && problem.direction(&x, &local, a).is_none()
+            {
+                return Ok(mesh);
+            }
+            before = a;
+        }
+        self.refused = true;
+        Err(problem.undetermined(None, direction, solution.clone()))
+    }
+
+    /// Refuses a solution with the amplification a that may be nothing but rounding.
+    fn refuse_rounding(
+        &mut self,
+        problem: &mut Discretised<'_>,
+        solution: &Solution,
+        a: f64,
+    ) -> Result<(), Error> {
+        let rounding = problem.collocation.rounding(&solution.x);
+        if !exceeds(rounding, a, problem.options.tolerance) {
+            return Ok(());
+        }
+        let rounding = rounding.max(a * UNIT_ROUNDOFF);
+        let direction = problem.amplified(&solution.x);
+        self.refused = true;
+        Err(problem.undetermined(Some(rounding), direction, solution.clone()))
+    }
+}
