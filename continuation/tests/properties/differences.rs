@@ -1,5 +1,6 @@
 //! Systems without exact derivatives.
 
+use crate::hidden::assert_evaluated_within_the_bounds;
 use crate::{assert_close, finish, of, trace};
 use continuation::Direction::{Decreasing, Increasing};
 use continuation::{Branch, DenseSystem, Kind, LimitPointCurve, Options, Stop};
@@ -62,19 +63,7 @@ fn units_of_any_size_change_nothing_by_differences() {
 
 #[test]
 fn differences_stay_within_the_bounds() {
-    for at in [1e-3, 0.5, 0.999] {
-        let seen = Arc::new(Mutex::new([f64::INFINITY, f64::NEG_INFINITY]));
-        let record = Arc::clone(&seen);
-        let mut system = DenseSystem::new(1, &[0.0], 0, move |x, p, g| {
-            let mut seen = record.lock().unwrap();
-            *seen = [seen[0].min(p[0]), seen[1].max(p[0])];
-            g[0] = x[0] * (p[0] - at - x[0] * x[0]);
-        });
-        let options = Options::within(0.0, 1.0);
-        let (points, _) = trace(&mut system, &[0.0, 0.0], Increasing, &options);
-        assert_eq!(of(&points, Kind::BranchPoint).len(), 1);
-        assert_eq!(*seen.lock().unwrap(), [0.0, 1.0]);
-    }
+    assert_evaluated_within_the_bounds(|system, _| system);
 }
 
 #[test]

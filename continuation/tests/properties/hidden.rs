@@ -155,22 +155,31 @@ fn a_start_at_rounding_of_zero_is_left() {
     }
 }
 
-#[test]
-fn the_equations_are_never_evaluated_beyond_the_bounds() {
+/// Traces x (λ − a − x²) = 0 between bounds, close to which a branch point lies or not, and asserts that the
+/// equations are evaluated there and not beyond; `complete` gives the system for a its derivatives.
+pub(crate) fn assert_evaluated_within_the_bounds(complete: fn(DenseSystem, f64) -> DenseSystem) {
     for at in [1e-3, 0.5, 0.999] {
         let seen = Arc::new(Mutex::new([f64::INFINITY, f64::NEG_INFINITY]));
         let record = Arc::clone(&seen);
-        let mut system = DenseSystem::new(1, &[0.0], 0, move |x, p, g| {
+        let system = DenseSystem::new(1, &[0.0], 0, move |x, p, g| {
             let mut seen = record.lock().unwrap();
             *seen = [seen[0].min(p[0]), seen[1].max(p[0])];
             g[0] = x[0] * (p[0] - at - x[0] * x[0]);
-        })
-        .with_jacobian(move |x, p, j| j.copy_from_slice(&[p[0] - at - 3.0 * x[0] * x[0], x[0]]));
+        });
         let options = Options::within(0.0, 1.0);
-        let (points, _) = trace(&mut system, &[0.0, 0.0], Increasing, &options);
+        let (points, _) = trace(&mut complete(system, at), &[0.0; 2], Increasing, &options);
         assert_eq!(of(&points, Kind::BranchPoint).len(), 1);
         assert_eq!(*seen.lock().unwrap(), [0.0, 1.0]);
     }
+}
+
+#[test]
+fn the_equations_are_never_evaluated_beyond_the_bounds() {
+    assert_evaluated_within_the_bounds(|system, at| {
+        system.with_jacobian(move |x, p, j| {
+            j.copy_from_slice(&[p[0] - at - 3.0 * x[0] * x[0], x[0]]);
+        })
+    });
 }
 
 /// Two cells with a substrate-inhibited enzyme (E. J. Doedel, AUTO: the demonstration enz), λ the
