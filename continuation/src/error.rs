@@ -55,7 +55,9 @@ pub enum Error {
     #[error("start: no point of the branch found near it: {0}")]
     Start(#[source] Difficulty),
     /// More than one direction leads on from the start: it is a branch point, or the equations are
-    /// degenerate there.
+    /// degenerate there. The units of the equations do not matter to this. Those of the unknowns do where
+    /// all of these are zero and stay so, on a trivial branch: nothing tells their sizes then, and units in
+    /// which these differ by more than about 1e10 look degenerate.
     #[error("start: the jacobian has more than one null vector there")]
     SingularStart,
     /// The point has no second branch to switch to.

@@ -51,10 +51,10 @@ pub(crate) struct Crossing {
     pub(crate) tangents: Option<[Vec<f64>; 2]>,
 }
 
-/// A bordering vector, outside the range of J with certainty in practice: the size of each equation, from how
-/// it responds to a change of all unknowns, with irregular signs. The change is large enough that an
-/// equation whose derivatives all vanish at the branch point responds too.
-pub(crate) fn bordering_vector<S: System>(
+/// The size of each equation: its mean response to two changes of all unknowns by shares of their sizes. The
+/// changes are so large that an equation whose derivatives all vanish at `z` responds too. Equations that do not
+/// respond to them, which depend on unknowns without a size alone, have the size zero.
+pub(crate) fn equation_sizes<S: System>(
     curve: &mut Curve<'_, S>,
     z: &[f64],
 ) -> Result<Vec<f64>, Difficulty> {
@@ -67,22 +67,38 @@ pub(crate) fn bordering_vector<S: System>(
     let n = z.len() - 1;
     let (mut here, mut there) = (vec![f64::NAN; n], vec![f64::NAN; n]);
     corrector.residual(*system, z, &mut here);
+    // By the first all unknowns at some distance from each other change nearly alike, so that their difference
+    // hardly responds, but not by the second.
+    let patterns = [|i: usize| i, |i: usize| i.wrapping_mul(i).wrapping_add(1)];
     for share in CHANGES {
-        let change = |(i, z): (usize, &f64)| z + share * irregular(i) * metric.scale(i);
-        let mut moved: Vec<f64> = z.iter().enumerate().map(change).collect();
-        moved[n] = corrector.reflected(moved[n]);
-        corrector.residual(*system, &moved, &mut there);
-        let pairs = here.iter().zip(&there);
-        let response: Vec<f64> = pairs.map(|(a, b)| ((b - a) / share).abs()).collect();
-        let mean = response.iter().sum::<f64>() / n as f64;
-        if mean > 0.0 && mean.is_finite() {
-            let sizes = response.iter().enumerate();
-            return Ok(sizes
-                .map(|(i, r)| (r + 0.1 * mean) * irregular(i + 1))
-                .collect());
+        let mut sizes = vec![0.0; n];
+        for pattern in patterns {
+            let change =
+                |(i, z): (usize, &f64)| z + share * irregular(pattern(i)) * metric.scale(i);
+            let mut moved: Vec<f64> = z.iter().enumerate().map(change).collect();
+            moved[n] = corrector.reflected(moved[n]);
+            corrector.residual(*system, &moved, &mut there);
+            for (size, (a, b)) in sizes.iter_mut().zip(here.iter().zip(&there)) {
+                *size += 0.5 * ((b - a) / share).abs();
+            }
+        }
+        let total: f64 = sizes.iter().sum();
+        if total > 0.0 && total.is_finite() {
+            return Ok(sizes);
         }
     }
     Err(Difficulty::Singular)
+}
+
+/// A bordering vector, outside the range of J with certainty in practice: the sizes of the equations with
+/// irregular signs. Each component has the unit of its own equation and depends on no other, so that units of the
+/// equations do not matter.
+pub(crate) fn bordering_vector<S: System>(
+    curve: &mut Curve<'_, S>,
+    z: &[f64],
+) -> Result<Vec<f64>, Difficulty> {
+    let sizes = equation_sizes(curve, z)?.into_iter().enumerate();
+    Ok(sizes.map(|(i, size)| size * irregular(i + 1)).collect())
 }
 
 /// The second null vector of \[J b\], where the system was linearised last, for a unit tangent.
@@ -155,7 +171,8 @@ pub(crate) fn branch_point<S: System>(
         let a = solve(hessian, gradient.map(|g| -g)).ok_or(Difficulty::Singular)?;
         let along = space.combine(a);
         let length = metric.norm(&onto[..=n]) + a[0].hypot(a[1]);
-        let settled = length > 0.25 * before && before <= ROUNDING || length == 0.0;
+        // At the origin corrections may go on shrinking until they underflow.
+        let settled = length > 0.25 * before && before <= ROUNDING || length <= f64::EPSILON;
         let lost = length.is_nan() || length > 1.0 || count == STEPS;
         if lost {
             return Err(Difficulty::NoConvergence {
@@ -265,11 +282,13 @@ fn slopes<S: System>(
     onto: &[f64],
 ) -> Result<([[f64; 2]; 2], [f64; 2]), Difficulty> {
     let bounds = corrector.bounds();
+    let sizes: Vec<f64> = b.iter().map(|b| b.abs()).collect();
     let mut second = |direction: &[f64], precision: Precision| {
         let line = Line {
             z,
             direction,
             bounds,
+            sizes: &sizes,
         };
         line.second_derivative(system, precision, |_, _| {})
     };

@@ -32,6 +32,8 @@ pub(crate) struct Line<'l> {
     pub(crate) z: &'l [f64],
     pub(crate) direction: &'l [f64],
     pub(crate) bounds: [f64; 2],
+    /// The sizes of the equations: how well a step resolves each is measured relative to its own.
+    pub(crate) sizes: &'l [f64],
 }
 
 impl Line<'_> {
@@ -94,7 +96,7 @@ impl Line<'_> {
 
     /// By formulas of sixth order, with shorter steps where these do not resolve G.
     fn fine(&self, exact: bool, centre: &[f64], at: &mut impl FnMut(f64, &mut [f64])) -> Vec<f64> {
-        let (room, sizes) = (self.room(), vec![1.0; centre.len()]);
+        let room = self.room();
         let mut best: Option<(f64, Difference)> = None;
         for h in SHARES.map(|share| share * FINE) {
             let formula = if exact {
@@ -104,7 +106,7 @@ impl Line<'_> {
             };
             let (stencil, h) = formula(room, h);
             let found = stencil.apply(centre, h, &mut *at);
-            let unresolved = found.unresolved(&sizes, 0.0);
+            let unresolved = found.unresolved(self.sizes, 0.0);
             let least = best.as_ref().map_or(f64::INFINITY, |best| best.0);
             if best.is_none() || BETTER * unresolved < least {
                 best = Some((unresolved, found));
@@ -163,6 +165,7 @@ mod tests {
             z: &z,
             direction: &[1.0, 1.0],
             bounds,
+            sizes: &[1.0],
         };
         line.second_derivative(system, precision, |_, _| {})[0]
     }
@@ -203,6 +206,32 @@ mod tests {
             let exact = -2.0 * t * (1.0 - t * t) / (width * width);
             let found = second(&mut system, z, ANYWHERE, Precision::Fine);
             assert!((found / exact - 1.0).abs() < 1e-5, "{found} {exact}");
+        }
+    }
+
+    #[test]
+    fn each_equation_is_resolved_relative_to_its_size() {
+        let width = 3e-3;
+        let t = 0.3f64.tanh();
+        let exact = -2.0 * t * (1.0 - t * t) / (width * width);
+        for exponent in (-12..=12).step_by(4) {
+            let size = 10f64.powi(exponent);
+            let mut system = DenseSystem::new(2, &[0.0], 0, move |x, _, g| {
+                g[0] = size * (x[0] / width).tanh();
+                g[1] = x[1].exp();
+            });
+            let line = Line {
+                z: &[0.3 * width, 0.0, 0.0],
+                direction: &[1.0, 1.0, 0.0],
+                bounds: ANYWHERE,
+                sizes: &[size, 1.0],
+            };
+            let found = line.second_derivative(&mut system, Precision::Fine, |_, _| {});
+            let found = found[0] / size;
+            assert!(
+                (found / exact - 1.0).abs() < 1e-5,
+                "{size:e}: {found} {exact}"
+            );
         }
     }
 }

@@ -1,9 +1,11 @@
 //! The null space of \[J b\] along the solutions of a two-parameter system, and how it changes.
 
 use crate::curve::corrector::Corrector;
+use crate::curve::curve::Curve;
 use crate::curve::metric::Metric;
 use crate::difficulty::{Cause, Difficulty};
 use crate::options::Options;
+use crate::special_points::branch_point::equation_sizes;
 use crate::special_points::null_space::NullSpace;
 use crate::special_points::second_derivative::{Line, Precision, mixed};
 use crate::system::difference::{Stencil, Step};
@@ -22,6 +24,36 @@ struct Place {
     space: NullSpace,
 }
 
+/// How the equations are unfolded.
+#[derive(Clone)]
+struct Unfolding {
+    /// The bordering vector b; `G_μ` where there is none.
+    border: Option<Vec<f64>>,
+    /// The sizes of the equations.
+    sizes: Vec<f64>,
+}
+
+impl Unfolding {
+    /// With this bordering vector, at `z`.
+    fn new<S: TwoParameter>(
+        system: &mut S,
+        metric: &Metric,
+        border: Option<Vec<f64>>,
+        z: &[f64],
+    ) -> Self {
+        let sizes = match &border {
+            Some(border) => border.iter().map(|b| b.abs()).collect(),
+            None => {
+                let anywhere = [f64::NEG_INFINITY, f64::INFINITY];
+                let mut curve = Curve::new(system, metric.clone(), anywhere);
+                // Where no change of the unknowns shows them, all count alike.
+                equation_sizes(&mut curve, z).unwrap_or_else(|_| vec![1.0; z.len() - 1])
+            }
+        };
+        Self { border, sizes }
+    }
+}
+
 /// A two-parameter system with the null space of \[J b\] and its rates of change.
 #[derive(Clone)]
 pub(crate) struct NullSurface<S> {
@@ -31,8 +63,7 @@ pub(crate) struct NullSurface<S> {
     probe: S,
     pub(crate) metric: Metric,
     corrector: Corrector,
-    /// The bordering vector b; `G_μ` where there is none.
-    border: Option<Vec<f64>>,
+    unfolding: Unfolding,
     here: Place,
     ahead: Option<Place>,
     /// The bounds of μ.
@@ -66,13 +97,22 @@ impl<S: TwoParameter + Clone> NullSurface<S> {
         let (mut probe, mut corrector) = (base.clone(), Corrector::anywhere());
         probe.set_second(mu);
         let border = border(&mut probe, &metric)?;
-        let here = place(&mut probe, &mut corrector, &metric, &border, z, mu, bounds)?;
+        let unfolding = Unfolding::new(&mut probe, &metric, border, z);
+        let here = place(
+            &mut probe,
+            &mut corrector,
+            &metric,
+            &unfolding,
+            z,
+            mu,
+            bounds,
+        )?;
         Ok(Self {
             base,
             probe,
             metric,
             corrector,
-            border,
+            unfolding,
             ahead: Some(here.clone()),
             bounds,
             here,
@@ -87,7 +127,8 @@ impl<S: TwoParameter + Clone> NullSurface<S> {
 
     /// The bordering vector b at the last linearisation.
     pub(crate) fn border(&self) -> &[f64] {
-        self.border.as_deref().unwrap_or(&self.here.border)
+        let fixed = self.unfolding.border.as_deref();
+        fixed.unwrap_or(&self.here.border)
     }
 
     /// Evaluates G away from the linearisation.
@@ -105,7 +146,7 @@ impl<S: TwoParameter + Clone> NullSurface<S> {
             probe,
             corrector,
             &self.metric,
-            &self.border,
+            &self.unfolding,
             z,
             mu,
             self.bounds,
@@ -131,7 +172,7 @@ impl<S: TwoParameter + Clone> NullSurface<S> {
                     base,
                     corrector,
                     &self.metric,
-                    &self.border,
+                    &self.unfolding,
                     z,
                     mu,
                     self.bounds,
@@ -150,7 +191,8 @@ impl<S: TwoParameter + Clone> NullSurface<S> {
     fn split(&self, i: usize) -> (Vec<f64>, f64) {
         let mut direction = self.here.space.0[i].clone();
         let last = direction.pop().unwrap_or(0.0);
-        (direction, if self.border.is_none() { last } else { 0.0 })
+        let with_mu = self.unfolding.border.is_none();
+        (direction, if with_mu { last } else { 0.0 })
     }
 
     /// Second derivative of G along a direction from the last linearisation.
@@ -166,6 +208,7 @@ impl<S: TwoParameter + Clone> NullSurface<S> {
             z: &[z, &[*mu][..]].concat(),
             direction: &[direction, &[rate]].concat(),
             bounds: self.bounds,
+            sizes: &self.unfolding.sizes,
         };
         line.second_derivative(probe, precision, |probe, z| {
             probe.set_second(z[z.len() - 1]);
@@ -211,7 +254,8 @@ impl<S: TwoParameter + Clone> NullSurface<S> {
     /// `G_μ` at the last linearisation.
     pub(crate) fn mu_derivative(&mut self) -> Vec<f64> {
         self.ahead = None;
-        mu_derivative(&mut self.probe, &self.here.z, self.here.mu, self.bounds)
+        let Place { z, mu, .. } = &self.here;
+        mu_derivative(&mut self.probe, z, *mu, self.bounds, &self.unfolding.sizes)
     }
 
     /// The same in a better discretisation of the base at its solution, the first of `vectors`, which
@@ -253,15 +297,15 @@ fn place<S: TwoParameter>(
     system: &mut S,
     corrector: &mut Corrector,
     metric: &Metric,
-    border: &Option<Vec<f64>>,
+    unfolding: &Unfolding,
     z: &[f64],
     mu: f64,
     bounds: [f64; 2],
 ) -> Result<Place, Difficulty> {
     system.set_second(mu);
-    let border = match border {
+    let border = match &unfolding.border {
         Some(border) => border.clone(),
-        None => mu_derivative(system, z, mu, bounds),
+        None => mu_derivative(system, z, mu, bounds, &unfolding.sizes),
     };
     let space = NullSpace::at(system, corrector, metric, z, &border)?;
     Ok(Place {
@@ -279,6 +323,7 @@ fn mu_derivative(
     z: &[f64],
     mu: f64,
     [low, high]: [f64; 2],
+    sizes: &[f64],
 ) -> Vec<f64> {
     let mut here = vec![f64::NAN; z.len() - 1];
     let mut direction = vec![0.0; z.len()];
@@ -296,10 +341,9 @@ fn mu_derivative(
         })
     };
     let mut found = with_step(Step::default().length(mu));
-    let sizes = vec![1.0; here.len()];
-    let left = found.unresolved(&sizes, 0.0);
+    let left = found.unresolved(sizes, 0.0);
     if left > RESOLVED {
-        found = Step::searched(found, left, &sizes, with_step).1;
+        found = Step::searched(found, left, sizes, with_step).1;
     }
     system.set_second(mu);
     found.values

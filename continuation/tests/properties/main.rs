@@ -11,6 +11,7 @@ mod hidden;
 mod invariance;
 mod labels;
 mod refinement;
+mod rows;
 mod saving;
 mod sheets;
 mod solutions;
