@@ -122,7 +122,8 @@
 //! **Newton's method** with affine-invariant damping: a step is judged by corrections, not by
 //! residuals, so the scaling of equations and conditions does not matter; Jacobians are kept while
 //! corrections contract fast. Where it fails, the slopes of the guess are integrated, the mesh is
-//! halved, and at last a homotopy from a straight line is followed ([`Options::retries`]).
+//! halved, and at last a homotopy from a straight line is followed, also where no mesh resolves the
+//! solution ([`Options::retries`]).
 //! [`solve_embedded`] is for problems that have an easy case of their own.
 //!
 //! **Linear algebra.** The stages of every interval are condensed, the interior nodes eliminated by

@@ -30,9 +30,9 @@ pub struct Options {
     pub max_newton_steps: usize,
     /// How often, after a failure of Newton's method, the mesh is halved and the guess taken again;
     /// default 3. Before that the guess is tried with its slopes replaced by f along it and integrated,
-    /// one step of Picard's iteration; after all that, once more from a straight line between end
-    /// states that meet the conditions, by a homotopy. Callers that have a better answer to a failure
-    /// set 0, which omits all of it.
+    /// one step of Picard's iteration; after all that, and where no mesh resolves the solution or rounding
+    /// hides it, once more from a straight line between end states that meet the conditions, by a
+    /// homotopy. Callers that have a better answer to a failure set 0, which omits all of it.
     pub retries: usize,
     /// What is brought to at most the tolerance, and so what the mesh is chosen for; default
     /// [`Control::Error`].

@@ -70,6 +70,7 @@ pub(crate) fn solve_held(
     let run = Run {
         problem: Discretised::new(equations, options, first.clone(), start),
         acceptance: Acceptance::new(),
+        meshes: 0,
         missed: 0,
         unresolved: None,
         before: None,
@@ -89,6 +90,8 @@ struct Run<'a> {
     /// The problem on the last mesh.
     problem: Discretised<'a>,
     acceptance: Acceptance,
+    /// How many meshes this attempt has seen.
+    meshes: usize,
     /// How many solutions were resolved, but not within the tolerance.
     missed: i32,
     /// The mesh of the last solution that was not resolved, and its relative defects.
@@ -98,49 +101,57 @@ struct Run<'a> {
 }
 
 impl Run<'_> {
-    /// Solves from the guess on a first mesh, and on finer ones where Newton's method fails.
+    /// Solves from the guess on a first mesh, and on finer ones where Newton's method fails; at last from
+    /// where a homotopy leads.
     fn solve(mut self, guess: &dyn Guess, mut first: Mesh) -> Result<Solution, Error> {
         for _ in 0..self.problem.options.retries {
             match self.adapt(first.clone(), Start::Guess(guess)) {
                 Err(error) if self.may_retry(&error) && self.problem.may_halve(&first) => {
                     first = halved(&first);
                 }
-                outcome => return outcome,
+                outcome => return self.rescue(guess, outcome),
             }
         }
-        match self.adapt(first, Start::Guess(guess)) {
-            Err(mut error) if self.may_retry(&error) && self.problem.options.retries > 0 => {
-                let Discretised {
-                    equations,
-                    options,
-                    stats,
-                    ..
-                } = &mut self.problem;
-                match rough_solution(equations, guess, options, stats) {
-                    None => {
-                        if let Some(best) = error.best_mut() {
-                            best.stats = self.problem.cost();
-                        }
-                        Err(error)
-                    }
-                    Some(rough) => self.adapt(rough.mesh.clone(), Start::Solution(&rough)),
+        let outcome = self.adapt(first, Start::Guess(guess));
+        self.rescue(guess, outcome)
+    }
+
+    /// Another attempt from where a homotopy leads, where one may do better than the outcome so far, whose error
+    /// stands if this one fails, too.
+    fn rescue(
+        &mut self,
+        guess: &dyn Guess,
+        outcome: Result<Solution, Error>,
+    ) -> Result<Solution, Error> {
+        let mut error = match outcome {
+            Err(error) if self.may_follow(&error) => error,
+            outcome => return outcome,
+        };
+        let Discretised {
+            equations,
+            options,
+            stats,
+            ..
+        } = &mut self.problem;
+        let rough = rough_solution(equations, guess, options, stats);
+        let rescued = rough.map(|rough| self.adapt(rough.mesh.clone(), Start::Solution(&rough)));
+        match rescued {
+            Some(Ok(solution)) => Ok(solution),
+            _ => {
+                if let Some(best) = error.best_mut() {
+                    best.stats = self.problem.cost();
                 }
+                Err(error)
             }
-            outcome => outcome,
         }
     }
 
     /// Solves on one mesh after the other, each chosen from the solution on the last.
     fn adapt(&mut self, first: Mesh, start: Start<'_>) -> Result<Solution, Error> {
-        self.missed = 0;
+        (self.meshes, self.missed) = (0, 0);
         let mut solution = self.on(first, start)?;
         while let Some(mesh) = self.judge(&mut solution)? {
-            if let Err(error) = check_mesh(
-                &mesh,
-                self.problem.stats.meshes,
-                self.problem.options,
-                &solution,
-            ) {
+            if let Err(error) = check_mesh(&mesh, self.meshes, self.problem.options, &solution) {
                 return Err(self.out_of_reach(error, &solution));
             }
             let start = Start::Solution(&solution);
@@ -163,6 +174,7 @@ impl Run<'_> {
     /// The solution on a mesh.
     fn on(&mut self, mesh: Mesh, start: Start<'_>) -> Result<Solution, Error> {
         self.problem.stats.meshes += 1;
+        self.meshes += 1;
         self.acceptance.moved = false;
         self.problem.set_mesh(mesh);
         let Discretised { collocation, .. } = &self.problem;
@@ -221,7 +233,7 @@ impl Run<'_> {
             );
             let found = (solution.mesh.clone(), Vec::clone(&defects));
             let before = self.unresolved.replace(found);
-            if let Some(before) = before.filter(|_| self.problem.stats.meshes > LAYERS_SHOWN) {
+            if let Some(before) = before.filter(|_| self.meshes > LAYERS_SHOWN) {
                 amplify_rough(&mut defects, &solution.mesh, &before, m, 1);
             }
             return Ok(Some(next_mesh(
@@ -255,7 +267,7 @@ impl Run<'_> {
         let mut local = defects.local.clone();
         let before = self.before.replace((solution.mesh.clone(), local.clone()));
         let rough = before
-            .filter(|_| self.problem.stats.meshes > LAYERS_SHOWN)
+            .filter(|_| self.meshes > LAYERS_SHOWN)
             .is_some_and(|before| amplify_rough(&mut local, &solution.mesh, &before, order, 2));
         self.missed = if rough { 1 } else { self.missed + 1 };
         let wanted = AIM.powi(self.missed) * tolerance * defects.largest_local() / error;
@@ -296,8 +308,18 @@ impl Run<'_> {
         error
     }
 
-    /// Whether another attempt may do better: not where a solution was found and refused.
+    /// Whether Newton's method may do better on a finer mesh: not where a solution was found and refused.
     fn may_retry(&self, error: &Error) -> bool {
         error.is_of_newton() && !self.acceptance.refused
+    }
+
+    /// Whether it may do better from where a homotopy leads: also where what it found is nothing but
+    /// rounding, or no mesh resolves it.
+    fn may_follow(&self, error: &Error) -> bool {
+        let elsewhere = matches!(
+            error,
+            Error::IllConditioned { .. } | Error::Unresolved { .. }
+        );
+        self.problem.options.retries > 0 && (self.may_retry(error) || elsewhere)
     }
 }

@@ -3,8 +3,8 @@
 use crate::exact::bratu;
 use crate::failures::{growth, states};
 use bvp::{
-    Constant, Ends, Equations, Error, FiniteDifferences, Guess, Options, Problem, Real, Segment,
-    Shape, Solution, solve,
+    Constant, Ends, Equations, Error, FiniteDifferences, Function, Guess, Options, Problem, Real,
+    Segment, Shape, Solution, TwoPoint, solve,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -155,5 +155,56 @@ impl Equations for Counted<'_> {
         jacobian: &mut [f64],
     ) {
         self.equations.conditions_jacobian(at, p, r, jacobian);
+    }
+}
+
+/// Lagerstrom and Cole's equation ε y'' = y (1 − y'), y(0) = −7/6, y(1) = 3/2: y = x − 7/6 up to a shock at
+/// x = 1/3 + O(ε), and x + 1/2 behind it.
+fn lagerstrom_cole(epsilon: f64) -> impl Equations {
+    TwoPoint::new(
+        [2, 0],
+        [0.0, 1.0],
+        move |_, y, _, dy| dy.copy_from_slice(&[y[1], y[0] * (1.0 - y[1]) / epsilon]),
+        |start, end, _, r| r.copy_from_slice(&[start[0] + 7.0 / 6.0, end[0] - 1.5]),
+    )
+}
+
+/// From the straight line between the ends one mesh after the other misses the shock.
+#[test]
+fn a_shock_that_no_mesh_resolves_from_the_guess() {
+    let line = Function {
+        state: |_: usize, x: f64| [8.0 / 3.0 * x - 7.0 / 6.0, 8.0 / 3.0],
+        parameters: vec![],
+    };
+    for epsilon in [1e-3, 1e-4] {
+        let problem = lagerstrom_cole(epsilon);
+        for tolerance in [1e-3, 1e-6, 1e-9] {
+            let options = Options::to(tolerance);
+            let unaided = Options {
+                retries: 0,
+                ..options.clone()
+            };
+            assert!(solve(&problem, &line, &unaided).is_err());
+            let solution = solve(&problem, &line, &options).unwrap();
+            let mut y = [0.0; 2];
+            for (x, outer) in [(0.1, 0.1 - 7.0 / 6.0), (0.3, 0.3 - 7.0 / 6.0)]
+                .into_iter()
+                .chain([(0.36, 0.86), (0.7, 1.2)])
+            {
+                solution.state(0, x, &mut y);
+                assert!(
+                    (y[0] - outer).abs() <= 2.0 * tolerance,
+                    "{epsilon}: y({x}) = {}",
+                    y[0]
+                );
+            }
+            for (x, sign) in [
+                (1.0 / 3.0 - 5.0 * epsilon, -1.0),
+                (1.0 / 3.0 + 5.0 * epsilon, 1.0),
+            ] {
+                solution.state(0, x, &mut y);
+                assert!(sign * y[0] > 0.5, "{epsilon}: y({x}) = {}", y[0]);
+            }
+        }
     }
 }
