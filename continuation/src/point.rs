@@ -46,9 +46,11 @@ pub enum Kind {
     Start,
     /// A step.
     Regular,
-    /// Limit point (fold): λ turns back.
+    /// Limit point (fold): λ turns back. Beside a branch point it is told from that if the unit tangent
+    /// there has a λ component of more than 1e-8 of the range of λ; of 1e-5 if G has a kink or noise.
     LimitPoint,
-    /// Branch point: another branch crosses.
+    /// Branch point: another branch crosses. Kinks of G do not matter at a distance above 3e-6 in the
+    /// arclength norm, or 1e-4 for [`other`](Point::other) if the Jacobian is found by differences.
     BranchPoint,
     /// Cusp of a curve of limit points.
     Cusp,

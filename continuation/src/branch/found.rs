@@ -8,6 +8,13 @@ use crate::special_points::node::{Located, Node};
 /// as small as steps can well be, because the same signs tell of a jump to another branch.
 pub(crate) const UNVERIFIED: f64 = 1e-6;
 
+/// Where λ turns more slowly than this at a branch point or cusp, it turns because of it: tangents there
+/// may be uncertain by so much.
+pub(crate) const REST: f64 = 1e-5;
+/// At a branch point whose tangents are certain, where it turns more slowly than this: ten times the error
+/// of second derivatives by differences of G, from which the tangents follow.
+pub(crate) const CERTAIN_REST: f64 = 1e-8;
+
 /// A labelled point of a step.
 pub(crate) struct Found {
     pub(crate) at: Located,
@@ -15,6 +22,8 @@ pub(crate) struct Found {
     pub(crate) other: Option<Vec<f64>>,
     /// Whether its defining conditions could not be verified.
     pub(crate) approximate: bool,
+    /// A rate of λ below this, with its range as unit, is none.
+    pub(crate) rest: f64,
 }
 
 impl Found {
@@ -24,6 +33,7 @@ impl Found {
             kind,
             other: None,
             approximate: false,
+            rest: REST,
         }
     }
 

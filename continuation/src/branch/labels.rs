@@ -2,7 +2,7 @@
 
 use crate::branch::closing::Closing;
 use crate::branch::events::Events;
-use crate::branch::found::{Found, UNVERIFIED};
+use crate::branch::found::{CERTAIN_REST, Found, REST, UNVERIFIED};
 use crate::branch::progress::Progress;
 use crate::curve::curve::Curve;
 use crate::difficulty::Difficulty;
@@ -15,8 +15,6 @@ use crate::special_points::span::{RESOLVED, Span};
 use crate::system::system::System;
 use std::f64::consts::FRAC_PI_2;
 
-/// Where λ turns more slowly than this at a branch point or cusp, it turns because of it.
-const COINCIDENT: f64 = 1e-5;
 /// On steps that are this share of the largest, limit points that cannot be verified are approximate, and
 /// other labelled points that cannot be found are passed over.
 const PASSED: f64 = 1e-4;
@@ -108,6 +106,7 @@ impl<'a, S: System> Labels<'_, 'a, S> {
         let other = crossing.tangents.map(least);
         Ok(vec![Found {
             other,
+            rest: crossing.doubt.clamp(CERTAIN_REST, REST),
             ..Found::new(at, kind)
         }])
     }
@@ -134,14 +133,15 @@ impl<'a, S: System> Labels<'_, 'a, S> {
         found: &[Found],
         share: f64,
     ) -> Result<Vec<Found>, Difficulty> {
-        let rest = |rate: f64, special: bool| special && rate.abs() < COINCIDENT;
-        let mut from = (self.progress.node.clone(), self.progress.unoriented);
-        let mut ends: Vec<(Node, bool)> = found.iter().map(|found| (found.node(), true)).collect();
-        ends.push((to.clone(), false));
+        // Every point with the rate of λ that is none there.
+        let start = if self.progress.unoriented { REST } else { 0.0 };
+        let mut from = (self.progress.node.clone(), start);
+        let mut ends: Vec<_> = found.iter().map(|f| (f.node(), f.rest)).collect();
+        ends.push((to.clone(), 0.0));
         let mut limits = Vec::new();
         for end in ends {
             let rates = [&from, &end].map(|(node, _)| self.curve.rate(&node.tangent));
-            let at_rest = rest(rates[0], from.1) || rest(rates[1], end.1);
+            let at_rest = rates[0].abs() < from.1 || rates[1].abs() < end.1;
             let largest = rates[0].abs().max(rates[1].abs());
             if !at_rest && largest >= CONSTANT {
                 limits.extend(self.limit_points_between(&from.0, &end.0, share)?);

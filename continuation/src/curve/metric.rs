@@ -12,9 +12,9 @@ const TINY: f64 = 1e-150;
 /// at x = 1e-23 instead of 0 ended its branch at once. Corrected starts at limit points, where the tangent
 /// reaches far, have shares of 1e-8.
 const ROUNDED: f64 = 1e-10;
-/// Tangents that reach further than this many times the largest size, or one, are vertical: as far as unknowns of
-/// that size would be rounding. With 1e12 a tangent at a pitchfork, vertical but for 1e-12 by differences, made
-/// sizes of 1e12 of unknowns of 4, and the branch was not found.
+/// Tangents that reach further than this many times the largest size, or one, are vertical: as far as
+/// unknowns of that size would be rounding. With 1e12 a tangent at a pitchfork, vertical but for 1e-12 by
+/// differences, made sizes of 1e12 of unknowns of 4, and the branch was not found.
 const FARTHEST: f64 = 1.0 / ROUNDED;
 
 /// The weighted inner product ⟨a, b⟩ = Σ wᵢ aᵢ bᵢ.

@@ -15,13 +15,11 @@
 //! Schaeffer, *Singularities and Groups in Bifurcation Theory* I, Springer 1985; compare H. B.
 //! Keller (1977), section 5.
 
-use crate::curve::corrector::Corrector;
 use crate::curve::curve::Curve;
-use crate::curve::metric::Metric;
 use crate::difficulty::Difficulty;
 use crate::special_points::node::{Located, Node};
 use crate::special_points::null_space::{NullSpace, solve};
-use crate::special_points::second_derivative::{Line, Precision, mixed};
+use crate::special_points::slopes::Slopes;
 use crate::special_points::span::Span;
 use crate::system::system::System;
 
@@ -49,11 +47,13 @@ pub(crate) struct Crossing {
     pub(crate) z: Vec<f64>,
     /// Unit tangents of both branches; none where only one point satisfies the equations nearby.
     pub(crate) tangents: Option<[Vec<f64>; 2]>,
+    /// By how much the directions of the tangents are uncertain, rad.
+    pub(crate) doubt: f64,
 }
 
-/// The size of each equation: its mean response to two changes of all unknowns by shares of their sizes. The
-/// changes are so large that an equation whose derivatives all vanish at `z` responds too. Equations that do not
-/// respond to them, which depend on unknowns without a size alone, have the size zero.
+/// The size of each equation: its mean response to two changes of all unknowns by shares of their sizes.
+/// The changes are so large that an equation whose derivatives all vanish at `z` responds too. Equations
+/// that do not respond to them, which depend on unknowns without a size alone, have the size zero.
 pub(crate) fn equation_sizes<S: System>(
     curve: &mut Curve<'_, S>,
     z: &[f64],
@@ -67,8 +67,8 @@ pub(crate) fn equation_sizes<S: System>(
     let n = z.len() - 1;
     let (mut here, mut there) = (vec![f64::NAN; n], vec![f64::NAN; n]);
     corrector.residual(*system, z, &mut here);
-    // By the first all unknowns at some distance from each other change nearly alike, so that their difference
-    // hardly responds, but not by the second.
+    // By the first all unknowns at some distance from each other change nearly alike, so that their
+    // difference hardly responds, but not by the second.
     let patterns = [|i: usize| i, |i: usize| i.wrapping_mul(i).wrapping_add(1)];
     for share in CHANGES {
         let mut sizes = vec![0.0; n];
@@ -91,8 +91,8 @@ pub(crate) fn equation_sizes<S: System>(
 }
 
 /// A bordering vector, outside the range of J with certainty in practice: the sizes of the equations with
-/// irregular signs. Each component has the unit of its own equation and depends on no other, so that units of the
-/// equations do not matter.
+/// irregular signs. Each component has the unit of its own equation and depends on no other, so that units
+/// of the equations do not matter.
 pub(crate) fn bordering_vector<S: System>(
     curve: &mut Curve<'_, S>,
     z: &[f64],
@@ -166,9 +166,9 @@ pub(crate) fn branch_point<S: System>(
             .map(|(g, b)| -(g + eta * b))
             .collect();
         let onto = space.shortest(system, metric, b, &right);
-        let (hessian, change) = slopes(system, corrector, metric, &z, b, &space, &onto[..=n])?;
-        let gradient = [change[0], space.last(1) + change[1]];
-        let a = solve(hessian, gradient.map(|g| -g)).ok_or(Difficulty::Singular)?;
+        let slopes = Slopes::at(system, corrector, metric, &z, b, &space, &onto[..=n])?;
+        let gradient = [slopes.change[0], space.last(1) + slopes.change[1]];
+        let a = solve(slopes.hessian, gradient.map(|g| -g)).ok_or(Difficulty::Singular)?;
         let along = space.combine(a);
         let length = metric.norm(&onto[..=n]) + a[0].hypot(a[1]);
         // At the origin corrections may go on shrinking until they underflow.
@@ -182,14 +182,14 @@ pub(crate) fn branch_point<S: System>(
             });
         }
         if settled {
-            saddle = Some((space, hessian));
+            saddle = Some((space, slopes));
             break;
         }
         add(&mut z, &mut eta, &onto);
         add(&mut z, &mut eta, &along);
         before = length;
     }
-    let Some((space, hessian)) = saddle else {
+    let Some((space, Slopes { hessian, doubt, .. })) = saddle else {
         return Err(Difficulty::Singular);
     };
     let steepest = hessian
@@ -213,7 +213,7 @@ pub(crate) fn branch_point<S: System>(
             tangent
         })
     });
-    Ok(Crossing { z, tangents })
+    Ok(Crossing { z, tangents, doubt })
 }
 
 /// The branch point that changes the orientation between the nodes.
@@ -269,59 +269,6 @@ pub(crate) fn crossing<S: System>(
         along,
     };
     Ok((at, crossing))
-}
-
-/// The derivatives D of φ along the basis of `space`, column by column, and its change by `onto`.
-fn slopes<S: System>(
-    system: &mut S,
-    corrector: &Corrector,
-    metric: &Metric,
-    z: &[f64],
-    b: &[f64],
-    space: &NullSpace,
-    onto: &[f64],
-) -> Result<([[f64; 2]; 2], [f64; 2]), Difficulty> {
-    let bounds = corrector.bounds();
-    let sizes: Vec<f64> = b.iter().map(|b| b.abs()).collect();
-    let mut second = |direction: &[f64], precision: Precision| {
-        let line = Line {
-            z,
-            direction,
-            bounds,
-            sizes: &sizes,
-        };
-        line.second_derivative(system, precision, |_, _| {})
-    };
-    let sum = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a + b).collect() };
-    let [first, last] = [0, 1].map(|i| &space.0[i][..z.len()]);
-    let own = [first, last].map(|direction| second(direction, Precision::Fine));
-    let cross = mixed(
-        &second(&sum(first, last), Precision::Fine),
-        &own[0],
-        &own[1],
-    );
-    let length = metric.norm(onto);
-    let along_onto = (length > 0.0).then(|| {
-        let unit: Vec<f64> = onto.iter().map(|v| v / length).collect();
-        let onward = second(&unit, Precision::Rough);
-        [(first, &own[0]), (last, &own[1])]
-            .map(|(t, other)| mixed(&second(&sum(&unit, t), Precision::Rough), &onward, other))
-    });
-    let mut rate = |seconds: [&Vec<f64>; 2]| {
-        let rates = seconds.map(|second| {
-            let turned = space.shortest(system, metric, b, second);
-            turned.iter().map(|w| -w).collect()
-        });
-        space
-            .eta_rate(metric, space, &rates)
-            .ok_or(Difficulty::Singular)
-    };
-    let ([a, c], [b, d]) = (rate([&own[0], &cross])?, rate([&cross, &own[1]])?);
-    let change = match &along_onto {
-        Some([first, last]) => rate([first, last])?.map(|rate| length * rate),
-        None => [0.0; 2],
-    };
-    Ok(([[a, b], [c, d]], change))
 }
 
 fn add(z: &mut [f64], eta: &mut f64, step: &[f64]) {

@@ -5,4 +5,5 @@ pub(crate) mod limit_point;
 pub(crate) mod node;
 pub(crate) mod null_space;
 pub(crate) mod second_derivative;
+pub(crate) mod slopes;
 pub(crate) mod span;

@@ -1,6 +1,6 @@
 //! Second derivatives of a system along a line.
 
-use crate::system::difference::{Difference, Stencil, UNCHANGED};
+use crate::system::difference::{Difference, Stencil, UNCHANGED, largest};
 use crate::system::system::System;
 
 /// How accurately a second derivative is wanted.
@@ -26,6 +26,10 @@ const RESOLVED: f64 = 1e-6;
 /// less may be noise, which shorter steps enlarge.
 const BETTER: f64 = 10.0;
 
+/// Where a second derivative changes by more than this share over a step, a shorter one shows whether G has
+/// a kink: with smaller ones corrections still shrink to a tenth.
+const SKEW: f64 = 0.1;
+
 /// The line z + s d, on which the last unknown stays within bounds. Where z and d have one number more than
 /// the system has unknowns, that is μ.
 pub(crate) struct Line<'l> {
@@ -36,6 +40,18 @@ pub(crate) struct Line<'l> {
     pub(crate) sizes: &'l [f64],
 }
 
+/// A second derivative of G.
+pub(crate) struct Second {
+    pub(crate) values: Vec<f64>,
+    /// By how much formulas of sixth and of fourth order differ, the largest relative to the sizes of the
+    /// equations: more than the error where G is smooth. Infinite for rough derivatives, of which it is not
+    /// known.
+    pub(crate) doubt: f64,
+    /// What the derivative jumps by at a kink of G nearby, in the same measure: zero or small where G is
+    /// smooth.
+    pub(crate) kink: f64,
+}
+
 impl Line<'_> {
     /// d²G/ds² at s = 0. `prepare` is called with every place before the system is evaluated there.
     pub(crate) fn second_derivative<S: System>(
@@ -43,7 +59,7 @@ impl Line<'_> {
         system: &mut S,
         precision: Precision,
         mut prepare: impl FnMut(&mut S, &[f64]),
-    ) -> Vec<f64> {
+    ) -> Second {
         let unknowns = system.unknowns();
         let mut centre = vec![f64::NAN; unknowns - 1];
         prepare(system, self.z);
@@ -64,7 +80,11 @@ impl Line<'_> {
         };
         let [behind, ahead] = self.room();
         if precision == Precision::Rough && behind.min(ahead) >= ROUGH {
-            self.rough(exact, &centre, &mut at)
+            Second {
+                values: self.rough(exact, &centre, &mut at),
+                doubt: f64::INFINITY,
+                kink: 0.0,
+            }
         } else {
             self.fine(exact, &centre, &mut at)
         }
@@ -95,17 +115,20 @@ impl Line<'_> {
     }
 
     /// By formulas of sixth order, with shorter steps where these do not resolve G.
-    fn fine(&self, exact: bool, centre: &[f64], at: &mut impl FnMut(f64, &mut [f64])) -> Vec<f64> {
-        let room = self.room();
-        let mut best: Option<(f64, Difference)> = None;
-        for h in SHARES.map(|share| share * FINE) {
+    fn fine(&self, exact: bool, centre: &[f64], at: &mut impl FnMut(f64, &mut [f64])) -> Second {
+        let (room, order) = (self.room(), if exact { 1 } else { 2 });
+        let mut with_step = |h: f64| {
             let formula = if exact {
                 Stencil::first
             } else {
                 Stencil::second
             };
             let (stencil, h) = formula(room, h);
-            let found = stencil.apply(centre, h, &mut *at);
+            stencil.apply(centre, h, &mut *at)
+        };
+        let mut best: Option<(f64, Difference)> = None;
+        for h in SHARES.map(|share| share * FINE) {
+            let found = with_step(h);
             let unresolved = found.unresolved(self.sizes, 0.0);
             let least = best.as_ref().map_or(f64::INFINITY, |best| best.0);
             if best.is_none() || BETTER * unresolved < least {
@@ -115,11 +138,34 @@ impl Line<'_> {
                 break;
             }
         }
-        best.map_or_else(Vec::new, |(_, found)| found.values)
+        let Some((_, found)) = best else {
+            return Second {
+                values: Vec::new(),
+                doubt: f64::INFINITY,
+                kink: 0.0,
+            };
+        };
+        let rate = |changes: &[f64], found: &Difference| {
+            largest(changes, self.sizes) / found.step.powi(order)
+        };
+        let values: Vec<f64> = found.values.iter().map(|value| value.abs()).collect();
+        let doubt = rate(&found.misses, &found);
+        let mut kink = doubt;
+        if rate(&found.skews, &found) > SKEW * largest(&values, self.sizes) {
+            // A smooth function is less skew over a shorter step, and one with a kink is not.
+            let shortest = with_step(SHARES[SHARES.len() - 1] * FINE);
+            let jumps = [&shortest.skews, &shortest.misses].map(|each| rate(each, &shortest));
+            kink = jumps.into_iter().fold(kink, f64::max);
+        }
+        Second {
+            values: found.values,
+            doubt,
+            kink,
+        }
     }
 
     /// The place at s.
-    fn moved(&self, s: f64) -> Vec<f64> {
+    pub(crate) fn moved(&self, s: f64) -> Vec<f64> {
         let pairs = self.z.iter().zip(self.direction);
         let mut moved: Vec<f64> = pairs.map(|(z, d)| z + s * d).collect();
         let [low, high] = self.bounds;
@@ -131,7 +177,7 @@ impl Line<'_> {
     }
 
     /// How far s may go back and ahead.
-    fn room(&self) -> [f64; 2] {
+    pub(crate) fn room(&self) -> [f64; 2] {
         let n = self.z.len() - 1;
         let [low, high] = self
             .bounds
@@ -167,7 +213,7 @@ mod tests {
             bounds,
             sizes: &[1.0],
         };
-        line.second_derivative(system, precision, |_, _| {})[0]
+        line.second_derivative(system, precision, |_, _| {}).values[0]
     }
 
     const ANYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
@@ -227,7 +273,7 @@ mod tests {
                 sizes: &[size, 1.0],
             };
             let found = line.second_derivative(&mut system, Precision::Fine, |_, _| {});
-            let found = found[0] / size;
+            let found = found.values[0] / size;
             assert!(
                 (found / exact - 1.0).abs() < 1e-5,
                 "{size:e}: {found} {exact}"

@@ -14,7 +14,7 @@ const RESOLVED: f64 = 1e-8;
 /// may vanish in it and look linear.
 pub(crate) const ROUNDING: f64 = f64::EPSILON / STEP;
 /// Where they differ by more than this, a step is no good.
-const IRREGULAR: f64 = 1e-2;
+pub(crate) const IRREGULAR: f64 = 1e-2;
 /// Where they differ by less than this, the functions are regular on the scale of the step: those a little
 /// shorter resolve them, and much shorter ones would only resolve noise.
 const REGULAR: f64 = 1e-4;
@@ -41,8 +41,9 @@ const TRIALS: i32 = 12;
 /// varies that much.
 const VARIATION: f64 = 10.0;
 
-/// A place, in steps, with its weights in the formulas of sixth and of fourth order.
-type Place = (f64, f64, f64);
+/// A place, in steps, with its weights in the formulas of sixth and of fourth order and in that of the skewness:
+/// the change of the derivative over a step, which symmetric formulas do not see. None from one side.
+type Place = (f64, f64, f64, f64);
 
 /// A formula for a derivative of this order.
 pub(crate) struct Stencil {
@@ -54,36 +55,36 @@ pub(crate) struct Stencil {
 const CENTRAL: Stencil = Stencil {
     order: 1,
     places: &[
-        (-3.0, -1.0 / 60.0, 0.0),
-        (-2.0, 3.0 / 20.0, 1.0 / 12.0),
-        (-1.0, -3.0 / 4.0, -2.0 / 3.0),
-        (1.0, 3.0 / 4.0, 2.0 / 3.0),
-        (2.0, -3.0 / 20.0, -1.0 / 12.0),
-        (3.0, 1.0 / 60.0, 0.0),
+        (-3.0, -1.0 / 60.0, 0.0, 0.0),
+        (-2.0, 3.0 / 20.0, 1.0 / 12.0, 0.0),
+        (-1.0, -3.0 / 4.0, -2.0 / 3.0, 1.0),
+        (1.0, 3.0 / 4.0, 2.0 / 3.0, 1.0),
+        (2.0, -3.0 / 20.0, -1.0 / 12.0, 0.0),
+        (3.0, 1.0 / 60.0, 0.0, 0.0),
     ],
 };
 /// The first derivative from one side.
 const ONE_SIDED: Stencil = Stencil {
     order: 1,
     places: &[
-        (1.0, 6.0, 4.0),
-        (2.0, -15.0 / 2.0, -3.0),
-        (3.0, 20.0 / 3.0, 4.0 / 3.0),
-        (4.0, -15.0 / 4.0, -1.0 / 4.0),
-        (5.0, 6.0 / 5.0, 0.0),
-        (6.0, -1.0 / 6.0, 0.0),
+        (1.0, 6.0, 4.0, 0.0),
+        (2.0, -15.0 / 2.0, -3.0, 0.0),
+        (3.0, 20.0 / 3.0, 4.0 / 3.0, 0.0),
+        (4.0, -15.0 / 4.0, -1.0 / 4.0, 0.0),
+        (5.0, 6.0 / 5.0, 0.0, 0.0),
+        (6.0, -1.0 / 6.0, 0.0, 0.0),
     ],
 };
 /// The second derivative from both sides.
 const SECOND: Stencil = Stencil {
     order: 2,
     places: &[
-        (-3.0, 1.0 / 90.0, 0.0),
-        (-2.0, -3.0 / 20.0, -1.0 / 12.0),
-        (-1.0, 3.0 / 2.0, 4.0 / 3.0),
-        (1.0, 3.0 / 2.0, 4.0 / 3.0),
-        (2.0, -3.0 / 20.0, -1.0 / 12.0),
-        (3.0, 1.0 / 90.0, 0.0),
+        (-3.0, 1.0 / 90.0, 0.0, 0.0),
+        (-2.0, -3.0 / 20.0, -1.0 / 12.0, -1.0),
+        (-1.0, 3.0 / 2.0, 4.0 / 3.0, 2.0),
+        (1.0, 3.0 / 2.0, 4.0 / 3.0, -2.0),
+        (2.0, -3.0 / 20.0, -1.0 / 12.0, 1.0),
+        (3.0, 1.0 / 90.0, 0.0, 0.0),
     ],
 };
 
@@ -91,25 +92,27 @@ const SECOND: Stencil = Stencil {
 const SECOND_ONE_SIDED: Stencil = Stencil {
     order: 2,
     places: &[
-        (1.0, -223.0 / 10.0, -77.0 / 6.0),
-        (2.0, 879.0 / 20.0, 107.0 / 6.0),
-        (3.0, -949.0 / 18.0, -13.0),
-        (4.0, 41.0, 61.0 / 12.0),
-        (5.0, -201.0 / 10.0, -5.0 / 6.0),
-        (6.0, 1019.0 / 180.0, 0.0),
-        (7.0, -7.0 / 10.0, 0.0),
+        (1.0, -223.0 / 10.0, -77.0 / 6.0, 0.0),
+        (2.0, 879.0 / 20.0, 107.0 / 6.0, 0.0),
+        (3.0, -949.0 / 18.0, -13.0, 0.0),
+        (4.0, 41.0, 61.0 / 12.0, 0.0),
+        (5.0, -201.0 / 10.0, -5.0 / 6.0, 0.0),
+        (6.0, 1019.0 / 180.0, 0.0, 0.0),
+        (7.0, -7.0 / 10.0, 0.0, 0.0),
     ],
 };
 
 /// A derivative of several functions, and how well it is resolved.
 #[derive(Clone, Debug)]
 pub(crate) struct Difference {
-    step: f64,
+    pub(crate) step: f64,
     pub(crate) values: Vec<f64>,
     /// Σ |weight · change|, in units of the functions.
     pub(crate) terms: Vec<f64>,
     /// |sixth order − fourth order|, in the same units.
-    misses: Vec<f64>,
+    pub(crate) misses: Vec<f64>,
+    /// |change of the derivative over a step|, in the same units.
+    pub(crate) skews: Vec<f64>,
 }
 
 impl Stencil {
@@ -141,9 +144,9 @@ impl Stencil {
         mut at: impl FnMut(f64, &mut [f64]),
     ) -> Difference {
         let n = centre.len();
-        let [mut values, mut terms, mut misses] = [(); 3].map(|()| vec![0.0; n]);
+        let [mut values, mut terms, mut misses, mut skews] = [(); 4].map(|()| vec![0.0; n]);
         let mut there = vec![f64::NAN; n];
-        for &(place, sixth, fourth) in self.places {
+        for &(place, sixth, fourth, skew) in self.places {
             there.fill(f64::NAN);
             at(place * h, &mut there);
             for i in 0..n {
@@ -151,16 +154,19 @@ impl Stencil {
                 values[i] += sixth * change;
                 terms[i] += (sixth * change).abs();
                 misses[i] += (sixth - fourth) * change;
+                skews[i] += skew * change;
             }
         }
         let scale = h.powi(self.order);
         values.iter_mut().for_each(|value| *value /= scale);
-        misses.iter_mut().for_each(|miss| *miss = miss.abs());
+        let absolute = |x: &mut f64| *x = x.abs();
+        misses.iter_mut().chain(&mut skews).for_each(absolute);
         Difference {
             step: h.abs(),
             values,
             terms,
             misses,
+            skews,
         }
     }
 }
@@ -200,7 +206,7 @@ impl Difference {
 }
 
 /// The largest of values relative to their sizes, of which those of vanishing functions do not count.
-fn largest(values: &[f64], sizes: &[f64]) -> f64 {
+pub(crate) fn largest(values: &[f64], sizes: &[f64]) -> f64 {
     let pairs = values.iter().zip(sizes).filter(|(_, size)| **size > 0.0);
     pairs.fold(0.0, |m: f64, (value, size)| m.max(value / size))
 }

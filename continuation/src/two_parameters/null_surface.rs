@@ -210,9 +210,10 @@ impl<S: TwoParameter + Clone> NullSurface<S> {
             bounds: self.bounds,
             sizes: &self.unfolding.sizes,
         };
-        line.second_derivative(probe, precision, |probe, z| {
+        let found = line.second_derivative(probe, precision, |probe, z| {
             probe.set_second(z[z.len() - 1]);
-        })
+        });
+        found.values
     }
 
     /// The vector w orthogonal to the null space with \[J b\] w = r.

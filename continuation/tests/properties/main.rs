@@ -9,6 +9,7 @@ mod differences;
 mod failures;
 mod hidden;
 mod invariance;
+mod kinks;
 mod labels;
 mod refinement;
 mod rows;
