@@ -320,6 +320,7 @@ impl Run<'_> {
             error,
             Error::IllConditioned { .. } | Error::Unresolved { .. }
         );
-        self.problem.options.retries > 0 && (self.may_retry(error) || elsewhere)
+        let may = error.is_of_newton() || elsewhere;
+        may && self.problem.options.retries > 0 && !self.acceptance.refused
     }
 }
