@@ -18,6 +18,7 @@
 //! equations", BIT 40 (2000) 241-266.
 
 use crate::discretisation::iterate::{Interval, Iterate, Residual, SegmentIterate};
+use crate::discretisation::tableau::middle;
 use crate::kernels::dense::{add_scaled, dot, max_or_nan};
 use crate::kernels::specialise::specialise;
 use crate::newton::collocation::Collocation;
@@ -150,7 +151,7 @@ impl Collocation<'_> {
     ) -> Vec<f64> {
         let t = &*self.tableau;
         let mut largest = Largest::new(n);
-        let middle = (m / 2).saturating_sub(1)..m / 2 + 1;
+        let middle = middle(m);
         let values = &t.a[middle.start * m..middle.end * m];
         let integrals = &t.defect_to_stage[middle.start * (m + 1)..middle.end * (m + 1)];
         let mut buffers = vec![0.0; 2 * n];

@@ -3,7 +3,7 @@
 //! The inverse of the Newton matrix A takes forcings r of the size of the solution, with random signs, to
 //!
 //! ```text
-//! v = A⁻¹ r,    a = max |v| / |x| over all nodes and parameters
+//! v = A⁻¹ r,    a = max |v| / |x| over all nodes, places inside the intervals, and parameters
 //! ```
 //!
 //! Where the amplification a is large, z = v / a is nearly a null vector, A z = r / a. The solution S has
@@ -20,7 +20,8 @@
 use crate::accuracy::global_error::subtract_sum;
 use crate::discretisation::iterate::{Interval, Iterate, Residual};
 use crate::discretisation::ratio::{Component, largest_ratio};
-use crate::kernels::dense::{add_scaled, dot};
+use crate::discretisation::tableau::middle;
+use crate::kernels::dense::{add_scaled, dot, max_or_nan};
 use crate::kernels::random::Signs;
 use crate::newton::collocation::{Collocation, gather_ends};
 use crate::problem::equations::Equations as _;
@@ -48,6 +49,13 @@ pub(crate) fn is_steady(a: f64, halved: f64) -> bool {
 /// Whether a matrix with this amplification is as good as singular.
 pub(crate) fn is_open(a: f64) -> bool {
     a.is_nan() || a >= OPEN
+}
+
+/// Whether all states of a solution with this tolerance vanish: any mesh does for that, and may be too coarse
+/// for the directions beside it.
+pub(crate) fn vanishes(x: &Iterate, tolerance: f64) -> bool {
+    let mut states = x.segments.iter().flat_map(|segment| &segment.nodes);
+    states.all(|y| y.abs() <= NOTHING * tolerance)
 }
 
 /// An amplification that a mesh resolves hardly changes on a finer one. Of 668 solutions of the reference set
@@ -79,7 +87,7 @@ const FELT: f64 = 1e-3;
 
 impl Collocation<'_> {
     /// The amplification a of forcings with random signs by the last linearisation, which must be at `x`,
-    /// a solution with this tolerance; leaves them in `residual` and the nodes of v in `v`.
+    /// a solution with this tolerance; leaves v in `v`, and writes `residual`.
     pub(crate) fn amplification(
         &mut self,
         x: &Iterate,
@@ -88,11 +96,12 @@ impl Collocation<'_> {
         v: &mut Iterate,
     ) -> f64 {
         self.force(x, tolerance, residual);
-        self.node_correction(residual, v);
+        self.correction(residual, v);
         self.local_size(x, tolerance, v)
     }
 
-    /// Forcings of the size of the solution `x`, with random signs.
+    /// Forcings of the size of the solution `x`, linear on every interval, with random signs of the mean and of
+    /// the slope: a constant would not force what has a mean of zero over every interval, as sin 6πx on three.
     fn force(&mut self, x: &Iterate, tolerance: f64, residual: &mut Residual) {
         let mut signs = Signs::default();
         let m = self.tableau.stages;
@@ -107,9 +116,11 @@ impl Collocation<'_> {
                 let vanishes = unit > y.largest;
                 for (i, stages) in r.stages.chunks_exact_mut(m * n).enumerate() {
                     let size = if vanishes { unit } else { y.at(i).abs() };
-                    let forcing = signs.turn(size / length);
+                    let [mean, slope] = [(); 2].map(|()| signs.turn(size / length));
                     let of_component = stages.iter_mut().skip(component).step_by(n);
-                    of_component.for_each(|r| *r = forcing);
+                    for (r, c) in of_component.zip(&self.tableau.c) {
+                        *r = mean + (c - 0.5) * slope;
+                    }
                 }
             }
         }
@@ -123,6 +134,9 @@ impl Collocation<'_> {
     /// unit or the largest state, whichever is smaller, where they are less: forcings of the size of a
     /// solution make changes of its size, wherever it is large or small, unless they are amplified.
     ///
+    /// The same at the two collocation points in the middle of every interval, as a wave may vanish at all nodes:
+    /// sin 3πx on three intervals.
+    ///
     /// States that are the derivative of another one are left out: in a layer that the mesh does not
     /// resolve, and nothing depends on, they are as large as it is thin.
     fn local_size(&self, x: &Iterate, tolerance: f64, correction: &Iterate) -> f64 {
@@ -132,9 +146,38 @@ impl Collocation<'_> {
             false => unit(y.largest, tolerance).min(1.0).max(y.around(i)),
         };
         let segments = self.equations.segments();
-        largest_ratio(segments, x, correction, of_state, |p| {
-            unit(p.abs(), tolerance)
-        })
+        let of_parameter = |p: f64| unit(p.abs(), tolerance);
+        let at_nodes = largest_ratio(segments, x, correction, of_state, of_parameter);
+        max_or_nan(at_nodes, self.largest_inside(x, correction, of_state))
+    }
+
+    /// The largest state of a correction at the collocation points in the middle of all intervals, relative to
+    /// the size that is asked for by component and the node to the left.
+    fn largest_inside(
+        &self,
+        x: &Iterate,
+        correction: &Iterate,
+        of_state: impl Fn(&Component<'_>, usize) -> f64,
+    ) -> f64 {
+        let (t, m) = (&*self.tableau, self.tableau.stages);
+        let mut largest = 0.0;
+        for (segment, &Segment { states: n, .. }) in self.equations.segments().iter().enumerate() {
+            let nodes = &x.segments[segment].nodes;
+            let components = (0..n).map(|index| Component::new(nodes, n, segment, index));
+            let components: Vec<_> = components.collect();
+            let mut change = vec![0.0; n];
+            for (i, ends) in self.mesh[segment].windows(2).enumerate() {
+                let interval = Interval::new(&correction.segments[segment], n, t, i, ends);
+                for j in middle(m) {
+                    interval.stage_state(t, j, &mut change);
+                    let each = components.iter().zip(&change);
+                    largest = each.fold(largest, |largest, (component, change)| {
+                        max_or_nan(largest, change.abs() / of_state(component, i))
+                    });
+                }
+            }
+        }
+        largest
     }
 
     /// The units of the states at all ends, in the order of [`Ends`](crate::Ends), and of the parameters.
@@ -151,19 +194,17 @@ impl Collocation<'_> {
     }
 
     /// The direction in which the solution `x` with the error of [`global_errors`](Self::global_errors),
-    /// left in `w`, is not isolated, if so, with the [`amplification`](Self::amplification) a; leaves v in
-    /// `v`. Writes `residual`.
+    /// left in `w`, is not isolated, if so, with the [`amplification`](Self::amplification) a, left in `v`.
+    /// Writes `residual`.
     pub(crate) fn direction(
         &mut self,
         x: &Iterate,
         (samples, w): (&Samples, &Iterate),
-        (v, a): (&mut Iterate, f64),
+        (v, a): (&Iterate, f64),
         tolerance: f64,
         residual: &mut Residual,
         stats: &mut Stats,
     ) -> Option<Direction> {
-        self.force(x, tolerance, residual);
-        self.correction(residual, v);
         let mut z = self.zeros();
         z.set_sum(&z.clone(), 1.0 / a, v);
         let samples = self.linear_defects(x, &z, (samples, w), stats);
@@ -212,7 +253,8 @@ impl Collocation<'_> {
         let each = self.equations.segments().iter().zip(defects).enumerate();
         let of_segment = |(index, (segment, defects)): (usize, (&Segment, &Vec<f64>))| {
             let n = segment.states;
-            let [mut y, mut e, mut f, mut forcing] = [(); 4].map(|()| vec![0.0; n]);
+            let [mut y, mut e, mut f] = [(); 3].map(|()| vec![0.0; n]);
+            let mut forcing = [(); 2].map(|()| vec![0.0; n]);
             let mut jacobian = vec![0.0; n * (n + k)];
             let mut samples = vec![0.0; defects.len()];
             let intervals = samples.chunks_exact_mut((m + 1) * n);
@@ -220,17 +262,25 @@ impl Collocation<'_> {
             let places = self.mesh[index].windows(2).enumerate();
             for ((i, ends), (samples, defects)) in places.zip(intervals) {
                 let [x, w, z] = [x, w, z].map(|x| Interval::new(&x.segments[index], n, t, i, ends));
-                // z is not quite a null vector: it has the forcing r / a at all stages.
-                z.stage_state(t, 0, &mut e);
-                forcing.copy_from_slice(z.stage_slope(0));
-                let rows = self.stages[index].jacobians()[i * m * n * (n + k)..].chunks(n + k);
-                for (forcing, row) in forcing.iter_mut().zip(rows) {
-                    *forcing -= dot(&row[..n], &e) + dot(&row[n..], &z_p);
+                // z is not quite a null vector: it has the forcing r / a, which is that of its first and its
+                // last stage and linear in between.
+                for (j, forcing) in [0, m - 1].into_iter().zip(&mut forcing) {
+                    z.stage_state(t, j, &mut e);
+                    forcing.copy_from_slice(z.stage_slope(j));
+                    let rows = &self.stages[index].jacobians()[(i * m + j) * n * (n + k)..];
+                    for (forcing, row) in forcing.iter_mut().zip(rows.chunks(n + k)) {
+                        *forcing -= dot(&row[..n], &e) + dot(&row[n..], &z_p);
+                    }
                 }
                 for (q, sample) in samples.chunks_exact_mut(n).enumerate() {
                     let values = &t.defect_value[q * m..][..m];
                     let integrals = &t.defect_to_defect[q * (m + 1)..][..m + 1];
-                    let s = x.place(t.defect_rule.points[q]);
+                    let theta = t.defect_rule.points[q];
+                    let s = x.place(theta);
+                    let share = match m {
+                        1 => 0.0,
+                        _ => (theta - t.c[0]) / (t.c[m - 1] - t.c[0]),
+                    };
                     x.state(values, &mut y);
                     w.state(values, &mut e);
                     subtract_sum(&mut e, x.h, integrals, defects);
@@ -239,8 +289,10 @@ impl Collocation<'_> {
                     equations.rhs_jacobian(index, s, &y, &p, &mut f, &mut jacobian);
                     z.state(values, &mut e);
                     z.slope(&t.defect_slope[q * m..][..m], sample);
-                    let rows = jacobian.chunks_exact(n + k).zip(&forcing);
-                    for (d, (row, forcing)) in sample.iter_mut().zip(rows) {
+                    let forcing = forcing[0].iter().zip(&forcing[1]);
+                    let rows = jacobian.chunks_exact(n + k).zip(forcing);
+                    for (d, (row, (first, last))) in sample.iter_mut().zip(rows) {
+                        let forcing = first + share * (last - first);
                         *d -= dot(&row[..n], &e) + dot(&row[n..], &z_p) + forcing;
                     }
                 }

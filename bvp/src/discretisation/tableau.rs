@@ -4,6 +4,7 @@ use crate::discretisation::scheme::MAX_STAGES;
 use crate::discretisation::scheme::Scheme;
 use crate::kernels::dense::{add_product, add_scaled};
 use std::f64::consts::PI;
+use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 /// The number of powers of the stage matrix that are stored.
@@ -138,6 +139,11 @@ impl Tableau {
     pub(crate) fn slope_weights(&self, theta: f64, weights: &mut [f64]) {
         self.basis.slopes(theta, weights);
     }
+}
+
+/// The two collocation points in the middle of an interval, of m.
+pub(crate) fn middle(m: usize) -> Range<usize> {
+    (m / 2).saturating_sub(1)..m / 2 + 1
 }
 
 /// The product of a row-major matrix with n columns and an n × n matrix.

@@ -274,7 +274,7 @@ impl Newton {
         stats: &mut Stats,
     ) -> Option<Direction> {
         let error = (samples, &self.delta);
-        let null = (&mut self.simplified, a);
+        let null = (&self.simplified, a);
         collocation.direction(x, error, null, tolerance, &mut self.residual, stats)
     }
 

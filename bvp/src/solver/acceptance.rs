@@ -1,7 +1,7 @@
 //! Whether a solution is good enough: what was found of it must hold at the solution itself.
 
 use crate::accuracy::further_places::FurtherPlaces;
-use crate::accuracy::isolation::{is_amplified, is_high, is_open, is_steady};
+use crate::accuracy::isolation::{is_amplified, is_high, is_open, is_steady, vanishes};
 use crate::accuracy::mesh_selection::AIM;
 use crate::accuracy::rounding::{UNIT_ROUNDOFF, exceeds};
 use crate::discretisation::mesh::{Mesh, halved};
@@ -108,7 +108,8 @@ impl Acceptance {
             true => None,
             false => problem.collocation.with_possible_layers(),
         };
-        if is_high(a) && problem.may_halve(&solution.mesh) {
+        let unsure = is_high(a) || vanishes(&solution.x, problem.options.tolerance);
+        if unsure && problem.may_halve(&solution.mesh) {
             let direction = problem.amplified(&solution.x);
             let (_, _, on_halved) = problem.amplification_on(halved(&solution.mesh), solution);
             if !is_steady(a, on_halved) {
