@@ -192,6 +192,7 @@ mod newton;
 mod newton_matrix;
 mod problem;
 mod result;
+mod shares;
 mod solver;
 
 pub use discretisation::scheme::Scheme;

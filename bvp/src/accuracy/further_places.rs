@@ -22,30 +22,18 @@ use crate::problem::equations::Equations;
 use crate::problem::held::Held;
 use crate::result::quality::Defects;
 use crate::result::stats::Stats;
+use crate::shares::{AIM, ONE_SAMPLE, SPACINGS, UNNOTICED};
 
 /// Random places of a segment, at least. With as many the look costs as much as four to five intervals.
 const PLACES: usize = 64;
-/// What an unseen defect may add to the solution, in tolerances.
-const ALLOWED: f64 = 0.3;
-/// A defect at a random place that is at most this many times the root mean square over its interval is
-/// that of the polynomials: Legendre's of degree m ≤ 7 is √(2m + 1) < 4 times its root mean square at
-/// its ends, and the next ones are beside it.
-const EXPECTED: f64 = 10.0;
 /// The widest gap between the points at which an interval has been seen, with six or seven stages and the
 /// points of the defect: as much of it may have a defect found in between.
 const GAP: f64 = 0.1;
-/// How near to a node a jump may be unseen: there it adds this share of the tolerance to the solution.
-const NEAR: f64 = 0.1;
-/// A place is that many spacings of floating-point numbers off a node, so that it is on its own side.
-const SPACINGS: f64 = 16.0;
 /// In an interval so short that this is much of it, the place is this share of it off the node.
 const LARGEST_SHARE: f64 = 0.4;
 /// Nearer to a node than any place, a defect may grow like the distance to the power of −1 and this: what is
 /// steeper is the little that is not explained beside a mapped infinite end.
 const STEEPEST: f64 = 0.05;
-/// The rungs of the ladder by which a defect near a node is integrated are this far apart, which is how
-/// precisely a jump between two of them is placed.
-const RUNG: f64 = 0.1;
 /// Into how many parts an interval with an unseen defect is cut.
 const PARTS: usize = 4;
 
@@ -154,10 +142,11 @@ impl SegmentLook<'_> {
                 let s = interval.place(theta);
                 let defect = self.defect(n, &interval, s, end, scratch, stats);
                 let jumps = self.is_unseen(interval.h * first * defect, self.local[i]);
-                let grows = interval.h * nearest * scratch.rate() > 2.0 * NEAR * self.tolerance;
+                let grows =
+                    interval.h * nearest * scratch.rate() > 2.0 * UNNOTICED * self.tolerance;
                 if jumps || grows {
                     let sum = self.near_node(&interval, right, [first, nearest], scratch, stats);
-                    if sum > ALLOWED * self.tolerance && (grows || sum > self.local[i]) {
+                    if sum > AIM * self.tolerance && (grows || sum > self.local[i]) {
                         *pieces = PARTS;
                         found.push((self.index, s));
                     }
@@ -167,8 +156,8 @@ impl SegmentLook<'_> {
     }
 
     /// The integral of the defect beside the left or right node of an interval, over the shares of it up to
-    /// the first one: down to the nearest by the rungs of a ladder, beyond it that of the right-hand side by
-    /// the power law of the last two.
+    /// the first one: down to the nearest by the rungs of a ladder, each of which does not show in the one before,
+    /// beyond it that of the right-hand side by the power law of the last two.
     fn near_node(
         &self,
         interval: &Interval<'_>,
@@ -184,7 +173,7 @@ impl SegmentLook<'_> {
         let (mut sum, mut power, mut last) = (0.0, 0.0f64, first);
         let [mut defect, mut rate] = at(first);
         while last > nearest {
-            let distance = (RUNG * last).max(nearest);
+            let distance = (UNNOTICED * last).max(nearest);
             let before = rate;
             [defect, rate] = at(distance);
             sum += (last - distance) * defect;
@@ -241,6 +230,10 @@ impl SegmentLook<'_> {
     }
 
     /// Whether the defect at a place of interval i is neither that of the polynomials nor harmless.
+    ///
+    /// That of the polynomials is larger than its root mean square over the interval by less than the factor of
+    /// one sample: Legendre's of degree m ≤ 7 is √(2m + 1) < 4 times that at its ends, and the next ones are
+    /// beside it.
     #[inline(always)]
     fn is_unseen_at(
         &self,
@@ -252,7 +245,7 @@ impl SegmentLook<'_> {
         stats: &mut Stats,
     ) -> bool {
         let interval = self.interval(n, i);
-        let expected = GAP * EXPECTED * self.local[i];
+        let expected = GAP * ONE_SAMPLE * self.local[i];
         let defect = self.defect(n, &interval, interval.place(theta), weights, scratch, stats);
         self.is_unseen(GAP * interval.h * defect, expected) && {
             let [defect, _] = self.unexplained(&interval, theta, scratch, stats);
@@ -262,7 +255,7 @@ impl SegmentLook<'_> {
 
     /// Whether an addition to the solution is more than is allowed and than is expected.
     fn is_unseen(&self, addition: f64, expected: f64) -> bool {
-        addition > ALLOWED * self.tolerance && addition > expected
+        addition > AIM * self.tolerance && addition > expected
     }
 
     /// The number of states n.
@@ -277,12 +270,13 @@ impl SegmentLook<'_> {
     }
 
     /// How near to the nodes of interval i a jump by as much as the largest slope is harmless, as a share of
-    /// the interval.
+    /// the interval: no nearer than places are told apart.
     fn nearest(&self, i: usize, slope: f64) -> f64 {
         let (left, right) = (self.nodes[i], self.nodes[i + 1]);
         let spacing = f64::EPSILON * left.abs().max(right.abs());
         let h = right - left;
-        let harmless = (NEAR * self.tolerance / slope / h).min(0.5 * self.t.defect_rule.points[0]);
+        let harmless =
+            (UNNOTICED * self.tolerance / slope / h).min(0.5 * self.t.defect_rule.points[0]);
         harmless.max(SPACINGS * spacing / h).min(LARGEST_SHARE)
     }
 

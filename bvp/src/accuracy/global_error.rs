@@ -23,14 +23,12 @@ use crate::kernels::dense::{add_scaled, dot, max_or_nan};
 use crate::kernels::specialise::specialise;
 use crate::newton::collocation::Collocation;
 use crate::result::quality::{GlobalErrors, Samples};
+use crate::shares::SPACINGS;
 
 /// The error found times this is reported. On a mesh too coarse for the neglected terms of higher order
 /// the error found is too small: over 12 000 random problems the error of some state exceeds ten
 /// times its estimate in 18 cases.
 const CAUTION: f64 = 1.5;
-
-/// A sum of m ≤ 7 products and a state is rounded by no more than this, relative to its largest term.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl Collocation<'_> {
     /// The global errors of the solution `x`, which was last linearised nearby, from its defects and the
@@ -88,7 +86,7 @@ impl Collocation<'_> {
                 let interval = Interval::new(&x.segments[index], n, t, i, ends);
                 interval.continuity(t, &mut jump);
                 for (component, (to, jump)) in to.iter_mut().zip(&jump).enumerate() {
-                    if jump.abs() > ROUNDING * interval.size(component).max(1.0) {
+                    if jump.abs() > SPACINGS * f64::EPSILON * interval.size(component).max(1.0) {
                         *to += jump;
                     }
                 }

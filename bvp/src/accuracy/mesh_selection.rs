@@ -1,9 +1,8 @@
 //! Mesh selection: refine, coarsen and redistribute from the defects.
 
 use crate::discretisation::mesh::{Mesh, ceil, equidistribute, split};
+use crate::shares::AIM;
 
-/// New meshes aim at this fraction of the tolerance, so that one step usually suffices.
-pub(crate) const AIM: f64 = 0.3;
 /// With a larger relative defect than this an interval does not resolve the solution: no power law holds
 /// yet, and it is halved at least.
 pub(crate) const UNRESOLVED: f64 = 0.5;

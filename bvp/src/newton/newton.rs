@@ -16,6 +16,7 @@ use crate::newton_matrix::singular::Singular;
 use crate::problem::unknown::Unknown;
 use crate::result::quality::{Direction, GlobalErrors, Samples};
 use crate::result::stats::Stats;
+use crate::shares::{NEGLIGIBLE, ONE_SAMPLE};
 
 /// Simplified corrections that shrink at least this much per step keep the Jacobian: three such
 /// steps gain more than one new linearisation and cost less.
@@ -30,12 +31,6 @@ const ROUNDING_FACTOR: f64 = 100.0;
 /// ... unless they are larger than this: rounding amplified by more than 1e8 is not told from a
 /// failure to converge.
 const LARGEST_ROUNDING: f64 = 1e-8;
-
-/// A step need not be checked if its own correction is expected to be at most the limit divided by this.
-const PREDICTION_SAFETY: f64 = 10.0;
-
-/// A simplified correction that is this fraction of what is asked for is not even taken.
-const NEGLIGIBLE: f64 = 1e-3;
 
 /// Factors are those of an iterate where ω ‖Δx‖, which estimates ‖A⁻¹ ΔA‖, is at most this since they were made,
 /// as rounding makes it of a linear problem. ω is known from one direction alone: with 1e-6, 4 of 1500 random
@@ -162,9 +157,10 @@ impl Newton {
             if !size.largest.is_finite() {
                 return Err(Failure::Ends(collocation.dependence()));
             }
-            // The mean would hide an entry that is far larger than the others.
+            // The mean would hide an entry that is far larger than the others. A step need not be checked whose own
+            // correction is expected to be small, by the curvature of one direction.
             let predicted = 0.5 * self.curvature * size.largest * size.largest;
-            if size.largest <= tolerance || fresh && PREDICTION_SAFETY * predicted <= tolerance {
+            if size.largest <= tolerance || fresh && ONE_SAMPLE * predicted <= tolerance {
                 self.trial.set_sum(x, 1.0, &self.delta);
                 std::mem::swap(x, &mut self.trial);
                 self.moved += size.mean;

@@ -2,12 +2,10 @@
 
 use crate::problem::problem::Segment;
 use crate::problem::unknown::Unknown;
+use crate::shares::UNNOTICED;
 use faer::{ColRef, MatRef};
 use std::ops::Range;
 
-/// Conditions whose entries of the left null vector are at least this share of its largest entry are
-/// named as dependent.
-const DEPENDENT: f64 = 0.1;
 /// The first unknown whose entry of the right null vector is at least this share of its largest entry is
 /// named as free.
 const FREE: f64 = 0.5;
@@ -43,7 +41,8 @@ impl Dependence {
         let largest =
             |x: ColRef<'_, f64>, rows: Range<usize>| rows.fold(0.0, |m: f64, i| m.max(x[i].abs()));
         let (dependent, free) = (largest(u, first..size), largest(v, 0..size));
-        let conditions = (first..size).filter(|&i| u[i].abs() > DEPENDENT * dependent);
+        // Conditions with less in the left null vector do not show in what depends.
+        let conditions = (first..size).filter(|&i| u[i].abs() > UNNOTICED * dependent);
         let column = (0..size).find(|&j| v[j].abs() >= FREE * free);
         Self {
             conditions: conditions.map(|i| i - first).collect(),

@@ -2,17 +2,14 @@
 
 use crate::accuracy::further_places::FurtherPlaces;
 use crate::accuracy::isolation::{is_amplified, is_high, is_open, is_steady, vanishes};
-use crate::accuracy::mesh_selection::AIM;
 use crate::accuracy::rounding::{UNIT_ROUNDOFF, exceeds};
 use crate::discretisation::mesh::{Mesh, halved};
 use crate::result::error::Error;
 use crate::result::quality::Direction;
 use crate::result::solution::Solution;
+use crate::shares::{AIM, UNNOTICED};
 use crate::solver::discretised::Discretised;
 
-/// An amplified unit roundoff that is this share of the tolerance or less needs no closer look: the
-/// amplification of random forcings is a lower bound, ten to a thousand times less than κ.
-const HARMLESS: f64 = 0.1;
 /// How often a mesh is halved because the solution on it does not seem to be isolated: where that is so by
 /// a coarse mesh alone, a halved one shows it.
 const DOUBTS: usize = 3;
@@ -76,7 +73,8 @@ impl Acceptance {
         problem: &mut Discretised<'_>,
         solution: &mut Solution,
     ) -> Result<Confirmed, Error> {
-        let harmless = HARMLESS * problem.options.tolerance;
+        // The amplification of random forcings is a lower bound, ten to a thousand times less than κ.
+        let harmless = UNNOTICED * problem.options.tolerance;
         let mut a = match problem.newton.is_current() {
             true => problem.amplification(&solution.x),
             false => f64::INFINITY,

@@ -14,6 +14,7 @@ use crate::result::error::Error;
 use crate::result::quality::{Direction, Quality, Samples};
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
+use crate::shares::NEGLIGIBLE;
 use crate::solver::failure::{ill_conditioned, numerical};
 use crate::solver::options::{Control, Options};
 use crate::solver::transfer::transfer;
@@ -27,9 +28,6 @@ const NEWTON_FRACTION: f64 = 0.03;
 const INVISIBLE_FRACTION: f64 = 0.01;
 /// A solution whose correction on another mesh is at most this many tolerances is the same there.
 const KEPT: f64 = 3.0;
-/// Measured rounding of less than this share of the tolerance is that of a matrix whose amplification is
-/// one of slopes in thin layers alone.
-const SHOWN_ROUNDING: f64 = 1e-3;
 
 /// A condition whose residual is larger than allowed.
 struct Violation {
@@ -214,10 +212,11 @@ impl<'a> Discretised<'a> {
         (x, local, a)
     }
 
-    /// Whether rounding shows in a solution, or cannot since it vanishes.
+    /// Whether rounding shows in a solution, or cannot since it vanishes. Where it is negligible, the amplification
+    /// is one of slopes in thin layers alone.
     pub(crate) fn rounds(&mut self, solution: &Solution) -> bool {
         let rounding = self.collocation.rounding(&solution.x);
-        rounding == 0.0 || rounding.is_nan() || rounding >= SHOWN_ROUNDING * self.options.tolerance
+        rounding == 0.0 || rounding.is_nan() || rounding >= NEGLIGIBLE * self.options.tolerance
     }
 
     /// Whether a solution within the tolerance on its own mesh is so on another one, by its correction

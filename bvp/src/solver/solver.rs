@@ -1,7 +1,7 @@
 //! The driver: Newton on a mesh, the error of the solution, a better mesh, until everything holds.
 
 use crate::accuracy::mesh_selection::{
-    AIM, GRADING, GRADING_BY_ERROR, UNRESOLVED, amplify_rough, next_mesh,
+    GRADING, GRADING_BY_ERROR, UNRESOLVED, amplify_rough, next_mesh,
 };
 use crate::discretisation::mesh::{Mesh, halved, thinned};
 use crate::kernels::dense::max_or_nan;
@@ -12,6 +12,7 @@ use crate::result::error::Error;
 use crate::result::quality::Defects;
 use crate::result::restored::restore;
 use crate::result::solution::Solution;
+use crate::shares::{AIM, UNNOTICED};
 use crate::solver::acceptance::{Acceptance, Confirmed};
 use crate::solver::discretised::Discretised;
 use crate::solver::failure::{check_mesh, ill_conditioned};
@@ -21,20 +22,10 @@ use crate::solver::statement::{check_guess, check_statement, first_mesh, in_unit
 use crate::solver::transfer::transfer;
 use web_time::Instant;
 
-/// Where a mesh does not resolve the solution, the next one aims at this fraction of the largest
-/// defect that does: where nothing is resolved a defect is about one however fine the mesh is.
-const RESOLVED: f64 = 0.3;
 /// A first mesh of equal intervals has the stated number divided by this: it tells nothing of the solution.
 const THINNED: f64 = 3.4;
-/// An interval whose local defect is at most this share of the tolerance need not resolve the solution, as
-/// next to a jump of the right-hand side.
-const HARMLESS_DEFECT: f64 = 0.1;
 /// By as many meshes layers are found; what is not resolved on one more is rough.
 const LAYERS_SHOWN: usize = 6;
-/// Where rounding makes up this share of the tolerance, a mesh that is refused would be one against it:
-/// defects are sums of as many rounding errors as there are stages, and what a mesh is made for is 0.3
-/// tolerances.
-const ROUNDING_SHARE: f64 = 0.1;
 
 /// Solves a boundary value problem from a guess.
 ///
@@ -213,8 +204,9 @@ impl Run<'_> {
         let estimating = self.problem.estimates();
         let relative = self.relevant_defects(solution);
         let defect = relative.flatten().fold(0.0, max_or_nan);
+        // Where nothing is resolved a defect is about one however fine the mesh is.
         let (allowed, wanted, grading) = match self.problem.options.control {
-            Control::Error => (UNRESOLVED, RESOLVED * UNRESOLVED, GRADING_BY_ERROR),
+            Control::Error => (UNRESOLVED, AIM * UNRESOLVED, GRADING_BY_ERROR),
             Control::Both | Control::Defect => (tolerance, tolerance, GRADING),
         };
         if defect > allowed {
@@ -276,30 +268,32 @@ impl Run<'_> {
     }
 
     /// The relative defects of a solution; where the error is controlled without those of intervals so short
-    /// that their local defects are harmless.
+    /// that their local defects do not show, as next to a jump of the right-hand side: these need not resolve it.
     fn relevant_defects<'s>(
         &self,
         solution: &'s Solution,
     ) -> impl Iterator<Item = impl Iterator<Item = f64> + 's> + 's {
         let harmless = match self.problem.options.control {
-            Control::Error => HARMLESS_DEFECT * self.problem.options.tolerance,
+            Control::Error => UNNOTICED * self.problem.options.tolerance,
             Control::Both | Control::Defect => f64::NEG_INFINITY,
         };
         let Defects { relative, local } = &solution.quality.defects;
         relative.iter().zip(local).map(move |(relative, local)| {
             let each = relative.iter().zip(local);
             each.map(move |(&relative, &local)| match local <= harmless {
-                true => relative.min(RESOLVED * UNRESOLVED),
+                true => relative.min(AIM * UNRESOLVED),
                 false => relative,
             })
         })
     }
 
-    /// The error for a solution whose next mesh is refused: what keeps it from the tolerance may be rounding.
+    /// The error for a solution whose next mesh is refused: what keeps it from the tolerance may be rounding. A
+    /// mesh refused where rounding shows would be one against it: defects are sums of as many rounding errors as
+    /// there are stages, and a mesh is made for less than the tolerance.
     fn out_of_reach(&mut self, error: Error, solution: &Solution) -> Error {
         if self.problem.estimates() && self.problem.collocation.mesh == solution.mesh {
             let rounding = self.problem.collocation.rounding(&solution.x);
-            if rounding.is_nan() || rounding >= ROUNDING_SHARE * self.problem.options.tolerance {
+            if rounding.is_nan() || rounding >= UNNOTICED * self.problem.options.tolerance {
                 let mut best = solution.clone();
                 best.stats = self.problem.cost();
                 return ill_conditioned(rounding, self.problem.options.tolerance, best);
