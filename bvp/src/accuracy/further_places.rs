@@ -26,14 +26,6 @@ use crate::shares::{AIM, ONE_SAMPLE, SPACINGS, UNNOTICED};
 
 /// Random places of a segment, at least. With as many the look costs as much as four to five intervals.
 const PLACES: usize = 64;
-/// The widest gap between the points at which an interval has been seen, with six or seven stages and the
-/// points of the defect: as much of it may have a defect found in between.
-const GAP: f64 = 0.1;
-/// In an interval so short that this is much of it, the place is this share of it off the node.
-const LARGEST_SHARE: f64 = 0.4;
-/// Nearer to a node than any place, a defect may grow like the distance to the power of −1 and this: what is
-/// steeper is the little that is not explained beside a mapped infinite end.
-const STEEPEST: f64 = 0.05;
 /// Into how many parts an interval with an unseen defect is cut.
 const PARTS: usize = 4;
 
@@ -180,8 +172,9 @@ impl SegmentLook<'_> {
             power = (rate / before).ln() / (last / distance).ln();
             last = distance;
         }
+        // What is steeper than nearly the power −1 is the little that is not explained beside a mapped infinite end.
         let beyond = match power > 0.0 {
-            true => rate * power / (1.0 - power).max(STEEPEST),
+            true => rate * power / (1.0 - power).max(UNNOTICED),
             false => 0.0,
         };
         interval.h * (sum + nearest * (defect + beyond))
@@ -229,7 +222,8 @@ impl SegmentLook<'_> {
         }
     }
 
-    /// Whether the defect at a place of interval i is neither that of the polynomials nor harmless.
+    /// Whether the defect at a place of interval i is neither that of the polynomials nor harmless. As much of the
+    /// interval may have it as there is between the points at which it has been seen.
     ///
     /// That of the polynomials is larger than its root mean square over the interval by less than the factor of
     /// one sample: Legendre's of degree m ≤ 7 is √(2m + 1) < 4 times that at its ends, and the next ones are
@@ -244,12 +238,12 @@ impl SegmentLook<'_> {
         scratch: &mut Scratch,
         stats: &mut Stats,
     ) -> bool {
-        let interval = self.interval(n, i);
-        let expected = GAP * ONE_SAMPLE * self.local[i];
+        let (interval, gap) = (self.interval(n, i), self.t.widest_gap);
+        let expected = gap * ONE_SAMPLE * self.local[i];
         let defect = self.defect(n, &interval, interval.place(theta), weights, scratch, stats);
-        self.is_unseen(GAP * interval.h * defect, expected) && {
+        self.is_unseen(gap * interval.h * defect, expected) && {
             let [defect, _] = self.unexplained(&interval, theta, scratch, stats);
-            self.is_unseen(GAP * interval.h * defect, expected)
+            self.is_unseen(gap * interval.h * defect, expected)
         }
     }
 
@@ -270,14 +264,14 @@ impl SegmentLook<'_> {
     }
 
     /// How near to the nodes of interval i a jump by as much as the largest slope is harmless, as a share of
-    /// the interval: no nearer than places are told apart.
+    /// the interval: no nearer than places are told apart, and no farther than the middle.
     fn nearest(&self, i: usize, slope: f64) -> f64 {
         let (left, right) = (self.nodes[i], self.nodes[i + 1]);
         let spacing = f64::EPSILON * left.abs().max(right.abs());
         let h = right - left;
         let harmless =
             (UNNOTICED * self.tolerance / slope / h).min(0.5 * self.t.defect_rule.points[0]);
-        harmless.max(SPACINGS * spacing / h).min(LARGEST_SHARE)
+        harmless.max(SPACINGS * spacing / h).min(0.5)
     }
 
     /// The largest |dy/ds| / (1 + |y|) at the collocation points of the segment, at least that of a state

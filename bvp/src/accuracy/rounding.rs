@@ -31,7 +31,7 @@ use crate::kernels::dense::dot;
 use crate::kernels::random::Signs;
 use crate::newton::collocation::{Collocation, gather_ends};
 use crate::problem::problem::Segment;
-use crate::shares::ONE_SAMPLE;
+use crate::shares::{INVISIBLE, ONE_SAMPLE};
 
 /// The unit roundoff u of double precision.
 pub(crate) const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
@@ -41,9 +41,6 @@ pub(crate) const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
 /// exceeds 1e16: at least 0.04 over seven sets of signs, while u |A⁻¹| |A| |z| alone gives 6e-7 to
 /// 9e-5. Of the reference problems none exceeds 1e-8.
 pub(crate) const NO_DIGIT: f64 = 1e-2;
-
-/// The share of the tolerance from which on a measured rounding agrees with a larger one expected.
-const AGREED: f64 = 0.03;
 
 /// Without a pivot smaller than this no rounding is measured: at 1e-9 and above the rounding of reference
 /// problems without one is at most 0.6 tolerances, and problems that must be refused have pivots
@@ -64,7 +61,7 @@ const SMALL_STATE: f64 = 0.01;
 /// T09c.
 pub(crate) fn exceeds(rounding: f64, a: f64, tolerance: f64) -> bool {
     let allowed = (ONE_SAMPLE * tolerance).min(NO_DIGIT);
-    let agreed = rounding > AGREED * tolerance && a * UNIT_ROUNDOFF > tolerance;
+    let agreed = rounding > INVISIBLE * tolerance && a * UNIT_ROUNDOFF > tolerance;
     rounding.is_nan() || rounding > allowed || agreed
 }
 

@@ -9,9 +9,6 @@ pub(crate) type Mesh = Vec<Vec<f64>>;
 /// stay apart.
 const FEWEST_SPACINGS: f64 = 64.0;
 
-/// Intervals that differ by less, relative to their length, are equal.
-const EQUAL: f64 = 1e-9;
-
 /// The nodes of `intervals` equal intervals of a segment.
 pub(crate) fn uniform(segment: &Segment, intervals: usize) -> Vec<f64> {
     let mut nodes: Vec<f64> = (0..=intervals)
@@ -46,7 +43,8 @@ pub(crate) fn thinned(mesh: &Mesh, factor: f64) -> Mesh {
 fn is_uniform(nodes: &[f64]) -> bool {
     let count = (nodes.len() - 1) as f64;
     let length = nodes[nodes.len() - 1] - nodes[0];
-    let equal = |pair: &[f64]| ((pair[1] - pair[0]) * count / length - 1.0).abs() < EQUAL;
+    let equal =
+        |pair: &[f64]| ((pair[1] - pair[0]) * count / length - 1.0).abs() < f64::EPSILON.sqrt();
     nodes.windows(2).all(equal)
 }
 

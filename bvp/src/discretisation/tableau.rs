@@ -38,6 +38,8 @@ pub(crate) struct Tableau {
     /// Where the defect is sampled: the Gauss rule with m + 1 points, which integrates the square
     /// of the leading defect ∝ Πⱼ (θ − cⱼ) exactly and whose points are never collocation points.
     pub(crate) defect_rule: Quadrature,
+    /// The widest gap between the collocation and defect points of an interval, as a share of it.
+    pub(crate) widest_gap: f64,
     /// βₗ at the defect points, (m + 1) × m.
     pub(crate) defect_value: Vec<f64>,
     /// βₗ' at the defect points, (m + 1) × m.
@@ -110,6 +112,7 @@ impl Tableau {
             a,
             powers,
             weights,
+            widest_gap: widest_gap([&c[..], &defect_rule.points].concat()),
             defect_value: values(&defect_rule.points),
             defect_slope: basis.table(&defect_rule.points, Basis::slopes),
             defect_to_stage: of_defect.table(&c, Basis::values),
@@ -237,6 +240,13 @@ impl Basis {
         }
         table
     }
+}
+
+/// The largest distance between neighbours among points.
+fn widest_gap(mut points: Vec<f64>) -> f64 {
+    points.sort_by(f64::total_cmp);
+    let gaps = points.windows(2).map(|pair| pair[1] - pair[0]);
+    gaps.fold(0.0, f64::max)
 }
 
 /// ℓ'(x) of all Lagrange polynomials on `points`.

@@ -26,17 +26,9 @@ const KEEP_JACOBIAN_BELOW: f64 = 0.25;
 const SMALLEST_DAMPING: f64 = 1e-5;
 
 /// Corrections this many times the stopping tolerance that no longer shrink, or not as fast as those
-/// of Newton's method do so near a solution, are rounding, ...
+/// of Newton's method do so near a solution, are rounding, unless they are larger than half of the digits:
+/// rounding amplified by more is not told from a failure to converge.
 const ROUNDING_FACTOR: f64 = 100.0;
-/// ... unless they are larger than this: rounding amplified by more than 1e8 is not told from a
-/// failure to converge.
-const LARGEST_ROUNDING: f64 = 1e-8;
-
-/// Factors are those of an iterate where ω ‖Δx‖, which estimates ‖A⁻¹ ΔA‖, is at most this since they were made,
-/// as rounding makes it of a linear problem. ω is known from one direction alone: with 1e-6, 4 of 1500 random
-/// shocks were accepted beside their place, with 1e-4 10, with this none.
-const CURRENT: f64 = 1e-8;
-
 /// Why the iteration stopped short.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Failure {
@@ -152,7 +144,7 @@ impl Newton {
         let mut fresh = true;
         let mut size = norm(x, &[(1.0, &self.delta)]);
         let mut damping = 1.0;
-        let rounding = (ROUNDING_FACTOR * tolerance).min(LARGEST_ROUNDING);
+        let rounding = (ROUNDING_FACTOR * tolerance).min(f64::EPSILON.sqrt());
         for _ in 0..max_steps {
             if !size.largest.is_finite() {
                 return Err(Failure::Ends(collocation.dependence()));
@@ -218,9 +210,11 @@ impl Newton {
         Err(self.no_convergence(collocation, x, size))
     }
 
-    /// Whether the factors are those of the iterate to rounding, as those of a linear problem are.
+    /// Whether the factors are those of the iterate to rounding, as those of a linear problem are: ω ‖Δx‖, which
+    /// estimates ‖A⁻¹ ΔA‖, is at most half of the digits since they were made. ω is known from one direction alone:
+    /// with 1e-6, 4 of 1500 random shocks were accepted beside their place, with 1e-4 10, with this none.
     pub(crate) fn is_current(&self) -> bool {
-        self.moved == 0.0 || self.curvature * self.moved <= CURRENT
+        self.moved == 0.0 || self.curvature * self.moved <= f64::EPSILON.sqrt()
     }
 
     /// The largest entry of Newton's correction at `x` relative to 1 + |x|.

@@ -6,10 +6,6 @@ use crate::shares::UNNOTICED;
 use faer::{ColRef, MatRef};
 use std::ops::Range;
 
-/// The first unknown whose entry of the right null vector is at least this share of its largest entry is
-/// named as free.
-const FREE: f64 = 0.5;
-
 /// Conditions that depend on each other, given the differential equations, and an unknown that they
 /// leave free. Both are empty for a matrix that is regular or not finite.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,7 +39,8 @@ impl Dependence {
         let (dependent, free) = (largest(u, first..size), largest(v, 0..size));
         // Conditions with less in the left null vector do not show in what depends.
         let conditions = (first..size).filter(|&i| u[i].abs() > UNNOTICED * dependent);
-        let column = (0..size).find(|&j| v[j].abs() >= FREE * free);
+        // The first of those that are as free as any.
+        let column = (0..size).find(|&j| v[j].abs() >= (1.0 - UNNOTICED) * free);
         Self {
             conditions: conditions.map(|i| i - first).collect(),
             free: column.map(|column| Unknown::of_column(segments, column)),

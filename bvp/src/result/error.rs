@@ -384,13 +384,10 @@ fn estimate(error: f64) -> String {
     }
 }
 
-/// From this size on an estimate of the rounding error tells only that no digit is known: it is the
-/// rounding of the estimate itself.
-const NO_DIGIT: f64 = 1.0;
-
 /// What rounding does to a solution.
 fn amplified(rounding: f64, condition: f64) -> String {
-    if rounding < NO_DIGIT {
+    // From the size of the solution on an estimate of the rounding error is the rounding of the estimate itself.
+    if rounding < 1.0 {
         format!(
             "rounding errors change the solution by {rounding:.1e} relative to 1 + |y| (amplified {condition:.0e} times)"
         )

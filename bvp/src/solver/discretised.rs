@@ -14,20 +14,16 @@ use crate::result::error::Error;
 use crate::result::quality::{Direction, Quality, Samples};
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
-use crate::shares::NEGLIGIBLE;
+use crate::shares::{INVISIBLE, NEGLIGIBLE};
 use crate::solver::failure::{ill_conditioned, numerical};
 use crate::solver::options::{Control, Options};
 use crate::solver::transfer::transfer;
 use std::sync::Arc;
 use web_time::Instant;
 
-/// Newton's method stops when its corrections are this fraction of the tolerance. What is left of them
-/// is in the defect, and so in the estimate of the error, ...
-const NEWTON_FRACTION: f64 = 0.03;
-/// ... but without an estimate it is to be invisible beside the discretisation error.
-const INVISIBLE_FRACTION: f64 = 0.01;
-/// A solution whose correction on another mesh is at most this many tolerances is the same there.
-const KEPT: f64 = 3.0;
+/// The share of the tolerance at which Newton's method stops where the error is not estimated: with an estimate
+/// what is left of its corrections is in it.
+const UNESTIMATED: f64 = 0.01;
 
 /// A condition whose residual is larger than allowed.
 struct Violation {
@@ -230,7 +226,7 @@ impl<'a> Discretised<'a> {
         } = self;
         let x = transfer(mesh, &collocation.tableau, solution);
         let correction = newton.correction(collocation, &x, &mut self.stats);
-        correction.is_ok_and(|size| size <= KEPT * self.options.tolerance)
+        correction.is_ok_and(|size| size <= self.options.tolerance)
     }
 
     /// The error for a failure of Newton's method.
@@ -315,8 +311,8 @@ impl<'a> Discretised<'a> {
     /// How small corrections are to be, no less than what rounding permits.
     fn wanted(&self) -> f64 {
         let fraction = match self.estimates() {
-            true => NEWTON_FRACTION,
-            false => INVISIBLE_FRACTION,
+            true => INVISIBLE,
+            false => UNESTIMATED,
         };
         (fraction * self.options.tolerance).max(100.0 * f64::EPSILON)
     }

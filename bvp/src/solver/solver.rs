@@ -1,8 +1,6 @@
 //! The driver: Newton on a mesh, the error of the solution, a better mesh, until everything holds.
 
-use crate::accuracy::mesh_selection::{
-    GRADING, GRADING_BY_ERROR, UNRESOLVED, amplify_rough, next_mesh,
-};
+use crate::accuracy::mesh_selection::{UNRESOLVED, amplify_rough, next_mesh};
 use crate::discretisation::mesh::{Mesh, halved, thinned};
 use crate::kernels::dense::max_or_nan;
 use crate::problem::equations::Equations;
@@ -205,9 +203,9 @@ impl Run<'_> {
         let relative = self.relevant_defects(solution);
         let defect = relative.flatten().fold(0.0, max_or_nan);
         // Where nothing is resolved a defect is about one however fine the mesh is.
-        let (allowed, wanted, grading) = match self.problem.options.control {
-            Control::Error => (UNRESOLVED, AIM * UNRESOLVED, GRADING_BY_ERROR),
-            Control::Both | Control::Defect => (tolerance, tolerance, GRADING),
+        let (allowed, wanted) = match self.problem.options.control {
+            Control::Error => (UNRESOLVED, AIM * UNRESOLVED),
+            Control::Both | Control::Defect => (tolerance, tolerance),
         };
         if defect > allowed {
             if estimating
@@ -228,13 +226,7 @@ impl Run<'_> {
             if let Some(before) = before.filter(|_| self.meshes > LAYERS_SHOWN) {
                 amplify_rough(&mut defects, &solution.mesh, &before, m, 1);
             }
-            return Ok(Some(next_mesh(
-                &solution.mesh,
-                &defects,
-                wanted,
-                m,
-                grading,
-            )));
+            return Ok(Some(next_mesh(&solution.mesh, &defects, wanted, m)));
         }
         if !estimating {
             return Ok(None);
@@ -263,7 +255,7 @@ impl Run<'_> {
             .is_some_and(|before| amplify_rough(&mut local, &solution.mesh, &before, order, 2));
         self.missed = if rough { 1 } else { self.missed + 1 };
         let wanted = AIM.powi(self.missed) * tolerance * defects.largest_local() / error;
-        let next = next_mesh(&solution.mesh, &local, wanted, order, grading);
+        let next = next_mesh(&solution.mesh, &local, wanted, order);
         Ok(Some(next))
     }
 

@@ -10,9 +10,6 @@ use crate::problem::problem::{Ends, Segment};
 
 /// Iterations of Gauss and Newton: linear conditions take one.
 const ITERATIONS: usize = 5;
-/// What is added to the diagonal of the normal equations, relative to its largest entry, for
-/// conditions that say nothing of the ends or the same.
-const REGULARISATION: f64 = 1e-10;
 
 /// Straight lines between end states that meet the conditions.
 ///
@@ -101,8 +98,9 @@ fn shortest_change(equations: &Held<'_>, ends: &mut [f64], p: &[f64]) -> Option<
         .collect();
     let diagonal = || (0..count).map(|i| i * (count + 1));
     let largest = diagonal().map(|i| normal[i]).fold(0.0, f64::max);
+    // For conditions that say nothing of the ends or the same.
     for i in diagonal() {
-        normal[i] += REGULARISATION * largest;
+        normal[i] += f64::EPSILON.sqrt() * largest;
     }
     let mut pivots = vec![0; count];
     if largest > 0.0 {
