@@ -1,14 +1,16 @@
 //! The shares and factors by which more than one decision of the solver is made. Each has one meaning.
 
-/// What a mesh is made for, and what one of the parts of an error may be, as a share of what is allowed: the power
-/// law that predicts an error holds up to a factor of about three.
+/// What a mesh is made for, and what one of the parts of an error may be, as a share of what is allowed: the
+/// power law that predicts an error holds up to a factor of about three.
 pub(crate) const AIM: f64 = 0.3;
 
-/// A part of this share or less does not show in the whole: a tenth of the tolerance beside an error within it.
+/// A part of this share or less does not show in the whole: a tenth of the tolerance beside an error within
+/// it.
 pub(crate) const UNNOTICED: f64 = 0.1;
 
-/// What does not show in that for which a mesh is made. Newton's corrections end at this share of the tolerance:
-/// with 0.1 half of the 40 solved ones among 600 random problems that are hardly isolated were lost.
+/// What does not show in that for which a mesh is made. Newton's corrections end at this share of the
+/// tolerance: with 0.1 half of the 40 solved ones among 600 random problems that are hardly isolated were
+/// lost.
 pub(crate) const INVISIBLE: f64 = AIM * UNNOTICED;
 
 /// A part of this share or less is as good as none: three digits of what it is compared with do not show it.
@@ -17,6 +19,6 @@ pub(crate) const NEGLIGIBLE: f64 = 1e-3;
 /// A size known from one sample, as from one direction or one place, may be larger by this factor.
 pub(crate) const ONE_SAMPLE: f64 = 10.0;
 
-/// The shortest distance at which places are told apart, in spacings of floating-point numbers: a place or a state
-/// is a sum of at most eight rounded products, each of which is off by half a spacing.
+/// The shortest distance at which places are told apart, in spacings of floating-point numbers: a place or a
+/// state is a sum of at most eight rounded products, each of which is off by half a spacing.
 pub(crate) const SPACINGS: f64 = 16.0;

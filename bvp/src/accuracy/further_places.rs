@@ -26,7 +26,8 @@ use crate::shares::{AIM, ONE_SAMPLE, SPACINGS, UNNOTICED};
 
 /// Random places of a segment, at least. With as many the look costs as much as four to five intervals.
 const PLACES: usize = 64;
-/// Into how many parts an interval with an unseen defect is cut.
+/// Into how many parts an interval with an unseen defect is cut. With 2, problems with singular ends took 12
+/// % more factorisations, and 8 of 503 were lost.
 const PARTS: usize = 4;
 
 /// The places looked at so far.
@@ -148,8 +149,8 @@ impl SegmentLook<'_> {
     }
 
     /// The integral of the defect beside the left or right node of an interval, over the shares of it up to
-    /// the first one: down to the nearest by the rungs of a ladder, each of which does not show in the one before,
-    /// beyond it that of the right-hand side by the power law of the last two.
+    /// the first one: down to the nearest by the rungs of a ladder, each of which does not show in the one
+    /// before, beyond it that of the right-hand side by the power law of the last two.
     fn near_node(
         &self,
         interval: &Interval<'_>,
@@ -172,7 +173,8 @@ impl SegmentLook<'_> {
             power = (rate / before).ln() / (last / distance).ln();
             last = distance;
         }
-        // What is steeper than nearly the power −1 is the little that is not explained beside a mapped infinite end.
+        // What is steeper than nearly the power −1 is the little that is not explained beside a mapped
+        // infinite end.
         let beyond = match power > 0.0 {
             true => rate * power / (1.0 - power).max(UNNOTICED),
             false => 0.0,
@@ -222,12 +224,12 @@ impl SegmentLook<'_> {
         }
     }
 
-    /// Whether the defect at a place of interval i is neither that of the polynomials nor harmless. As much of the
-    /// interval may have it as there is between the points at which it has been seen.
+    /// Whether the defect at a place of interval i is neither that of the polynomials nor harmless. As much
+    /// of the interval may have it as there is between the points at which it has been seen.
     ///
-    /// That of the polynomials is larger than its root mean square over the interval by less than the factor of
-    /// one sample: Legendre's of degree m ≤ 7 is √(2m + 1) < 4 times that at its ends, and the next ones are
-    /// beside it.
+    /// That of the polynomials is larger than its root mean square over the interval by less than the factor
+    /// of one sample: Legendre's of degree m ≤ 7 is √(2m + 1) < 4 times that at its ends, and the next ones
+    /// are beside it.
     #[inline(always)]
     fn is_unseen_at(
         &self,
@@ -285,9 +287,9 @@ impl SegmentLook<'_> {
         })
     }
 
-    /// The largest defect and the largest right-hand side at a place of an interval, relative to 1 + |y|, less
-    /// what an error of the states within the tolerance makes of the right-hand side: next to a singular end
-    /// that is much.
+    /// The largest defect and the largest right-hand side at a place of an interval, relative to 1 + |y|,
+    /// less what an error of the states within the tolerance makes of the right-hand side: next to a singular
+    /// end that is much.
     #[inline(never)]
     fn unexplained(
         &self,
@@ -315,8 +317,8 @@ impl SegmentLook<'_> {
         largest.map(|size| if size.is_finite() { size } else { 0.0 })
     }
 
-    /// The largest defect at a place s of an interval with n states, with the weights of it or of the node beside it,
-    /// relative to 1 + |y|; zero where it is not finite.
+    /// The largest defect at a place s of an interval with n states, with the weights of it or of the node
+    /// beside it, relative to 1 + |y|; zero where it is not finite.
     #[inline(always)]
     fn defect(
         &self,

@@ -31,13 +31,14 @@ use crate::result::quality::{Direction, Samples};
 use crate::result::stats::Stats;
 use crate::shares::{INVISIBLE, NEGLIGIBLE, ONE_SAMPLE, UNNOTICED};
 
-/// Whether an amplification asks for a closer look at a solution with this error: otherwise its Newton matrix is
-/// regular in all of the solutions that the error allows.
+/// Whether an amplification asks for a closer look at a solution with this error: otherwise its Newton matrix
+/// is regular in all of the solutions that the error allows.
 ///
-/// However small the error is, a mesh that need not resolve a solution as simple as zero may resolve directions
-/// beside it no better than to a negligible share: with 1e-5 one resonance in nine was accepted, with 1e-3 one in
-/// sixteen. From the amplification 30 on, then, the direction is looked at, in at most 25 of
-/// 668 solutions of the reference set: from 100 on one of 150 random shocks was accepted beside its place, and from 10 on well isolated solutions were doubted.
+/// However small the error is, a mesh that need not resolve a solution as simple as zero may resolve
+/// directions beside it no better than to a negligible share: with 1e-5 one resonance in nine was accepted,
+/// with 1e-3 one in sixteen. From the amplification 30 on, then, the direction is looked at, in at most 25 of
+/// 668 solutions of the reference set: from 100 on one of 150 random shocks was accepted beside its place,
+/// and from 10 on well isolated solutions were doubted.
 pub(crate) fn is_amplified(a: f64, error: f64) -> bool {
     a.is_nan() || a * error.max(NEGLIGIBLE) >= INVISIBLE
 }
@@ -49,8 +50,8 @@ pub(crate) fn is_high(a: f64) -> bool {
     a.is_nan() || a >= 1.0 / NEGLIGIBLE
 }
 
-/// Whether an amplification is the same on a mesh of halved intervals, as far as other signs on other intervals
-/// tell.
+/// Whether an amplification is the same on a mesh of halved intervals, as far as other signs on other
+/// intervals tell.
 pub(crate) fn is_steady(a: f64, halved: f64) -> bool {
     halved < ONE_SAMPLE * a
 }
@@ -198,8 +199,8 @@ impl Collocation<'_> {
         residual.conditions.fill(0.0);
         let mut change = self.zeros();
         self.correction(residual, &mut change);
-        // With a change of the smallest singular value beyond this the exact problem may be singular; one that is
-        // not a number overflowed.
+        // With a change of the smallest singular value beyond this the exact problem may be singular; one
+        // that is not a number overflowed.
         let segments = self.equations.segments();
         let [change, size] = [&change, &z].map(|v| size_by_component(segments, x, tolerance, v));
         let isolated = change < UNNOTICED * size;
@@ -319,8 +320,8 @@ impl Collocation<'_> {
     }
 }
 
-/// The unit of a state or parameter with this largest value. One that is nowhere larger than a negligible share of
-/// the tolerance vanishes: what is left of it is what Newton's method leaves.
+/// The unit of a state or parameter with this largest value. One that is nowhere larger than a negligible
+/// share of the tolerance vanishes: what is left of it is what Newton's method leaves.
 fn unit(largest: f64, tolerance: f64) -> f64 {
     if largest > NEGLIGIBLE * tolerance {
         largest

@@ -9,19 +9,22 @@ pub(crate) const UNRESOLVED: f64 = 0.5;
 /// An interval is not asked to be cut into more than this many at once: defects on intervals that
 /// coarse do not yet follow their power law.
 const LARGEST_CUT: f64 = 8.0;
-/// Nor to grow more than by the inverse of this.
+/// Nor to grow more than by the inverse of this: with 1/8, 15 of 463 solved random problems with jumps were
+/// lost.
 const SMALLEST_CUT: f64 = 0.2;
-/// Where an interval is not shorter than this share of the one before, its order does not show.
+/// Where an interval is not shorter than this share of the one before, its order does not show: with 1 one
+/// more of 600 random problems with jumps was solved wrongly.
 const SHORTER: f64 = 0.7;
 /// Rough intervals count if their local defect is at least this share of the largest.
 const ROUGH: f64 = 1e-2;
-/// Neighbouring intervals may differ in length by about this factor. With 2.5 two more of 1500 random problems with
-/// jumps were solved wrongly.
+/// Neighbouring intervals may differ in length by about this factor. With 2.5 two more of 1500 random
+/// problems with jumps were solved wrongly.
 const GRADING: f64 = 3.0;
 /// No mesh is made with more intervals than this on a segment, 128 megabytes of nodes; the mesh limit then
 /// refuses it. Grading beside an interval of length 1e-20 asks for 1e19.
 const MOST: usize = 1 << 24;
-/// Where at most this share of the intervals is too long, only they are cut.
+/// Where at most this share of the intervals is too long, only they are cut: without this 150 random shocks
+/// took 55 % more factorisations.
 const FEW: f64 = 0.12;
 
 /// The next mesh, from the relative defects r on this one and the tolerance they must meet, given that r ∝

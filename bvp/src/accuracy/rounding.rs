@@ -50,15 +50,15 @@ const HARMLESS_PIVOT: f64 = 1e-6;
 /// Rounding is measured relative to no less than this share of the largest state of a component.
 const SMALL_STATE: f64 = 0.01;
 
-/// Whether a solution within the tolerance by all other measures may be nothing but rounding, by the
-/// rounding measured, a sample of one set of signs, and by the amplification a. The product of a with the unit
+/// Whether a solution within the tolerance by all other measures may be nothing but rounding, by the rounding
+/// measured, a sample of one set of signs, and by the amplification a. The product of a with the unit
 /// roundoff counts where what was measured is not far less: in thin layers slopes are amplified that nothing
 /// depends on. A rounding error that is not a number exceeds everything.
 ///
-/// Where the true error of the reference problems is rounding, with four stages at tolerances of 1e-11
-/// to 1e-13, it is in the median 1.6 to 2.9 times what is measured, at most 55 times. At 1e-3 to 1e-9 what is
-/// measured is at most 1.8 tolerances over seven sets of signs, and at most 0.02 but for one problem, the spike
-/// T09c.
+/// Where the true error of the reference problems is rounding, with four stages at tolerances of 1e-11 to
+/// 1e-13, it is in the median 1.6 to 2.9 times what is measured, at most 55 times. At 1e-3 to 1e-9 what is
+/// measured is at most 1.8 tolerances over seven sets of signs, and at most 0.02 but for one problem, the
+/// spike T09c.
 pub(crate) fn exceeds(rounding: f64, a: f64, tolerance: f64) -> bool {
     let allowed = (ONE_SAMPLE * tolerance).min(NO_DIGIT);
     let agreed = rounding > INVISIBLE * tolerance && a * UNIT_ROUNDOFF > tolerance;

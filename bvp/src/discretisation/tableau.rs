@@ -54,8 +54,8 @@ pub(crate) struct Tableau {
     pub(crate) half_value: Vec<f64>,
     /// The polynomials behind the continuous solution.
     basis: Basis,
-    /// The coefficients of uᵏ, u = 2θ − 1, in the Lagrange polynomials on the collocation points, m × m, a row
-    /// per power.
+    /// The coefficients of uᵏ, u = 2θ − 1, in the Lagrange polynomials on the collocation points, m × m, a
+    /// row per power.
     pub(crate) powers_of_slope: Vec<f64>,
     /// m + 1 distinct points, the first 0, at which a guess is interpolated.
     pub(crate) guess_points: Vec<f64>,

@@ -149,8 +149,8 @@ impl Newton {
             if !size.largest.is_finite() {
                 return Err(Failure::Ends(collocation.dependence()));
             }
-            // The mean would hide an entry that is far larger than the others. A step need not be checked whose own
-            // correction is expected to be small, by the curvature of one direction.
+            // The mean would hide an entry that is far larger than the others. A step need not be checked
+            // whose own correction is expected to be small, by the curvature of one direction.
             let predicted = 0.5 * self.curvature * size.largest * size.largest;
             if size.largest <= tolerance || fresh && ONE_SAMPLE * predicted <= tolerance {
                 self.trial.set_sum(x, 1.0, &self.delta);
@@ -210,9 +210,10 @@ impl Newton {
         Err(self.no_convergence(collocation, x, size))
     }
 
-    /// Whether the factors are those of the iterate to rounding, as those of a linear problem are: ω ‖Δx‖, which
-    /// estimates ‖A⁻¹ ΔA‖, is at most half of the digits since they were made. ω is known from one direction alone:
-    /// with 1e-6, 4 of 1500 random shocks were accepted beside their place, with 1e-4 10, with this none.
+    /// Whether the factors are those of the iterate to rounding, as those of a linear problem are: ω ‖Δx‖,
+    /// which estimates ‖A⁻¹ ΔA‖, is at most half of the digits since they were made. ω is known from one
+    /// direction alone: with 1e-6, 4 of 1500 random shocks were accepted beside their place, with 1e-4 10,
+    /// with this none.
     pub(crate) fn is_current(&self) -> bool {
         self.moved == 0.0 || self.curvature * self.moved <= f64::EPSILON.sqrt()
     }

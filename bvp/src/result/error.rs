@@ -386,7 +386,8 @@ fn estimate(error: f64) -> String {
 
 /// What rounding does to a solution.
 fn amplified(rounding: f64, condition: f64) -> String {
-    // From the size of the solution on an estimate of the rounding error is the rounding of the estimate itself.
+    // From the size of the solution on an estimate of the rounding error is the rounding of the estimate
+    // itself.
     if rounding < 1.0 {
         format!(
             "rounding errors change the solution by {rounding:.1e} relative to 1 + |y| (amplified {condition:.0e} times)"

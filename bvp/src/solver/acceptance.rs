@@ -123,8 +123,8 @@ impl Acceptance {
     }
 
     /// Linearises at a solution, and lets Newton's method go on from it where its correction is not small
-    /// beside the tolerance, once on a mesh; returns whether it did. A smaller correction is in the estimate of
-    /// the error.
+    /// beside the tolerance, once on a mesh; returns whether it did. A smaller correction is in the estimate
+    /// of the error.
     fn goes_on(
         &mut self,
         problem: &mut Discretised<'_>,

@@ -21,8 +21,8 @@ use crate::solver::transfer::transfer;
 use std::sync::Arc;
 use web_time::Instant;
 
-/// The share of the tolerance at which Newton's method stops where the error is not estimated: with an estimate
-/// what is left of its corrections is in it.
+/// The share of the tolerance at which Newton's method stops where the error is not estimated: with an
+/// estimate what is left of its corrections is in it.
 const UNESTIMATED: f64 = 0.01;
 
 /// A condition whose residual is larger than allowed.
@@ -208,8 +208,8 @@ impl<'a> Discretised<'a> {
         (x, local, a)
     }
 
-    /// Whether rounding shows in a solution, or cannot since it vanishes. Where it is negligible, the amplification
-    /// is one of slopes in thin layers alone.
+    /// Whether rounding shows in a solution, or cannot since it vanishes. Where it is negligible, the
+    /// amplification is one of slopes in thin layers alone.
     pub(crate) fn rounds(&mut self, solution: &Solution) -> bool {
         let rounding = self.collocation.rounding(&solution.x);
         rounding == 0.0 || rounding.is_nan() || rounding >= NEGLIGIBLE * self.options.tolerance

@@ -105,8 +105,8 @@ impl Run<'_> {
         self.rescue(guess, outcome)
     }
 
-    /// Another attempt from where a homotopy leads, where one may do better than the outcome so far, whose error
-    /// stands if this one fails, too.
+    /// Another attempt from where a homotopy leads, where one may do better than the outcome so far, whose
+    /// error stands if this one fails, too.
     fn rescue(
         &mut self,
         guess: &dyn Guess,
@@ -260,7 +260,8 @@ impl Run<'_> {
     }
 
     /// The relative defects of a solution; where the error is controlled without those of intervals so short
-    /// that their local defects do not show, as next to a jump of the right-hand side: these need not resolve it.
+    /// that their local defects do not show, as next to a jump of the right-hand side: these need not resolve
+    /// it.
     fn relevant_defects<'s>(
         &self,
         solution: &'s Solution,
@@ -279,9 +280,9 @@ impl Run<'_> {
         })
     }
 
-    /// The error for a solution whose next mesh is refused: what keeps it from the tolerance may be rounding. A
-    /// mesh refused where rounding shows would be one against it: defects are sums of as many rounding errors as
-    /// there are stages, and a mesh is made for less than the tolerance.
+    /// The error for a solution whose next mesh is refused: what keeps it from the tolerance may be rounding.
+    /// A mesh refused where rounding shows would be one against it: defects are sums of as many rounding
+    /// errors as there are stages, and a mesh is made for less than the tolerance.
     fn out_of_reach(&mut self, error: Error, solution: &Solution) -> Error {
         if self.problem.estimates() && self.problem.collocation.mesh == solution.mesh {
             let rounding = self.problem.collocation.rounding(&solution.x);

@@ -13,11 +13,12 @@ use crate::result::solution::Solution;
 use crate::result::stats::Stats;
 use crate::solver::options::{Control, Options};
 
-/// Length of the first step in θ.
+/// Length of the first step in θ. With 1 problems without a solution took 7 % more factorisations.
 const FIRST_STEP: f64 = 0.25;
 /// Below this length in θ a step is not tried again after a failure.
 const SMALLEST_STEP: f64 = 1e-4;
-/// The next step is longer after at most this many Newton steps per mesh of a solution, on average.
+/// The next step is longer after at most this many Newton steps per mesh of a solution, on average. Without
+/// this and the next limit 150 random shocks took 47 % more factorisations.
 const EASY: usize = 7;
 /// Largest number of Newton steps on one mesh: with more, half the step is the cheaper way.
 const NEWTON_STEPS: usize = 30;
