@@ -2,7 +2,7 @@
 
 use super::family::Family;
 use crate::accuracy::defect::defects;
-use crate::accuracy::mesh_selection::{is_wasteful, next_mesh};
+use crate::accuracy::mesh_selection::{GRADING, is_wasteful, next_mesh};
 use crate::discretisation::mesh::{Mesh, halved, intervals, is_representable};
 use crate::discretisation::restriction::restrict;
 use crate::kernels::dense::max_or_nan;
@@ -90,7 +90,7 @@ impl Family<'_> {
         if resolved && (self.settled < SETTLED || !is_wasteful(&defects.relative, wanted, m)) {
             return Ok(None);
         }
-        let next = next_mesh(mesh, &defects.relative, wanted, m);
+        let next = next_mesh(mesh, &defects.relative, wanted, m, GRADING);
         if resolved {
             // Gradation may have eaten what is to be gained; and the first mesh was fine enough for
             // its author.

@@ -1,6 +1,8 @@
 //! The driver: Newton on a mesh, the error of the solution, a better mesh, until everything holds.
 
-use crate::accuracy::mesh_selection::{UNRESOLVED, amplify_rough, next_mesh};
+use crate::accuracy::mesh_selection::{
+    GRADING, GRADING_BY_ERROR, UNRESOLVED, amplify_rough, next_mesh,
+};
 use crate::discretisation::mesh::{Mesh, halved, thinned};
 use crate::kernels::dense::max_or_nan;
 use crate::problem::equations::Equations;
@@ -203,9 +205,9 @@ impl Run<'_> {
         let relative = self.relevant_defects(solution);
         let defect = relative.flatten().fold(0.0, max_or_nan);
         // Where nothing is resolved a defect is about one however fine the mesh is.
-        let (allowed, wanted) = match self.problem.options.control {
-            Control::Error => (UNRESOLVED, AIM * UNRESOLVED),
-            Control::Both | Control::Defect => (tolerance, tolerance),
+        let (allowed, wanted, grading) = match self.problem.options.control {
+            Control::Error => (UNRESOLVED, AIM * UNRESOLVED, GRADING_BY_ERROR),
+            Control::Both | Control::Defect => (tolerance, tolerance, GRADING),
         };
         if defect > allowed {
             if estimating
@@ -226,7 +228,13 @@ impl Run<'_> {
             if let Some(before) = before.filter(|_| self.meshes > LAYERS_SHOWN) {
                 amplify_rough(&mut defects, &solution.mesh, &before, m, 1);
             }
-            return Ok(Some(next_mesh(&solution.mesh, &defects, wanted, m)));
+            return Ok(Some(next_mesh(
+                &solution.mesh,
+                &defects,
+                wanted,
+                m,
+                grading,
+            )));
         }
         if !estimating {
             return Ok(None);
@@ -255,7 +263,7 @@ impl Run<'_> {
             .is_some_and(|before| amplify_rough(&mut local, &solution.mesh, &before, order, 2));
         self.missed = if rough { 1 } else { self.missed + 1 };
         let wanted = AIM.powi(self.missed) * tolerance * defects.largest_local() / error;
-        let next = next_mesh(&solution.mesh, &local, wanted, order);
+        let next = next_mesh(&solution.mesh, &local, wanted, order, grading);
         Ok(Some(next))
     }
 
