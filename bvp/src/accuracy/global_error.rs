@@ -86,7 +86,8 @@ impl Collocation<'_> {
                 let interval = Interval::new(&x.segments[index], n, t, i, ends);
                 interval.continuity(t, &mut jump);
                 for (component, (to, jump)) in to.iter_mut().zip(&jump).enumerate() {
-                    if jump.abs() > SPACINGS * f64::EPSILON * interval.size(component).max(1.0) {
+                    let beside_one = jump.abs() / (SPACINGS * f64::EPSILON);
+                    if beside_one > 1.0 && beside_one > interval.size(component) {
                         *to += jump;
                     }
                 }

@@ -22,12 +22,16 @@ pub(super) fn balance(blocks: &mut [f64], k: usize, units: &mut [f64], sizes: &m
     }
     largest_entries(blocks, n, k, sizes);
     for _ in 0..SWEEPS {
+        let mut steady = true;
         for i in 0..n {
             let others = || (0..n).filter(|&j| j != i);
             let row: f64 = others().map(|j| sizes[i * n + j] * units[j]).sum();
             let column: f64 = others().map(|j| sizes[j * n + i] / units[j]).sum();
             // Entries below one do no harm: the larger ones are brought there, or to the others.
             let (row, column) = (row / units[i], column * units[i]);
+            if row.max(column) <= 1.0 {
+                continue;
+            }
             let factor = if row > column.max(1.0) {
                 (row / column).sqrt().min(row)
             } else if column > row.max(1.0) {
@@ -36,9 +40,12 @@ pub(super) fn balance(blocks: &mut [f64], k: usize, units: &mut [f64], sizes: &m
                 1.0
             };
             let unit = units[i] * factor.log2().round().exp2();
-            if unit.is_normal() {
-                units[i] = unit;
+            if unit.is_normal() && unit != units[i] {
+                (units[i], steady) = (unit, false);
             }
+        }
+        if steady {
+            break;
         }
     }
     let largest = units.iter().copied().fold(0.0, f64::max);
