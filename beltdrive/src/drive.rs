@@ -1,5 +1,8 @@
 //! A drive as its engineer describes it, in SI units.
 
+pub(crate) mod belt_loop;
+pub(crate) mod layout;
+
 /// A two-pulley belt drive and its load: everything a drive file states.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {

@@ -12,6 +12,8 @@
 //!   ([`NormalForce`]). [`flat::ClosedForm`] gives it without profiles, [`flat::BoundaryValue`] by
 //!   another way. [`stability`](stability()) examines its axial motion.
 //!
+//! Flat belts round any number of pulleys, with a tensioner, are a module of their own: [`belt_loop`].
+//!
 //! [`mod@verify`] computes published results again.
 //!
 //! # Conventions
@@ -95,6 +97,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod belt_loop;
 mod branch;
 mod drive;
 pub mod examples;

@@ -7,9 +7,19 @@ use super::contact::{Arc, Contact, ContactZone, Friction, Place};
 /// less than the whole arc.
 pub(super) fn solve(arc: Arc) -> Option<Contact> {
     let slipping = arc.load() / arc.slip_rate;
-    if slipping >= arc.length {
-        return None;
-    }
+    (slipping < arc.length).then(|| contact(arc, slipping))
+}
+
+/// As [`solve`], but an arc whose friction does not carry the load slips as a whole, with its friction
+/// raised to what does.
+pub(super) fn carried(arc: Arc) -> Contact {
+    let slip_rate = arc.slip_rate.max(arc.load() / arc.length);
+    let slipping = (arc.load() / slip_rate).min(arc.length);
+    contact(Arc { slip_rate, ..arc }, slipping)
+}
+
+/// The contact with an arc of slip of a given length.
+fn contact(arc: Arc, slipping: f64) -> Contact {
     let start = Place {
         arc_length: 0.0,
         traction: arc.entry(),
@@ -33,10 +43,10 @@ pub(super) fn solve(arc: Arc) -> Option<Contact> {
             friction: Friction::Slip,
         });
     }
-    Some(Contact {
+    Contact {
         arc,
         strain: 0.0,
         zones,
         evaluations: 0,
-    })
+    }
 }

@@ -9,6 +9,7 @@
 //! 67 (2000); M. J. Leamy and T. M. Wasfy, J. Vib. Acoust. 124 (2002).
 
 mod answers;
+pub(crate) mod belt_loop;
 mod boundary_value;
 mod closed_form;
 mod contact;

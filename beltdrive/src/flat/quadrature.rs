@@ -53,7 +53,8 @@ impl Contact {
             .sum()
     }
 
-    fn over(&self, zone: &ContactZone, function: &impl Fn(&Place) -> f64) -> f64 {
+    /// As [`Self::integral`], over one zone.
+    pub(super) fn over(&self, zone: &ContactZone, function: &impl Fn(&Place) -> f64) -> f64 {
         let panels = self.panels(zone);
         let integrand = |share: f64| {
             let place = self.at(zone, share);

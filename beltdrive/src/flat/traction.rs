@@ -30,7 +30,7 @@ pub(super) struct Traction {
     /// Axial stiffness EA, N.
     axial_stiffness: f64,
     /// What the inertia of the belt takes off the tension at T = 0: m c², N; 0 for `thesis`.
-    inertia: f64,
+    pub(super) inertia: f64,
     /// Slip rate of a pulley of radius 1 m with a coefficient of friction 1: a R/μ.
     slip_rate: f64,
     /// The stretch ds/dσ = α + β P.

@@ -1,0 +1,75 @@
+//! Flat belts round any number of pulleys: layout, loads, tensioner, and the steady state.
+//!
+//! A module of the library only: drive files and the command line state drives with two pulleys.
+//!
+//! A [`BeltLoop`] states the belt, the pulleys in the order in which the belt meets them, what each of
+//! them does, and one [`Closure`] that fixes how tight the belt is. [`solve`] finds its steady state, or
+//! says why there is none ([`LoopError`]). [`Layout`] is the plane geometry by itself.
+//!
+//! # Equations
+//!
+//! Span i leaves pulley i. With the speed c = G/m of the unstretched belt and D = EA − m c²,
+//!
+//! ```text
+//! belt              V = c (1 + T/EA)        F = T − G V = T D/EA − m c²
+//! torque            (F_i − F_{i−1}) R_i = M_i                    M > 0 where power leaves the belt
+//! friction law      R_i ω_i = c (1 + T_o,i/EA)                   T_o: reference tension of the contact
+//! tensioner         −k (q − q₀) − F_t dL/dq = 0                  F_t: tractive tension of its idler
+//! ```
+//!
+//! and the closure. Contacts are those of the two-pulley flat belt with the normal force
+//! n = (T − G V)/R ([`crate::NormalForce::Inertia`]).
+//!
+//! Assumptions: those of the flat belt; no friction in bearings and in the tensioner; the belt at rest has
+//! one tension everywhere.
+//!
+//! Sources: M. B. Rubin, An exact solution for steady motion of an extensible belt in multipulley belt
+//! drive systems, J. Mech. Des. 122 (2000); S. E. Bechtel, S. Vohra, K. I. Jacob and C. D. Carlson, J.
+//! Appl. Mech. 67 (2000), for the contact; R. S. Beikmann, N. C. Perkins and A. G. Ulsoy, J. Mech. Des. 118
+//! (1996), for the equilibrium of the tensioner and the tensioner constant.
+//!
+//! # Example
+//!
+//! A driver, a fan and a water pump on the back of the belt, set up with 400 N:
+//!
+//! ```
+//! use beltdrive::belt_loop::{BeltLoop, Closure, Duty, LoopPulley, Mount, Sense, Side, solve};
+//! use beltdrive::{Belt, BeltKind, FrictionLaw, NormalForce};
+//!
+//! let pulley = |name: &str, centre, radius, side, duty| LoopPulley {
+//!     name: name.to_owned(),
+//!     mount: Mount::Fixed(centre),
+//!     radius,
+//!     side,
+//!     friction_coefficient: 0.7,
+//!     duty,
+//! };
+//! let belt_loop = BeltLoop {
+//!     belt: Belt {
+//!         mass_per_length: 0.15,
+//!         axial_stiffness: 60e3,
+//!         kind: BeltKind::Flat { normal_force: NormalForce::Inertia },
+//!     },
+//!     law: FrictionLaw::Coulomb,
+//!     sense: Sense::Clockwise,
+//!     turning_number: 1,
+//!     pulleys: vec![
+//!         pulley("driver", [0.0, 0.0], 0.06, Side::Inside, Duty::Driver(200.0)),
+//!         pulley("pump", [0.2, 0.03], 0.03, Side::Outside, Duty::Torque(0.5)),
+//!         pulley("fan", [0.4, 0.05], 0.1, Side::Inside, Duty::Torque(20.0)),
+//!     ],
+//!     closure: Closure::SetupTension(400.0),
+//! };
+//! let state = solve(&belt_loop)?;
+//! let [driver, pump, fan] = &state.pulleys[..] else { panic!("three pulleys") };
+//! assert!((driver.torque + 12.0 + 1.0).abs() < 1e-12);
+//! assert!(pump.torque_margin.is_some_and(|margin| margin > 1.0));
+//! assert!(fan.speed_loss > 0.0 && state.load_limit.is_some());
+//! # Ok::<(), beltdrive::belt_loop::LoopError>(())
+//! ```
+
+pub use crate::drive::belt_loop::{BeltLoop, Closure, Duty, Guide, LoopPulley, Mount, Tensioner};
+pub use crate::drive::layout::{Layout, LayoutError, PlacedPulley, Sense, Side, Span};
+pub use crate::flat::belt_loop::{
+    LoadLimit, LoadedState, LoopError, LoopState, PulleyState, SpanState, TensionerState, solve,
+};

@@ -1,0 +1,161 @@
+//! A flat belt round any number of pulleys as its engineer describes it, in SI units.
+
+use super::layout::{Layout, LayoutError, PlacedPulley, Sense, Side};
+use super::{Belt, FrictionLaw};
+
+/// A belt loop round two or more pulleys: everything that decides its steady state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BeltLoop {
+    /// The belt; a flat one with the convention [`crate::NormalForce::Inertia`].
+    pub belt: Belt,
+    /// How friction depends on slip: [`FrictionLaw::Coulomb`] or [`FrictionLaw::Epp`].
+    pub law: FrictionLaw,
+    /// Sense in which the belt runs round the loop.
+    pub sense: Sense,
+    /// Turning number ν: 1 for a plain loop, 0 for a crossed belt round two pulleys.
+    pub turning_number: u32,
+    /// The pulleys in the order in which the belt meets them; one of them is the driver.
+    pub pulleys: Vec<LoopPulley>,
+    /// What fixes how tight the belt is.
+    pub closure: Closure,
+}
+
+/// A pulley of a loop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoopPulley {
+    /// The name in messages.
+    pub name: String,
+    /// What holds its axis.
+    pub mount: Mount,
+    /// Radius R of the centre line of the belt, m; positive.
+    pub radius: f64,
+    /// On which side of the belt it lies.
+    pub side: Side,
+    /// Coefficient of friction μ > 0 between belt and pulley.
+    pub friction_coefficient: f64,
+    /// What it does.
+    pub duty: Duty,
+}
+
+/// What holds the axis of a pulley.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mount {
+    /// A fixed centre, m.
+    Fixed([f64; 2]),
+    /// A tensioner; for one idler of a loop.
+    Tensioner(Tensioner),
+}
+
+/// What a pulley does in a loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Duty {
+    /// It turns with the belt at this angular speed, rad/s; positive.
+    Driver(f64),
+    /// This torque in N·m acts between belt and shaft: positive where it takes power out of the belt, 0 on
+    /// an idler, negative where it drives as well.
+    Torque(f64),
+}
+
+/// A sprung idler. Its coordinate q is the angle of the arm in rad, counter-clockwise from x, or the
+/// displacement along its guide in m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tensioner {
+    /// How it moves.
+    pub guide: Guide,
+    /// Stiffness k of the spring, N·m/rad or N/m; positive.
+    pub stiffness: f64,
+    /// Coordinate at which the spring is free: the spring load is −k (q − q₀).
+    pub free_coordinate: f64,
+    /// Coordinate from which the equilibrium is sought; of no effect with [`Closure::RestCoordinate`].
+    pub start_coordinate: f64,
+    /// The stops, smallest and largest coordinate, if there are any.
+    pub travel: Option<[f64; 2]>,
+}
+
+/// How a tensioner guides its idler.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Guide {
+    /// On an arm: centre P + a (cos q, sin q).
+    Rotary {
+        /// Pivot P, m.
+        pivot: [f64; 2],
+        /// Length a of the arm, m; positive.
+        arm_length: f64,
+    },
+    /// Along a line: centre O + q d.
+    Translating {
+        /// Centre O of the idler at q = 0, m.
+        origin: [f64; 2],
+        /// Direction d of positive q; of length 1.
+        direction: [f64; 2],
+    },
+}
+
+impl Guide {
+    /// Centre C of the idler at a coordinate, m, and its derivatives C′ and C″ with the coordinate.
+    pub(crate) fn centre(&self, coordinate: f64) -> [[f64; 2]; 3] {
+        match *self {
+            Self::Rotary {
+                pivot: [x, y],
+                arm_length,
+            } => {
+                let [along, across] = [coordinate.cos(), coordinate.sin()].map(|c| arm_length * c);
+                [[x + along, y + across], [-across, along], [-along, -across]]
+            }
+            Self::Translating {
+                origin: [x, y],
+                direction: [right, up],
+            } => {
+                let centre = [x + coordinate * right, y + coordinate * up];
+                [centre, [right, up], [0.0, 0.0]]
+            }
+        }
+    }
+}
+
+/// What fixes how tight the belt is. With a tensioner each of them stands beside its equilibrium.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Closure {
+    /// Length of the belt without tension, m.
+    UnstretchedLength(f64),
+    /// Uniform belt tension of the loop at rest without torques, N.
+    SetupTension(f64),
+    /// Belt tension of a span of the running loop.
+    SpanTension {
+        /// Index of the span: that of the pulley it leaves.
+        span: usize,
+        /// Belt tension T there, N.
+        tension: f64,
+    },
+    /// Coordinate of the tensioner at rest, rad or m.
+    RestCoordinate(f64),
+}
+
+impl BeltLoop {
+    /// The belt round the pulleys with the tensioner, if there is one, at a coordinate.
+    ///
+    /// # Errors
+    /// As [`Layout::new`].
+    pub fn layout(&self, coordinate: f64) -> Result<Layout, LayoutError> {
+        let placed = |pulley: &LoopPulley| PlacedPulley {
+            name: pulley.name.clone(),
+            centre: match &pulley.mount {
+                Mount::Fixed(centre) => *centre,
+                Mount::Tensioner(tensioner) => tensioner.guide.centre(coordinate)[0],
+            },
+            radius: pulley.radius,
+            side: pulley.side,
+        };
+        let pulleys = self.pulleys.iter().map(placed).collect();
+        Layout::new(self.sense, self.turning_number, pulleys)
+    }
+
+    /// The index of the pulley on the tensioner, and the tensioner.
+    pub(crate) fn tensioner(&self) -> Option<(usize, &Tensioner)> {
+        let mounts = self.pulleys.iter().map(|pulley| &pulley.mount);
+        mounts.enumerate().find_map(|(index, mount)| match mount {
+            Mount::Tensioner(tensioner) => Some((index, tensioner)),
+            Mount::Fixed(_) => None,
+        })
+    }
+}

@@ -1,0 +1,339 @@
+//! Plane geometry of a belt that is laid round pulleys: tangents, wraps and the length of the loop.
+//!
+//! With the sense o = ±1 of the loop, σ = o on a pulley inside the loop and σ = −o on one outside, and
+//! the vector D between the centres of the pulleys i and j = i + 1 of a span:
+//!
+//! ```text
+//! q = σ_j R_j − σ_i R_i     length ℓ = sqrt(|D|² − q²)     direction ϑ = atan2(D_y, D_x) − atan2(q, ℓ)
+//! wrap φ_i = σ_i (ϑ_i − ϑ_{i−1}) mod 2π                    turning  Σ σ_i φ_i = 2π o ν
+//! ```
+
+mod error;
+
+pub use error::LayoutError;
+
+use nalgebra::Vector2;
+use std::f64::consts::TAU;
+
+/// On which side of the belt a pulley lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// Inside the loop: it turns with the loop.
+    Inside,
+    /// Outside the loop, on the back of the belt: it turns against the loop.
+    Outside,
+}
+
+/// Sense in which the belt runs round the loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sense {
+    /// Positive in the plane with x to the right and y upwards.
+    CounterClockwise,
+    /// Negative.
+    Clockwise,
+}
+
+impl Sense {
+    /// +1 counter-clockwise, −1 clockwise.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::CounterClockwise => 1.0,
+            Self::Clockwise => -1.0,
+        }
+    }
+}
+
+/// A pulley at its place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlacedPulley {
+    /// The name in messages.
+    pub name: String,
+    /// Centre, m.
+    pub centre: [f64; 2],
+    /// Radius R of the centre line of the belt, m; positive.
+    pub radius: f64,
+    /// On which side of the belt it lies.
+    pub side: Side,
+}
+
+impl PlacedPulley {
+    /// Sense of rotation in a loop of a sense: +1 counter-clockwise, −1 clockwise.
+    fn turns(&self, sense: Sense) -> f64 {
+        match self.side {
+            Side::Inside => sense.sign(),
+            Side::Outside => -sense.sign(),
+        }
+    }
+}
+
+/// A free span of the belt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Span {
+    /// Length ℓ, m.
+    pub length: f64,
+    /// Direction ϑ of the motion of the belt, rad, counter-clockwise from x, in [0, 2π).
+    pub direction: f64,
+    /// Where the belt leaves the pulley behind the span, m.
+    pub start: [f64; 2],
+    /// Where it arrives at the next pulley, m.
+    pub end: [f64; 2],
+}
+
+impl Span {
+    /// Unit tangent t along the motion of the belt.
+    pub(crate) fn tangent(&self) -> Vector2<f64> {
+        Vector2::new(self.direction.cos(), self.direction.sin())
+    }
+
+    /// Unit normal N, to the left of the motion.
+    pub(crate) fn normal(&self) -> Vector2<f64> {
+        Vector2::new(-self.direction.sin(), self.direction.cos())
+    }
+}
+
+/// A belt laid round pulleys. Span i runs from pulley i to pulley i + 1, the last one to the first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    sense: Sense,
+    turning_number: u32,
+    pulleys: Vec<PlacedPulley>,
+    wound: Wound,
+}
+
+impl Layout {
+    /// The belt round `pulleys` in the order in which it meets them.
+    ///
+    /// `turning_number` is ν: 1 for a plain loop, 0 for a crossed belt round two pulleys. Spans may cross
+    /// each other ([`Self::crossing_spans`]).
+    ///
+    /// # Errors
+    /// In this order: pulleys that are none, pulleys that overlap, a wrap below zero, a span that runs
+    /// through a pulley.
+    pub fn new(
+        sense: Sense,
+        turning_number: u32,
+        pulleys: Vec<PlacedPulley>,
+    ) -> Result<Self, LayoutError> {
+        let count = pulleys.len();
+        if count < 2 {
+            return Err(LayoutError::TooFewPulleys { count });
+        }
+        let is_pulley = |pulley: &PlacedPulley| {
+            let [x, y] = pulley.centre;
+            let largest = x.abs().max(y.abs()).max(pulley.radius);
+            pulley.radius > 0.0 && [x, y].iter().all(|part| part.is_finite()) && largest < 1e100
+        };
+        if let Some(pulley) = pulleys.iter().find(|pulley| !is_pulley(pulley)) {
+            let pulley = pulley.name.clone();
+            return Err(LayoutError::NoPulley { pulley });
+        }
+        for (index, one) in pulleys.iter().enumerate() {
+            for other in &pulleys[index + 1..] {
+                let distance = (Vector2::from(one.centre) - Vector2::from(other.centre)).norm();
+                if distance <= one.radius + other.radius {
+                    return Err(overlap(one, other));
+                }
+            }
+        }
+        let wound = Wound::new(sense, &pulleys)?;
+        let excess = wound.turns(sense, &pulleys) - i64::from(turning_number);
+        if excess != 0 {
+            return Err(miscounted(sense, turning_number, &pulleys, &wound, excess));
+        }
+        for (index, span) in wound.spans.iter().enumerate() {
+            let ends = [index, (index + 1) % count];
+            for (other, pulley) in pulleys.iter().enumerate() {
+                if !ends.contains(&other) && distance_to(span, pulley.centre) < pulley.radius {
+                    return Err(LayoutError::SpanThroughPulley {
+                        from: pulleys[ends[0]].name.clone(),
+                        to: pulleys[ends[1]].name.clone(),
+                        pulley: pulley.name.clone(),
+                    });
+                }
+            }
+        }
+        Ok(Self {
+            sense,
+            turning_number,
+            pulleys,
+            wound,
+        })
+    }
+
+    /// The pulleys in belt order.
+    pub fn pulleys(&self) -> &[PlacedPulley] {
+        &self.pulleys
+    }
+
+    /// The free spans; span i leaves pulley i.
+    pub fn spans(&self) -> &[Span] {
+        &self.wound.spans
+    }
+
+    /// Wrap angle φ of each pulley, rad, in [0, 2π).
+    pub fn wraps(&self) -> &[f64] {
+        &self.wound.wraps
+    }
+
+    /// Length L = Σ ℓ + Σ R φ of the loop, m.
+    pub fn length(&self) -> f64 {
+        self.wound.length(&self.pulleys)
+    }
+
+    /// Derivative ∂L/∂C of the length with the centre of a pulley: the tangent of the span behind it less
+    /// that of the span before it. Exact: contact points slide along the tangents and do not count.
+    ///
+    /// # Panics
+    /// If there is no such pulley.
+    pub fn length_gradient(&self, pulley: usize) -> [f64; 2] {
+        let [behind, before] = self.spans_of(pulley);
+        (behind.tangent() - before.tangent()).into()
+    }
+
+    /// The spans where the belt enters and where it leaves a pulley.
+    pub(crate) fn spans_of(&self, pulley: usize) -> [&Span; 2] {
+        let count = self.pulleys.len();
+        [(pulley + count - 1) % count, pulley].map(|span| &self.wound.spans[span])
+    }
+
+    /// Pairs of spans that cross each other; a crossed belt has one.
+    pub fn crossing_spans(&self) -> Vec<[usize; 2]> {
+        let spans = &self.wound.spans;
+        let pairs = (0..spans.len()).flat_map(|i| (i + 1..spans.len()).map(move |j| [i, j]));
+        pairs
+            .filter(|&[i, j]| crosses(&spans[i], &spans[j]))
+            .collect()
+    }
+
+    /// The loop with the midpoint of a span displaced by δ > 0 towards the inside: its length in m, and
+    /// the part of `t_in` − `t_out` at that point across the span. `None` if the belt then leaves a pulley.
+    pub(crate) fn deflected(&self, span: usize, deflection: f64) -> Option<[f64; 2]> {
+        let Span { start, end, .. } = self.wound.spans[span];
+        let middle = 0.5 * (Vector2::from(start) + Vector2::from(end));
+        let inward = self.sense.sign() * self.wound.spans[span].normal();
+        let mut pulleys = self.pulleys.clone();
+        let point = PlacedPulley {
+            name: String::new(),
+            centre: (middle + deflection * inward).into(),
+            radius: 0.0,
+            side: Side::Outside,
+        };
+        pulleys.insert(span + 1, point);
+        let wound = Wound::new(self.sense, &pulleys).ok()?;
+        if wound.turns(self.sense, &pulleys) != i64::from(self.turning_number) {
+            return None;
+        }
+        let [arriving, leaving] = [span, span + 1].map(|span| wound.spans[span].tangent());
+        Some([wound.length(&pulleys), (arriving - leaving).dot(&inward)])
+    }
+}
+
+/// The spans and wraps of a belt round pulleys, whatever these are in the way of.
+#[derive(Clone, Debug, PartialEq)]
+struct Wound {
+    spans: Vec<Span>,
+    /// Modulo 2π.
+    wraps: Vec<f64>,
+}
+
+impl Wound {
+    fn new(sense: Sense, pulleys: &[PlacedPulley]) -> Result<Self, LayoutError> {
+        let count = pulleys.len();
+        let span = |index: usize| {
+            let [from, to] = [&pulleys[index], &pulleys[(index + 1) % count]];
+            let [leaves, arrives] = [from, to].map(|pulley| pulley.turns(sense) * pulley.radius);
+            let between = Vector2::from(to.centre) - Vector2::from(from.centre);
+            let (distance, across) = (between.norm(), arrives - leaves);
+            if distance <= across.abs() {
+                return Err(overlap(from, to));
+            }
+            let length = ((distance - across) * (distance + across)).sqrt();
+            let direction = between.y.atan2(between.x) - across.atan2(length);
+            let normal = Vector2::new(-direction.sin(), direction.cos());
+            Ok(Span {
+                length,
+                direction: direction.rem_euclid(TAU),
+                start: (Vector2::from(from.centre) - leaves * normal).into(),
+                end: (Vector2::from(to.centre) - arrives * normal).into(),
+            })
+        };
+        let spans = (0..count).map(span).collect::<Result<Vec<_>, _>>()?;
+        let wrap = |index: usize| {
+            let turned = spans[index].direction - spans[(index + count - 1) % count].direction;
+            (pulleys[index].turns(sense) * turned).rem_euclid(TAU)
+        };
+        let wraps = (0..count).map(wrap).collect();
+        Ok(Self { spans, wraps })
+    }
+
+    fn length(&self, pulleys: &[PlacedPulley]) -> f64 {
+        let spans: f64 = self.spans.iter().map(|span| span.length).sum();
+        let arcs = pulleys.iter().zip(&self.wraps);
+        spans + arcs.map(|(pulley, wrap)| pulley.radius * wrap).sum::<f64>()
+    }
+
+    /// Turning number in the sense of the loop.
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "at most half the number of pulleys"
+    )]
+    fn turns(&self, sense: Sense, pulleys: &[PlacedPulley]) -> i64 {
+        let turned = pulleys.iter().zip(&self.wraps);
+        let turned: f64 = turned
+            .map(|(pulley, wrap)| pulley.turns(sense) * wrap)
+            .sum();
+        (sense.sign() * turned / TAU).round() as i64
+    }
+}
+
+fn overlap(one: &PlacedPulley, other: &PlacedPulley) -> LayoutError {
+    LayoutError::Overlap {
+        one: one.name.clone(),
+        other: other.name.clone(),
+        distance: (Vector2::from(one.centre) - Vector2::from(other.centre)).norm(),
+        radii: one.radius + other.radius,
+    }
+}
+
+/// A wrap below zero has folded to one just below 2π, which adds a turn in the sense of its pulley.
+fn miscounted(
+    sense: Sense,
+    stated: u32,
+    pulleys: &[PlacedPulley],
+    wound: &Wound,
+    excess: i64,
+) -> LayoutError {
+    let folded = |pulley: &PlacedPulley| (pulley.side == Side::Inside) == (excess > 0);
+    let candidates = pulleys.iter().zip(&wound.wraps);
+    let candidates = candidates.filter(|(pulley, _)| folded(pulley));
+    match candidates.max_by(|(_, one), (_, other)| one.total_cmp(other)) {
+        Some((pulley, wrap)) => LayoutError::NegativeWrap {
+            pulley: pulley.name.clone(),
+            wrap: wrap - TAU,
+        },
+        None => LayoutError::TurningNumber {
+            stated,
+            found: wound.turns(sense, pulleys),
+        },
+    }
+}
+
+/// Distance of a point from a span, m.
+fn distance_to(span: &Span, point: [f64; 2]) -> f64 {
+    let from_start = Vector2::from(point) - Vector2::from(span.start);
+    let along = from_start.dot(&span.tangent()).clamp(0.0, span.length);
+    (from_start - along * span.tangent()).norm()
+}
+
+/// Whether two spans cross between their ends.
+fn crosses(one: &Span, other: &Span) -> bool {
+    let is_parted = |span: &Span, by: &Span| {
+        let [start, end] = [span.start, span.end].map(|end| {
+            by.normal()
+                .dot(&(Vector2::from(end) - Vector2::from(by.start)))
+        });
+        start * end < 0.0
+    };
+    is_parted(one, other) && is_parted(other, one)
+}

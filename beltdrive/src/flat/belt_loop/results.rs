@@ -1,0 +1,210 @@
+//! Everything that follows from the speed and the tensions of a loop.
+
+use super::super::contact::Friction;
+use super::error::LoopError;
+use super::running::RunningBelt;
+use super::solve::Rest;
+use super::state::{LoadLimit, LoopState, PulleyState, SpanState, TensionerState};
+use super::tensioner::{Held, spring_load};
+use crate::drive::belt_loop::{BeltLoop, Duty};
+use crate::drive::layout::Layout;
+
+/// Deflection of a span over its length, the customary one of tension gauges.
+const DEFLECTION: f64 = 1.0 / 64.0;
+
+/// A solved loop.
+pub(super) struct Found<'l> {
+    pub(super) belt_loop: &'l BeltLoop,
+    pub(super) rest: Rest,
+    pub(super) coordinate: f64,
+    pub(super) layout: Layout,
+    pub(super) belt: RunningBelt,
+    pub(super) limit: Option<LoadLimit>,
+}
+
+impl Found<'_> {
+    /// The tensioner in the running loop and at rest.
+    fn held(&self) -> Option<[Held; 2]> {
+        let carried = self.belt_loop.tensioner()?;
+        let held = |layout, coordinate, tension| {
+            let length = self.rest.unstretched;
+            Held::new(self.belt_loop, carried, layout, coordinate, tension, length)
+        };
+        let running = self.belt.tractive[carried.0];
+        let Rest {
+            coordinate,
+            tension,
+            ..
+        } = self.rest;
+        Some([
+            held(&self.layout, self.coordinate, running),
+            held(&self.rest.layout, coordinate, tension),
+        ])
+    }
+
+    /// Whether the tensioner stays where it is in the running loop.
+    pub(super) fn stable(&self) -> Result<(), LoopError> {
+        let held = self.belt_loop.tensioner().zip(self.held());
+        match held {
+            Some((_, [running, _])) if running.stiffness > 0.0 => Ok(()),
+            None => Ok(()),
+            Some(((pulley, _), _)) => Err(LoopError::NoEquilibrium {
+                pulley: self.belt_loop.pulleys[pulley].name.clone(),
+                which: "under load",
+            }),
+        }
+    }
+
+    fn span(&self, index: usize) -> SpanState {
+        let RunningBelt {
+            speed,
+            belt,
+            tractive,
+            ..
+        } = &self.belt;
+        let stated = self.belt_loop.belt;
+        let [span, rest] = [&self.layout, &self.rest.layout].map(|layout| layout.spans()[index]);
+        let tension = belt.tension(tractive[index]);
+        let moving = speed * (1.0 + belt.strain(tractive[index]));
+        let flow = stated.mass_per_length * speed;
+        let resting = self.rest.tension;
+        let wave =
+            (resting * (1.0 + resting / stated.axial_stiffness) / stated.mass_per_length).sqrt();
+        let deflection = DEFLECTION * rest.length;
+        let deflected = self.rest.layout.deflected(index, deflection);
+        let force = deflected.map(|[length, across]| {
+            let unstretched = self.rest.unstretched;
+            stated.axial_stiffness * ((length - unstretched) / unstretched) * across
+        });
+        SpanState {
+            length: span.length,
+            direction: span.direction,
+            tension,
+            tractive_tension: tractive[index],
+            speed: moving,
+            frequency: tractive[index] / (2.0 * span.length) * (moving / (flow * tension)).sqrt(),
+            rest_length: rest.length,
+            rest_frequency: wave / (2.0 * rest.length),
+            deflection,
+            deflection_force: force,
+        }
+    }
+
+    fn pulley(&self, index: usize, driver: usize) -> PulleyState {
+        let RunningBelt {
+            speed,
+            belt,
+            tractive,
+            changes,
+            contacts,
+            ..
+        } = &self.belt;
+        let (stated, contact) = (&self.belt_loop.pulleys[index], &contacts[index]);
+        let axial = self.belt_loop.belt.axial_stiffness;
+        let radius = stated.radius;
+        let torque = changes[index] * radius;
+        let reference = contact.reference();
+        let driving = axial + contacts[driver].reference();
+        let angular_speed = match stated.duty {
+            Duty::Driver(angular_speed) => angular_speed,
+            Duty::Torque(_) => speed * (1.0 + belt.strain(reference)) / radius,
+        };
+        let arc_of = |slips: bool| {
+            let zones = contact.zones.iter();
+            let zones = zones.filter(|zone| matches!(zone.friction, Friction::Slip) == slips);
+            // An empty sum is −0.
+            zones
+                .map(|zone| zone.end - zone.start.arc_length)
+                .sum::<f64>()
+                / radius
+                + 0.0
+        };
+        let load = stated.friction_coefficient * self.layout.wraps()[index];
+        let capacity = radius * contact.arc.low * load.exp_m1();
+        let hub_load = |layout: &Layout, tensions: [f64; 2]| {
+            let [entering, leaving] = layout.spans_of(index).map(|span| span.tangent());
+            let [behind, before] = tensions;
+            <[f64; 2]>::from(before * leaving - behind * entering)
+        };
+        let count = tractive.len();
+        let ends = [tractive[(index + count - 1) % count], tractive[index]];
+        let entry_strain = contact.arc.sense * contact.strain + 0.0;
+        let before_reference = belt.stiffness * entry_strain;
+        PulleyState {
+            name: stated.name.clone(),
+            centre: self.layout.pulleys()[index].centre,
+            angular_speed,
+            torque,
+            power: torque * angular_speed,
+            wrap: self.layout.wraps()[index],
+            rest_wrap: self.rest.layout.wraps()[index],
+            no_slip_arc: arc_of(false),
+            slip_arc: arc_of(true),
+            entry_strain,
+            reference_tension: belt.tension(reference),
+            hub_load: hub_load(&self.layout, ends),
+            rest_hub_load: hub_load(&self.rest.layout, [self.rest.tension; 2]),
+            speed_loss: (contacts[driver].reference() - reference) / driving,
+            // c/D [(F_out² − F_in²)/2 − F_o (F_out − F_in)]
+            friction_loss: speed / belt.stiffness
+                * changes[index]
+                * (before_reference + 0.5 * changes[index]),
+            friction_utilisation: if changes[index] == 0.0 {
+                0.0
+            } else {
+                contact.arc.load() / load
+            },
+            torque_capacity: capacity,
+            torque_margin: (torque != 0.0).then(|| capacity / torque.abs()),
+        }
+    }
+
+    fn tensioner(&self) -> Option<TensionerState> {
+        let (pulley, tensioner) = self.belt_loop.tensioner()?;
+        let [running, rest] = self.held()?;
+        Some(TensionerState {
+            pulley,
+            coordinate: self.coordinate,
+            rest_coordinate: self.rest.coordinate,
+            spring_load: spring_load(tensioner, self.coordinate),
+            length_derivatives: running.length_derivatives,
+            stiffness: running.stiffness,
+            rest_stiffness: rest.stiffness,
+            constant: running.constant,
+            rest_constant: rest.constant,
+        })
+    }
+}
+
+/// The answer.
+pub(super) fn state(found: Found<'_>) -> LoopState {
+    let duties = found.belt_loop.pulleys.iter().map(|pulley| pulley.duty);
+    let mut duties = duties.enumerate();
+    let driver = duties.find(|(_, duty)| matches!(duty, Duty::Driver(_)));
+    let driver = driver.map_or(0, |(index, _)| index);
+    let count = found.belt_loop.pulleys.len();
+    let pulleys: Vec<_> = (0..count)
+        .map(|index| found.pulley(index, driver))
+        .collect();
+    let powers = pulleys.iter().map(|pulley| pulley.power);
+    let [power_in, power_out] = powers.fold([0.0, 0.0], |[input, output], power| {
+        [input + (-power).max(0.0), output + power.max(0.0)]
+    });
+    LoopState {
+        unstretched_speed: found.belt.speed,
+        mass_flow: found.belt_loop.belt.mass_per_length * found.belt.speed,
+        length: found.layout.length(),
+        unstretched_length: found.rest.unstretched,
+        rest_tension: found.rest.tension,
+        power_in,
+        power_out,
+        power_loss: pulleys.iter().map(|pulley| pulley.friction_loss).sum(),
+        efficiency: (power_in > 0.0).then(|| power_out / power_in),
+        spans: (0..count).map(|index| found.span(index)).collect(),
+        pulleys,
+        tensioner: found.tensioner(),
+        load_limit: found.limit,
+        rest_layout: found.rest.layout,
+        layout: found.layout,
+    }
+}

@@ -1,0 +1,330 @@
+//! From a loop to its steady state: rest, unloaded loop, load factor limit, loaded loop.
+
+use super::check::check;
+use super::error::LoopError;
+use super::limit::{load_limit, most_used};
+use super::results::{Found, state};
+use super::running::{Running, RunningBelt, Target};
+use super::state::LoopState;
+use super::tensioner::{
+    Held, Towards, equilibrium, length_derivatives, spring_load, within_travel,
+};
+use crate::FrictionLaw;
+use crate::drive::belt_loop::{BeltLoop, Closure, Duty};
+use crate::drive::layout::Layout;
+
+/// Largest strain of the belt: at twice its length no belt is linear elastic, and far beyond it the length
+/// of the unstretched belt is lost in rounding.
+const LARGEST_STRAIN: f64 = 1.0;
+
+/// The belt at rest: uniform tension, no friction.
+#[derive(Clone, Debug)]
+pub(super) struct Rest {
+    /// Coordinate of the tensioner, rad or m; without one it means nothing.
+    pub(super) coordinate: f64,
+    pub(super) layout: Layout,
+    /// Belt tension, N.
+    pub(super) tension: f64,
+    /// Length `L_0` of the unstretched belt, m.
+    pub(super) unstretched: f64,
+}
+
+/// The loop under load.
+pub(super) struct Loaded {
+    /// Coordinate of the tensioner, rad or m; without one it means nothing.
+    pub(super) coordinate: f64,
+    pub(super) layout: Layout,
+    /// The belt; `None` if it does not press on all pulleys, or not enough for elastic friction.
+    pub(super) belt: Option<RunningBelt>,
+}
+
+/// A loop with what its closure asks of the running belt.
+pub(super) struct Problem<'l> {
+    pub(super) belt_loop: &'l BeltLoop,
+    pub(super) target: Target,
+    /// Where the equilibrium of the tensioner is sought from.
+    start: f64,
+    towards: Towards,
+}
+
+/// The steady state of a belt loop.
+///
+/// Coulomb friction is judged first: a loop slips grossly if it does with Coulomb friction at the same
+/// closure, whatever its friction law.
+///
+/// # Errors
+/// Those of [`LoopError`], in the order given there.
+pub fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
+    check(belt_loop)?;
+    let start = match (belt_loop.closure, belt_loop.tensioner()) {
+        (Closure::RestCoordinate(coordinate), _) => coordinate,
+        (_, Some((_, tensioner))) => tensioner.start_coordinate,
+        (_, None) => 0.0,
+    };
+    belt_loop.layout(start)?;
+    let (rest, target) = match belt_loop.closure {
+        Closure::SpanTension { span, tension } => (None, Target::Tension { span, tension }),
+        _ => {
+            let rest = rest_of_closure(belt_loop, start)?;
+            let length = rest.layout.length();
+            let strain = rest.tension / belt_loop.belt.axial_stiffness;
+            let elongation = length * strain / (1.0 + strain);
+            (Some(rest), Target::Unstretched { length, elongation })
+        }
+    };
+    let mut problem = Problem {
+        belt_loop,
+        target,
+        start: rest.as_ref().map_or(start, |rest| rest.coordinate),
+        towards: match rest {
+            Some(_) => Towards::Force,
+            None => Towards::Newton,
+        },
+    };
+    problem.start = problem.unloaded()?;
+    let rigid = problem.loaded(1.0, FrictionLaw::Coulomb)?;
+    let rest = match rest {
+        Some(rest) => Some(rest),
+        None => problem.rest_of(&rigid)?,
+    };
+    let at_rest = rest.as_ref().map(|rest| rest.coordinate);
+    let running = rigid.belt.as_ref().map(|_| rigid.coordinate);
+    for coordinate in at_rest.into_iter().chain(running) {
+        within_travel(belt_loop, coordinate)?;
+    }
+    let limit = load_limit(&problem, &rigid)?;
+    let weakest = most_used(&problem, &rigid);
+    let loaded = match belt_loop.law {
+        FrictionLaw::Epp { .. } => {
+            problem.start = rigid.coordinate;
+            problem.loaded(1.0, belt_loop.law)?
+        }
+        _ => rigid,
+    };
+    let rest = match belt_loop.closure {
+        Closure::SpanTension { .. } => problem.rest_of(&loaded)?,
+        _ => rest,
+    };
+    let stalls = |pulley: usize| LoopError::Stalls {
+        pulley: belt_loop.pulleys[pulley].name.clone(),
+    };
+    let Loaded {
+        coordinate,
+        layout,
+        belt: Some(belt),
+    } = loaded
+    else {
+        return Err(stalls(weakest));
+    };
+    let rest = rest.ok_or(LoopError::NotFound {
+        what: "state at rest",
+    })?;
+    within_travel(belt_loop, coordinate)?;
+    within_travel(belt_loop, rest.coordinate)?;
+    let axial = belt_loop.belt.axial_stiffness;
+    let tractive = belt.tractive.iter();
+    let strains = tractive.map(|&force| belt.belt.strain(force));
+    let strain = strains.fold(rest.tension / axial, f64::max);
+    if strain > LARGEST_STRAIN {
+        return Err(LoopError::Overstretched { strain });
+    }
+    let stalled = |pulley: &usize| axial + belt.contacts[*pulley].reference() <= 0.0;
+    if let Some(pulley) = (0..belt.contacts.len()).find(stalled) {
+        return Err(stalls(pulley));
+    }
+    let found = Found {
+        belt_loop,
+        rest,
+        coordinate,
+        layout,
+        belt,
+        limit,
+    };
+    found.stable()?;
+    Ok(state(found))
+}
+
+/// The belt at rest where its length or its tension at rest is given.
+fn rest_of_closure(belt_loop: &BeltLoop, start: f64) -> Result<Rest, LoopError> {
+    let axial = belt_loop.belt.axial_stiffness;
+    let coordinate = match belt_loop.closure {
+        Closure::UnstretchedLength(length) => {
+            return rest_of_length(belt_loop, start, length);
+        }
+        Closure::SetupTension(tension) => {
+            equilibrium(belt_loop, start, Towards::Newton, "at rest", |_| {
+                Ok(tension)
+            })?
+        }
+        Closure::RestCoordinate(_) | Closure::SpanTension { .. } => start,
+    };
+    let layout = belt_loop.layout(coordinate)?;
+    let tension = match (belt_loop.closure, belt_loop.tensioner()) {
+        (Closure::RestCoordinate(_), Some((pulley, tensioner))) => {
+            let [slope, _] = length_derivatives(&layout, pulley, &tensioner.guide, coordinate);
+            spring_load(tensioner, coordinate) / slope
+        }
+        (Closure::SetupTension(tension), _) => tension,
+        _ => f64::NAN,
+    };
+    let unstretched = layout.length() / (1.0 + tension / axial);
+    checked(
+        belt_loop,
+        Rest {
+            coordinate,
+            layout,
+            tension,
+            unstretched,
+        },
+    )
+}
+
+/// The belt of a given unstretched length at rest.
+fn rest_of_length(belt_loop: &BeltLoop, start: f64, length: f64) -> Result<Rest, LoopError> {
+    let axial = belt_loop.belt.axial_stiffness;
+    let tension = |layout: &Layout| axial * ((layout.length() - length) / length);
+    let found = equilibrium(belt_loop, start, Towards::Force, "at rest", |layout| {
+        Ok(tension(layout))
+    });
+    let layout = belt_loop.layout(start)?;
+    let coordinate = match found {
+        Err(_) if tension(&layout) <= 0.0 => {
+            return Err(LoopError::Slack {
+                tension: tension(&layout),
+            });
+        }
+        found => found?,
+    };
+    let layout = belt_loop.layout(coordinate)?;
+    checked(
+        belt_loop,
+        Rest {
+            coordinate,
+            tension: tension(&layout),
+            layout,
+            unstretched: length,
+        },
+    )
+}
+
+/// A belt at rest that is in tension, with its tensioner in a stable equilibrium.
+fn checked(belt_loop: &BeltLoop, rest: Rest) -> Result<Rest, LoopError> {
+    let tension = rest.tension;
+    if tension <= 0.0 {
+        return Err(LoopError::Slack { tension });
+    }
+    let Some((pulley, tensioner)) = belt_loop.tensioner() else {
+        return Ok(rest);
+    };
+    let Rest {
+        coordinate,
+        unstretched,
+        ..
+    } = rest;
+    let carried = (pulley, tensioner);
+    let held = Held::new(
+        belt_loop,
+        carried,
+        &rest.layout,
+        coordinate,
+        tension,
+        unstretched,
+    );
+    match tension.is_finite() && held.stiffness > 0.0 {
+        true => Ok(rest),
+        false => Err(LoopError::NoEquilibrium {
+            pulley: belt_loop.pulleys[pulley].name.clone(),
+            which: "at rest",
+        }),
+    }
+}
+
+impl Problem<'_> {
+    /// Coordinate of the tensioner in the running loop without torques, whose tension is uniform; an error
+    /// if the belt lifts off.
+    fn unloaded(&self) -> Result<f64, LoopError> {
+        let belt = self.belt_loop.belt;
+        let rims = self
+            .belt_loop
+            .pulleys
+            .iter()
+            .map(|pulley| match pulley.duty {
+                Duty::Driver(speed) => speed * pulley.radius,
+                Duty::Torque(_) => 0.0,
+            });
+        let rim: f64 = rims.sum();
+        let tractive = |layout: &Layout| {
+            let strain = match self.target {
+                Target::Unstretched { length, elongation } => {
+                    let elongation = layout.length() - length + elongation;
+                    elongation / (layout.length() - elongation)
+                }
+                Target::Tension { tension, .. } => tension / belt.axial_stiffness,
+            };
+            let flow = belt.mass_per_length * rim / (1.0 + strain);
+            belt.axial_stiffness * strain - flow * rim
+        };
+        let presses = |coordinate: f64| {
+            let tractive_tension = tractive(&self.belt_loop.layout(coordinate)?);
+            match tractive_tension > 0.0 {
+                true => Ok(coordinate),
+                false => Err(LoopError::LiftsOff {
+                    tractive_tension,
+                    speed: rim,
+                }),
+            }
+        };
+        let found = equilibrium(
+            self.belt_loop,
+            self.start,
+            self.towards,
+            "without load",
+            |layout| Ok(tractive(layout)),
+        );
+        match found {
+            Ok(coordinate) => presses(coordinate),
+            Err(error) => Err(presses(self.start).err().unwrap_or(error)),
+        }
+    }
+
+    /// The loop under its torques multiplied by a factor.
+    pub(super) fn loaded(&self, factor: f64, law: FrictionLaw) -> Result<Loaded, LoopError> {
+        let lost = LoopError::NotFound {
+            what: "tension of the running belt",
+        };
+        let pulley = self.belt_loop.tensioner().map_or(0, |(pulley, _)| pulley);
+        // The belt, and the tractive tension of the idler: a belt that does not press has the slackest
+        // tension 0.
+        let closed = |layout: &Layout| {
+            let running = Running::new(self.belt_loop, layout, self.target, law, factor);
+            let belt = running.closed().map_err(|()| lost.clone())?;
+            let none = running.offset(pulley);
+            let tractive = belt.as_ref().map_or(none, |belt| belt.tractive[pulley]);
+            Ok::<_, LoopError>((tractive, belt))
+        };
+        let idler = |layout: &Layout| closed(layout).map(|(tractive, _)| tractive);
+        let coordinate = equilibrium(
+            self.belt_loop,
+            self.start,
+            self.towards,
+            "under load",
+            idler,
+        )?;
+        let layout = self.belt_loop.layout(coordinate)?;
+        let (_, belt) = closed(&layout)?;
+        Ok(Loaded {
+            coordinate,
+            layout,
+            belt,
+        })
+    }
+
+    /// The belt of a loaded loop at rest, if it presses on all pulleys.
+    fn rest_of(&self, loaded: &Loaded) -> Result<Option<Rest>, LoopError> {
+        let rest = loaded.belt.as_ref().map(|belt| {
+            let unstretched = loaded.layout.length() - belt.elongation;
+            rest_of_length(self.belt_loop, loaded.coordinate, unstretched)
+        });
+        rest.transpose()
+    }
+}

@@ -1,0 +1,149 @@
+//! The steady state of a belt loop, as it is answered.
+
+use crate::drive::layout::Layout;
+
+/// The steady state of a belt loop; lists are in belt order.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct LoopState {
+    /// The running belt on its pulleys.
+    pub layout: Layout,
+    /// The belt at rest on them: it differs next to a tensioner.
+    pub rest_layout: Layout,
+    /// Speed c = G/m of the unstretched belt, m/s.
+    pub unstretched_speed: f64,
+    /// Mass flow G, kg/s.
+    pub mass_flow: f64,
+    /// Length L of the running belt, m.
+    pub length: f64,
+    /// Length `L_0` of the unstretched belt, m.
+    pub unstretched_length: f64,
+    /// Belt tension at rest, N; uniform, after the belt has been turned without torques.
+    pub rest_tension: f64,
+    /// Power that pulleys put into the belt, W.
+    pub power_in: f64,
+    /// Power that pulleys take out of the belt, W.
+    pub power_out: f64,
+    /// Power lost in friction between belt and pulleys, W: power in less power out.
+    pub power_loss: f64,
+    /// Power out over power in; `None` without torques.
+    pub efficiency: Option<f64>,
+    /// The free spans; span i leaves pulley i.
+    pub spans: Vec<SpanState>,
+    /// The pulleys.
+    pub pulleys: Vec<PulleyState>,
+    /// The tensioner, if there is one.
+    pub tensioner: Option<TensionerState>,
+    /// How far all torques can be raised with Coulomb friction; `None` without torques, or if the tensioner
+    /// has no equilibrium up to there.
+    pub load_limit: Option<LoadLimit>,
+}
+
+/// A free span.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SpanState {
+    /// Length of the running span, m.
+    pub length: f64,
+    /// Direction of its motion, rad, counter-clockwise from x, in [0, 2π).
+    pub direction: f64,
+    /// Belt tension T, N.
+    pub tension: f64,
+    /// Tractive tension F = T − G V, N.
+    pub tractive_tension: f64,
+    /// Belt speed V, m/s.
+    pub speed: f64,
+    /// First natural frequency of transverse motion, Hz, of the moving string.
+    pub frequency: f64,
+    /// Length at rest, m.
+    pub rest_length: f64,
+    /// First natural frequency of transverse motion at rest, Hz.
+    pub rest_frequency: f64,
+    /// Deflection δ of the midpoint at rest to which the force belongs, m: 1/64 of the span.
+    pub deflection: f64,
+    /// Force across the span that deflects its midpoint by δ towards the inside of the loop at rest, N,
+    /// while pulleys and tensioner are held and the belt slides round the pulleys without friction. Exact:
+    /// the points of contact move and the belt stretches. `None` if the belt then leaves a pulley.
+    pub deflection_force: Option<f64>,
+}
+
+/// A pulley.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PulleyState {
+    /// Its name.
+    pub name: String,
+    /// Centre in the running loop, m.
+    pub centre: [f64; 2],
+    /// Angular speed ω, rad/s; positive along the motion of the belt.
+    pub angular_speed: f64,
+    /// Torque M, N·m; positive where power leaves the belt.
+    pub torque: f64,
+    /// Power M ω, W; positive where it leaves the belt.
+    pub power: f64,
+    /// Wrap angle φ, rad.
+    pub wrap: f64,
+    /// Wrap angle at rest, rad.
+    pub rest_wrap: f64,
+    /// Arc on which the belt does not slip, rad: of adhesion or of elastic friction, from the entry. With
+    /// very soft friction it includes a last zone in which the belt sticks again.
+    pub no_slip_arc: f64,
+    /// Arc on which the belt slips, rad.
+    pub slip_arc: f64,
+    /// Strain u′(0) of the belt against the rim where it enters: positive where the tension grows, 0 with
+    /// Coulomb friction.
+    pub entry_strain: f64,
+    /// Belt tension `T_o` at which the belt would run as fast as the rim, N.
+    pub reference_tension: f64,
+    /// Force of the belt on the hub, N.
+    pub hub_load: [f64; 2],
+    /// Force of the belt on the hub at rest, N.
+    pub rest_hub_load: [f64; 2],
+    /// Speed loss 1 − R ω/(R ω of the driver).
+    pub speed_loss: f64,
+    /// Power lost in friction on this pulley, W.
+    pub friction_loss: f64,
+    /// Share of the contact that slips with Coulomb friction, `|ln(F_out/F_in)|`/(μ φ); below 1.
+    pub friction_utilisation: f64,
+    /// Torque at which it would slip at the slacker of its tensions, N·m: R F (exp(μ φ) − 1).
+    pub torque_capacity: f64,
+    /// Torque capacity over torque; `None` for an idler. It holds the slacker tension, where the load limit
+    /// holds the closure.
+    pub torque_margin: Option<f64>,
+}
+
+/// The tensioner; its coordinate is an angle in rad or a displacement in m.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct TensionerState {
+    /// Index of its pulley.
+    pub pulley: usize,
+    /// Coordinate q of the running loop, rad or m.
+    pub coordinate: f64,
+    /// Coordinate at rest, rad or m.
+    pub rest_coordinate: f64,
+    /// Load −k (q − q₀) of the spring along the coordinate, N·m or N.
+    pub spring_load: f64,
+    /// First and second derivative of the length of the loop with the coordinate.
+    pub length_derivatives: [f64; 2],
+    /// Stiffness k + `F_t` d²L/dq² + (EA/`L_0`) (dL/dq)² against a slow displacement, N·m/rad or N/m; with
+    /// uniform tension.
+    pub stiffness: f64,
+    /// The same at rest.
+    pub rest_stiffness: f64,
+    /// Tensioner constant η: 0 where speed takes tractive tension off as with fixed centres, 1 where the
+    /// tractive tension stays whatever the speed (Beikmann, Perkins and Ulsoy 1996).
+    pub constant: f64,
+    /// The same at rest.
+    pub rest_constant: f64,
+}
+
+/// How far all torques can be raised at the same closure.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct LoadLimit {
+    /// Factor on all torques at which the first pulley slips grossly; above 1.
+    pub factor: f64,
+    /// The index of that pulley.
+    pub pulley: usize,
+}

@@ -1,0 +1,179 @@
+//! The tensioner: its equilibrium, its stiffness and how well it holds the tension.
+
+use super::super::root::bracketed;
+use super::error::LoopError;
+use crate::drive::belt_loop::{BeltLoop, Guide, Tensioner};
+use crate::drive::layout::Layout;
+use nalgebra::Vector2;
+use std::f64::consts::TAU;
+
+/// Largest step of the search for an equilibrium: half a radius of the idler, at most this angle in rad.
+/// Two equilibria within one step are missed.
+const LARGEST_ANGLE: f64 = 0.05;
+
+/// The first step is the largest one divided by this; steps are doubled.
+const FIRST_STEP: f64 = 16.0;
+
+/// Steps of the search that are smaller than this, relative to the largest, end it where the belt can no
+/// longer be laid round the pulleys.
+const SMALLEST_STEP: f64 = 1e-9;
+
+/// Most steps of a search: 500 radii of an idler on a straight guide.
+const STEPS: usize = 1000;
+
+/// Which way a search begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Towards {
+    /// Where the idler is pushed: the length of the belt is given and its tension follows.
+    Force,
+    /// Where the equilibrium lies by Newton's method: the tension is given and the length follows.
+    Newton,
+}
+
+/// First and second derivative of the length of the loop with the coordinate of the tensioner.
+pub(super) fn length_derivatives(
+    layout: &Layout,
+    pulley: usize,
+    guide: &Guide,
+    coordinate: f64,
+) -> [f64; 2] {
+    let [_, velocity, acceleration] = guide.centre(coordinate).map(Vector2::from);
+    let gradient = Vector2::from(layout.length_gradient(pulley));
+    let turning = layout.spans_of(pulley).map(|span| {
+        let across = span.normal().dot(&velocity);
+        across * across / span.length
+    });
+    [
+        gradient.dot(&velocity),
+        turning[0] + turning[1] + gradient.dot(&acceleration),
+    ]
+}
+
+/// The coordinate nearest to `start`, in the direction in which the idler goes from there, at which spring
+/// and belt are in equilibrium: −k (q − q₀) − `F_t` dL/dq = 0. `tractive` gives `F_t` in N.
+pub(super) fn equilibrium(
+    belt_loop: &BeltLoop,
+    start: f64,
+    towards: Towards,
+    which: &'static str,
+    mut tractive: impl FnMut(&Layout) -> Result<f64, LoopError>,
+) -> Result<f64, LoopError> {
+    let Some((pulley, tensioner)) = belt_loop.tensioner() else {
+        return Ok(start);
+    };
+    let name = || belt_loop.pulleys[pulley].name.clone();
+    let guide = &tensioner.guide;
+    // Force along the coordinate, and its slope at a given tension.
+    let mut force = |coordinate: f64| -> Result<[f64; 2], LoopError> {
+        let layout = belt_loop.layout(coordinate)?;
+        let [slope, curvature] = length_derivatives(&layout, pulley, guide, coordinate);
+        let tension = tractive(&layout)?;
+        Ok([
+            spring_load(tensioner, coordinate) - tension * slope,
+            -tensioner.stiffness - tension * curvature,
+        ])
+    };
+    let radius = belt_loop.pulleys[pulley].radius;
+    let (largest, longest) = match guide {
+        Guide::Rotary { arm_length, .. } => ((0.5 * radius / arm_length).min(LARGEST_ANGLE), TAU),
+        Guide::Translating { .. } => (0.5 * radius, f64::INFINITY),
+    };
+    let [at_start, slope] = force(start)?;
+    if at_start == 0.0 {
+        return Ok(start);
+    }
+    let direction = match towards {
+        Towards::Newton if slope > 0.0 => -at_start.signum(),
+        _ => at_start.signum(),
+    };
+    let (mut step, mut here) = (largest / FIRST_STEP, (start, at_start));
+    for _ in 0..STEPS {
+        let next = here.0 + direction * step;
+        match force(next) {
+            Err(error) => {
+                step *= 0.5;
+                if step < SMALLEST_STEP * largest {
+                    within_travel(belt_loop, here.0)?;
+                    return Err(error);
+                }
+            }
+            Ok([at_next, _]) if (at_next > 0.0) != (at_start > 0.0) => {
+                let at = |coordinate| force(coordinate).map_or(f64::NAN, |[force, _]| force);
+                let found = bracketed(at, [here.0, next], [here.1, at_next]);
+                return found.ok_or(LoopError::NotFound {
+                    what: "coordinate of the tensioner",
+                });
+            }
+            Ok([at_next, _]) => {
+                here = (next, at_next);
+                step = (2.0 * step).min(largest);
+            }
+        }
+        if (here.0 - start).abs() > longest {
+            break;
+        }
+    }
+    within_travel(belt_loop, here.0)?;
+    Err(LoopError::NoEquilibrium {
+        pulley: name(),
+        which,
+    })
+}
+
+/// Load of the spring along the coordinate, N·m or N.
+pub(super) fn spring_load(tensioner: &Tensioner, coordinate: f64) -> f64 {
+    -tensioner.stiffness * (coordinate - tensioner.free_coordinate)
+}
+
+/// Whether the tensioner is between its stops.
+pub(super) fn within_travel(belt_loop: &BeltLoop, coordinate: f64) -> Result<(), LoopError> {
+    match belt_loop.tensioner() {
+        Some((
+            pulley,
+            Tensioner {
+                travel: Some(travel),
+                ..
+            },
+        )) if coordinate < travel[0] || coordinate > travel[1] => {
+            Err(LoopError::TensionerBeyondTravel {
+                pulley: belt_loop.pulleys[pulley].name.clone(),
+                coordinate,
+                travel: *travel,
+            })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The tensioner held at a coordinate by a belt of uniform tension.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Held {
+    /// dL/dq and d²L/dq².
+    pub(super) length_derivatives: [f64; 2],
+    /// K = k + `F_t` d²L/dq² + (EA/`L_0`) (dL/dq)², against a slow displacement; N·m/rad or N/m.
+    pub(super) stiffness: f64,
+    /// η = 1/(1 + (k + `F_t` d²L/dq²) `L_0`/(EA (dL/dq)²)) (Beikmann, Perkins and Ulsoy 1996).
+    pub(super) constant: f64,
+}
+
+impl Held {
+    /// With the tractive tension `F_t` of the idler, N, and the length `L_0` of the unstretched belt, m.
+    pub(super) fn new(
+        belt_loop: &BeltLoop,
+        (pulley, tensioner): (usize, &Tensioner),
+        layout: &Layout,
+        coordinate: f64,
+        tractive: f64,
+        unstretched: f64,
+    ) -> Self {
+        let derivatives = length_derivatives(layout, pulley, &tensioner.guide, coordinate);
+        let [slope, curvature] = derivatives;
+        let by_spring = tensioner.stiffness + tractive * curvature;
+        let by_belt = belt_loop.belt.axial_stiffness / unstretched * slope * slope;
+        Self {
+            length_derivatives: derivatives,
+            stiffness: by_spring + by_belt,
+            constant: by_belt / (by_belt + by_spring),
+        }
+    }
+}
