@@ -1,0 +1,378 @@
+//! Flat belts round n pulleys: computed cases, invariants, symmetries and random loops.
+
+#[path = "belt_loops/cases.rs"]
+mod cases;
+#[path = "belt_loops/invariants.rs"]
+mod invariants;
+#[path = "belt_loops/random.rs"]
+mod random;
+
+use beltdrive::belt_loop::{
+    BeltLoop, Closure, Duty, Guide, Layout, LayoutError, LoopError, LoopPulley, LoopState, Mount,
+    Sense, Side, Tensioner, solve,
+};
+use beltdrive::flat::ClosedForm;
+use beltdrive::{Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, Pulley, SpanTension};
+use invariants::{close, hold};
+
+fn belt() -> Belt {
+    Belt {
+        mass_per_length: 0.14,
+        axial_stiffness: 1e5,
+        kind: BeltKind::Flat {
+            normal_force: NormalForce::Inertia,
+        },
+    }
+}
+
+fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> LoopPulley {
+    LoopPulley {
+        name: name.to_owned(),
+        mount: Mount::Fixed(centre),
+        radius,
+        side,
+        friction_coefficient: 0.6,
+        duty,
+    }
+}
+
+fn two(law: FrictionLaw, closure: Closure) -> BeltLoop {
+    let inside = Side::Inside;
+    BeltLoop {
+        belt: belt(),
+        law,
+        sense: Sense::CounterClockwise,
+        turning_number: 1,
+        pulleys: vec![
+            pulley("driver", [0.0, 0.0], 0.06, inside, Duty::Driver(150.0)),
+            pulley("driven", [0.5, 0.1], 0.11, inside, Duty::Torque(25.0)),
+        ],
+        closure,
+    }
+}
+
+/// Where the idler of [`tensioned`] rests, m.
+const AT_REST: f64 = 0.13;
+
+/// A driver, a load, and an idler on a straight guide that pushes the slack span inwards.
+fn tensioned(closure: Closure, law: FrictionLaw) -> BeltLoop {
+    let mut belt_loop = two(law, closure);
+    let tensioner = Tensioner {
+        guide: Guide::Translating {
+            origin: [0.25, -0.15],
+            direction: [0.0, 1.0],
+        },
+        stiffness: 2e3,
+        free_coordinate: 0.22,
+        start_coordinate: AT_REST,
+        travel: None,
+    };
+    let mut idler = pulley("idler", [0.0; 2], 0.03, Side::Outside, Duty::Torque(0.0));
+    idler.mount = Mount::Tensioner(tensioner);
+    belt_loop.pulleys.insert(1, idler);
+    belt_loop
+}
+
+fn solved(belt_loop: &BeltLoop) -> LoopState {
+    let state = solve(belt_loop).unwrap_or_else(|error| panic!("{error}\n{belt_loop:?}"));
+    hold(belt_loop, &state);
+    state
+}
+
+const LAWS: [FrictionLaw; 2] = [FrictionLaw::Coulomb, FrictionLaw::Epp { stiffness: 1.2e8 }];
+
+#[test]
+fn two_pulleys_are_the_drive_with_two_pulleys() {
+    for law in LAWS {
+        let state = solved(&two(law, Closure::SetupTension(350.0)));
+        let [slack, tight] = [&state.spans[0], &state.spans[1]];
+        let drive = Drive {
+            title: None,
+            belt: belt(),
+            friction_coefficient: 0.6,
+            law,
+            driver_radius: 0.06,
+            driver_speed: 150.0,
+            driven_radius: 0.11,
+            centre_distance: 0.5_f64.hypot(0.1),
+            load: Load {
+                slack: SpanTension::Belt(slack.tension),
+                tight: SpanTension::DrivenTorque(25.0),
+            },
+        };
+        let closed = ClosedForm::new(&drive).unwrap();
+        close("c", state.unstretched_speed, closed.speed(), 1e-13);
+        close("T", tight.tension, closed.tension()[1], 1e-12);
+        for (pulley, found) in [(Pulley::Driver, 0), (Pulley::Driven, 1)] {
+            let found = &state.pulleys[found];
+            close(
+                "w",
+                found.angular_speed,
+                closed.angular_speed(pulley),
+                1e-13,
+            );
+            close(
+                "T_o",
+                found.reference_tension,
+                closed.reference_tension(pulley),
+                1e-11,
+            );
+            let first = closed.zones(pulley)[0].to;
+            close("first zone", found.no_slip_arc, first, 1e-10);
+        }
+        // The loop carries what the drive carries: the limit at a held slack tension is the margin.
+        let margin = state.pulleys[0].torque_margin.unwrap();
+        let at = |torque: f64| {
+            let mut drive = drive.clone();
+            drive.load.slack = SpanTension::Tractive(slack.tractive_tension);
+            drive.load.tight = SpanTension::DrivenTorque(torque);
+            drive.law = FrictionLaw::Coulomb;
+            ClosedForm::new(&drive)
+        };
+        assert!(at(25.0 * margin * (1.0 - 1e-9)).is_ok());
+        assert!(at(25.0 * margin * (1.0 + 1e-9)).is_err());
+    }
+}
+
+#[test]
+fn closures_of_the_same_loop_agree() {
+    for law in LAWS {
+        let state = solved(&two(law, Closure::SetupTension(350.0)));
+        let length = Closure::UnstretchedLength(state.unstretched_length);
+        let found = solved(&two(law, length));
+        agree(&found, &state, 1e-11);
+        same_limit(&found, &state, 1e-10);
+        let tension = state.spans[1].tension;
+        let tension = Closure::SpanTension { span: 1, tension };
+        agree(&solved(&two(law, tension)), &state, 1e-11);
+        let state = solved(&tensioned(Closure::RestCoordinate(AT_REST), law));
+        let tensioner = state.tensioner.as_ref().unwrap();
+        assert!((tensioner.coordinate - tensioner.rest_coordinate).abs() > 1e-4);
+        let closures = [
+            Closure::UnstretchedLength(state.unstretched_length),
+            Closure::SetupTension(state.rest_tension),
+            Closure::SpanTension {
+                span: 2,
+                tension: state.spans[2].tension,
+            },
+        ];
+        for closure in closures {
+            let other = solved(&tensioned(closure, law));
+            agree(&other, &state, 1e-10);
+            let found = other.tensioner.unwrap();
+            close("q", found.coordinate, tensioner.coordinate, 1e-11);
+            close(
+                "q_r",
+                found.rest_coordinate,
+                tensioner.rest_coordinate,
+                1e-11,
+            );
+        }
+    }
+}
+
+/// Whether two states have the same numbers on the same pulleys.
+fn agree(one: &LoopState, other: &LoopState, within: f64) {
+    close("G", one.mass_flow, other.mass_flow, within);
+    close(
+        "L_0",
+        one.unstretched_length,
+        other.unstretched_length,
+        within,
+    );
+    close("T_rest", one.rest_tension, other.rest_tension, within);
+    for (one, other) in one.spans.iter().zip(&other.spans) {
+        close("T", one.tension, other.tension, within);
+        close("F", one.tractive_tension, other.tractive_tension, within);
+        close("length", one.length, other.length, within);
+        let forces = [one.deflection_force, other.deflection_force];
+        if let [Some(one), Some(other)] = forces {
+            close("deflection force", one, other, 100.0 * within);
+        }
+    }
+    for (one, other) in one.pulleys.iter().zip(&other.pulleys) {
+        assert!((one.wrap - other.wrap).abs() < within);
+        assert!((one.speed_loss - other.speed_loss).abs() < within);
+        close("speed", one.angular_speed, other.angular_speed, within);
+        assert!((one.slip_arc - other.slip_arc).abs() < 100.0 * within);
+    }
+}
+
+/// Whether two states of one closure have the same load limit.
+fn same_limit(one: &LoopState, other: &LoopState, within: f64) {
+    let [one, other] = [one, other].map(|state| state.load_limit.as_ref().expect("a limit").factor);
+    close("load limit", one, other, within);
+}
+
+#[test]
+fn start_of_the_loop_and_the_mirror_change_nothing() {
+    for (_, belt_loop, _) in cases::read() {
+        let Ok(state) = solve(&belt_loop) else {
+            continue;
+        };
+        for first in 1..belt_loop.pulleys.len() {
+            let mut turned = belt_loop.clone();
+            turned.pulleys.rotate_left(first);
+            let mut found = solved(&turned);
+            found.pulleys.rotate_right(first);
+            found.spans.rotate_right(first);
+            agree(&found, &state, 1e-12);
+            same_limit(&found, &state, 1e-11);
+        }
+        let found = solved(&mirrored(&belt_loop));
+        agree(&found, &state, 1e-12);
+        same_limit(&found, &state, 1e-11);
+    }
+}
+
+/// The loop with y reversed.
+fn mirrored(belt_loop: &BeltLoop) -> BeltLoop {
+    let mut mirrored = belt_loop.clone();
+    mirrored.sense = match belt_loop.sense {
+        Sense::Clockwise => Sense::CounterClockwise,
+        Sense::CounterClockwise => Sense::Clockwise,
+    };
+    for pulley in &mut mirrored.pulleys {
+        match &mut pulley.mount {
+            Mount::Fixed([_, y]) => *y = -*y,
+            Mount::Tensioner(tensioner) => match &mut tensioner.guide {
+                Guide::Rotary { pivot, .. } => {
+                    pivot[1] = -pivot[1];
+                    tensioner.free_coordinate = -tensioner.free_coordinate;
+                    tensioner.start_coordinate = -tensioner.start_coordinate;
+                    tensioner.travel = tensioner.travel.map(|[low, high]| [-high, -low]);
+                    if let Closure::RestCoordinate(coordinate) = &mut mirrored.closure {
+                        *coordinate = -*coordinate;
+                    }
+                }
+                Guide::Translating { origin, direction } => {
+                    origin[1] = -origin[1];
+                    direction[1] = -direction[1];
+                }
+            },
+        }
+    }
+    mirrored
+}
+
+#[test]
+fn the_tensioner_constant_is_the_change_of_tension_with_speed() {
+    let at = |speed: f64| {
+        let mut belt_loop = tensioned(Closure::RestCoordinate(AT_REST), FrictionLaw::Coulomb);
+        belt_loop.pulleys[0].duty = Duty::Driver(speed);
+        belt_loop.pulleys[2].duty = Duty::Torque(0.0);
+        let state = solved(&belt_loop);
+        assert!(state.load_limit.is_none() && state.efficiency.is_none());
+        let span = &state.spans[0];
+        let momentum = state.mass_flow * span.speed;
+        (
+            span.tractive_tension,
+            momentum,
+            state.tensioner.unwrap().constant,
+        )
+    };
+    let [low, middle, high] = [149.0, 150.0, 151.0].map(at);
+    let slope = (high.0 - low.0) / (high.1 - low.1);
+    assert!(
+        (slope + 1.0 - middle.2).abs() < 1e-5,
+        "{slope} {}",
+        middle.2
+    );
+}
+
+#[test]
+fn length_gradients_are_derivatives() {
+    for (name, belt_loop, _) in cases::read() {
+        let coordinate = -1.5;
+        let layout = belt_loop.layout(coordinate).unwrap();
+        for index in 0..belt_loop.pulleys.len() {
+            let gradient = layout.length_gradient(index);
+            for (part, slope) in gradient.into_iter().enumerate() {
+                let at = |step: f64| {
+                    let mut pulleys = layout.pulleys().to_vec();
+                    pulleys[index].centre[part] += step;
+                    let moved = Layout::new(belt_loop.sense, belt_loop.turning_number, pulleys);
+                    moved.unwrap().length()
+                };
+                let difference = (at(1e-5) - at(-1e-5)) / 2e-5;
+                assert!((difference - slope).abs() < 1e-8, "{name} {index} {part}");
+            }
+        }
+    }
+}
+
+#[test]
+fn refusals_come_in_order_and_name_the_pulley() {
+    let setup = Closure::SetupTension(350.0);
+    let refused = |belt_loop: &BeltLoop| solve(belt_loop).expect_err("a refusal");
+    let mut belt_loop = two(FrictionLaw::Coulomb, setup);
+    let overlapping = pulley("idler", [0.1, 0.0], 0.05, Side::Inside, Duty::Torque(0.0));
+    belt_loop.pulleys.push(overlapping);
+    let overlap = refused(&belt_loop);
+    assert!(
+        matches!(&overlap, LoopError::Layout(LayoutError::Overlap { one, other, .. })
+            if one == "driver" && other == "idler")
+    );
+    // Outside the loop, but away from the belt.
+    belt_loop.pulleys[2] = pulley("idler", [0.2, 0.4], 0.05, Side::Outside, Duty::Torque(0.0));
+    let missed = refused(&belt_loop);
+    assert!(
+        matches!(&missed, LoopError::Layout(LayoutError::NegativeWrap { pulley, wrap })
+            if pulley == "idler" && *wrap < 0.0 && *wrap > -1.5),
+        "{missed}"
+    );
+    // The idler pushes its two spans so far inwards that it reaches the opposite span.
+    belt_loop.pulleys[1] = pulley("driven", [1.0, 0.0], 0.06, Side::Inside, Duty::Torque(0.0));
+    belt_loop.pulleys[2] = pulley("deep", [0.5, -0.05], 0.04, Side::Outside, Duty::Torque(0.0));
+    let top = pulley("top", [0.5, 0.8], 0.06, Side::Inside, Duty::Torque(0.0));
+    belt_loop.pulleys.push(top);
+    let through = refused(&belt_loop);
+    assert!(
+        matches!(&through, LoopError::Layout(LayoutError::SpanThroughPulley { from, to, pulley })
+            if from == "driver" && to == "driven" && pulley == "deep"),
+        "{through}"
+    );
+    belt_loop.turning_number = 2;
+    belt_loop.pulleys.truncate(2);
+    let turns = refused(&belt_loop);
+    assert!(matches!(
+        turns,
+        LoopError::Layout(LayoutError::TurningNumber {
+            stated: 2,
+            found: 1
+        })
+    ));
+
+    let state = solved(&two(FrictionLaw::Coulomb, setup));
+    let long = Closure::UnstretchedLength(1.01 * state.length);
+    assert!(matches!(
+        refused(&two(FrictionLaw::Coulomb, long)),
+        LoopError::Slack { tension } if tension < 0.0
+    ));
+    let mut fast = two(FrictionLaw::Coulomb, setup);
+    fast.pulleys[0].duty = Duty::Driver(1500.0);
+    assert!(matches!(
+        refused(&fast),
+        LoopError::LiftsOff { tractive_tension, .. } if tractive_tension < 0.0
+    ));
+    let mut stopped = tensioned(Closure::RestCoordinate(AT_REST), FrictionLaw::Coulomb);
+    let Mount::Tensioner(tensioner) = &mut stopped.pulleys[1].mount else {
+        panic!("the idler")
+    };
+    tensioner.travel = Some([0.0, AT_REST + 1e-4]);
+    let beyond = refused(&stopped);
+    assert!(
+        matches!(&beyond, LoopError::TensionerBeyondTravel { pulley, coordinate, .. }
+            if pulley == "idler" && *coordinate > AT_REST + 1e-4)
+    );
+    // So large a torque that even the formal state does not press on the pulleys.
+    let mut heavy = two(FrictionLaw::Coulomb, setup);
+    heavy.pulleys[1].duty = Duty::Torque(1e3);
+    assert!(matches!(
+        refused(&heavy),
+        LoopError::GrossSlip { formal: None, margin: None, load_factor, .. } if load_factor < 0.1
+    ));
+    let mut bad = two(FrictionLaw::Coulomb, setup);
+    bad.pulleys[1].friction_coefficient = f64::NAN;
+    assert!(matches!(refused(&bad), LoopError::Statement { subject, .. } if subject == "driven"));
+}

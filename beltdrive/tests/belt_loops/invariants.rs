@@ -1,0 +1,215 @@
+//! What holds in every steady state of a belt loop.
+
+use beltdrive::FrictionLaw;
+use beltdrive::belt_loop::{BeltLoop, Closure, Duty, LoopState, Mount};
+use std::f64::consts::TAU;
+
+/// Whether two numbers agree, relative.
+pub(crate) fn close(what: &str, found: f64, expected: f64, within: f64) {
+    let off = (found - expected).abs();
+    let allowed = within * expected.abs().max(f64::MIN_POSITIVE);
+    assert!(
+        off <= allowed,
+        "{what}: {found} for {expected}, off by {:e}",
+        off / expected.abs()
+    );
+}
+
+/// Balances of torques, forces and powers, the closing of the polygon, the length of the belt and the
+/// equilibrium of the tensioner.
+pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
+    let count = state.spans.len();
+    let belt = belt_loop.belt;
+    let axial = belt.axial_stiffness;
+    let largest = state
+        .spans
+        .iter()
+        .map(|span| span.tractive_tension)
+        .fold(0.0, f64::max);
+    let small = 1e-11 * largest;
+    let flow = state.mass_flow;
+    close("L", state.layout.length(), state.length, 1e-15);
+    close(
+        "rest",
+        axial * (state.rest_layout.length() / state.unstretched_length - 1.0),
+        state.rest_tension,
+        1e-9,
+    );
+
+    let mut polygon = [0.0; 2];
+    let mut hub = [[0.0; 2]; 2];
+    let mut turned = 0.0;
+    let mut unstretched = Some(0.0);
+    for index in 0..count {
+        let (span, pulley) = (&state.spans[index], &state.pulleys[index]);
+        let behind = &state.spans[(index + count - 1) % count];
+        let stated = &belt_loop.pulleys[index];
+        // Torque, and the belt on the way.
+        let change = span.tractive_tension - behind.tractive_tension;
+        assert!((change * stated.radius - pulley.torque).abs() <= small * stated.radius);
+        assert!(span.tractive_tension > 0.0 && span.tension > span.tractive_tension - small);
+        let speed = state.unstretched_speed * (1.0 + span.tension / axial);
+        close("V", span.speed, speed, 1e-14);
+        close(
+            "F",
+            span.tractive_tension,
+            span.tension - flow * span.speed,
+            1e-9,
+        );
+        if let Duty::Torque(torque) = stated.duty {
+            close("M", pulley.torque, torque, 1e-13);
+        }
+        let rim = state.unstretched_speed * (1.0 + pulley.reference_tension / axial);
+        close("rim", pulley.angular_speed * stated.radius, rim, 1e-12);
+        assert!(pulley.angular_speed > 0.0 && pulley.wrap >= 0.0);
+        assert!((pulley.slip_arc + pulley.no_slip_arc - pulley.wrap).abs() < 1e-12);
+        assert!(pulley.friction_loss >= 0.0 && pulley.friction_utilisation < 1.0);
+        assert!(pulley.torque_margin.is_none_or(|margin| margin > 1.0));
+        // Geometry and hubs.
+        let end = state.layout.spans()[index].end;
+        let next = &state.layout.pulleys()[(index + 1) % count];
+        close(
+            "tangent",
+            (end[0] - next.centre[0]).hypot(end[1] - next.centre[1]),
+            next.radius,
+            1e-10,
+        );
+        polygon[0] += span.length * span.direction.cos();
+        polygon[1] += span.length * span.direction.sin();
+        let start = state.layout.spans()[index].start;
+        let arrived = state.layout.spans()[(index + count - 1) % count].end;
+        polygon[0] += start[0] - arrived[0];
+        polygon[1] += start[1] - arrived[1];
+        for (sum, load) in hub.iter_mut().zip([pulley.hub_load, pulley.rest_hub_load]) {
+            *sum = [sum[0] + load[0], sum[1] + load[1]];
+        }
+        let side = match stated.side {
+            beltdrive::belt_loop::Side::Inside => 1.0,
+            beltdrive::belt_loop::Side::Outside => -1.0,
+        };
+        turned += side * pulley.wrap;
+        let on_pulley = unstretched_on(belt_loop, state, index);
+        let on_span = span.length / (1.0 + span.tension / axial);
+        unstretched = unstretched
+            .zip(on_pulley)
+            .map(|(sum, arc)| sum + arc + on_span);
+    }
+    let scale = state.length;
+    assert!(
+        polygon.iter().all(|part| part.abs() < 1e-13 * scale),
+        "{polygon:?}"
+    );
+    assert!(
+        hub[0].iter().all(|part| part.abs() < small * count as f64),
+        "{hub:?}"
+    );
+    let resting = 1e-12 * state.rest_tension * count as f64;
+    assert!(hub[1].iter().all(|part| part.abs() < resting), "{hub:?}");
+    assert!((turned - TAU * f64::from(belt_loop.turning_number)).abs() < 1e-12);
+    if let Some(unstretched) = unstretched {
+        close("L_0", unstretched, state.unstretched_length, 2e-12);
+    }
+
+    let powers: f64 = state.pulleys.iter().map(|pulley| pulley.power).sum();
+    let balance = powers + state.power_loss;
+    assert!(
+        balance.abs() <= 1e-11 * state.power_in,
+        "{balance} of {}",
+        state.power_in
+    );
+    assert!((state.power_in - state.power_out + powers).abs() <= 1e-12 * state.power_in);
+    close(
+        "P",
+        state.power_in - state.power_out + 1.0,
+        state.power_loss + 1.0,
+        1e-11 * (1.0 + state.power_in),
+    );
+
+    match belt_loop.closure {
+        Closure::SetupTension(tension) => close("T_s", state.rest_tension, tension, 1e-10),
+        Closure::UnstretchedLength(length) => close("L_0", state.unstretched_length, length, 1e-14),
+        Closure::SpanTension { span, tension } => {
+            close("T", state.spans[span].tension, tension, 1e-11);
+        }
+        Closure::RestCoordinate(coordinate) => {
+            let found = state
+                .tensioner
+                .as_ref()
+                .map(|tensioner| tensioner.rest_coordinate);
+            assert_eq!(found, Some(coordinate));
+        }
+    }
+    for (index, pulley) in belt_loop.pulleys.iter().enumerate() {
+        let Mount::Tensioner(tensioner) = pulley.mount else {
+            continue;
+        };
+        let found = state.tensioner.as_ref().expect("a tensioner");
+        let at = |coordinate: f64, hub: [f64; 2]| {
+            // The derivative of the centre by differences of the layout.
+            let step = 1e-6;
+            let centre = |coordinate| {
+                belt_loop
+                    .layout(coordinate)
+                    .map(|layout| layout.pulleys()[index].centre)
+            };
+            let [Ok(low), Ok(high)] = [coordinate - step, coordinate + step].map(centre) else {
+                return;
+            };
+            let work = [0, 1].map(|part| hub[part] * (high[part] - low[part]) / (2.0 * step));
+            let spring = -tensioner.stiffness * (coordinate - tensioner.free_coordinate);
+            let off = spring + work[0] + work[1];
+            let scale = spring.abs() + work[0].abs() + work[1].abs();
+            assert!(off.abs() < 1e-8 * scale, "{off} of {scale}");
+        };
+        at(found.coordinate, state.pulleys[index].hub_load);
+        at(found.rest_coordinate, state.pulleys[index].rest_hub_load);
+        assert!(found.stiffness > 0.0 && found.rest_stiffness > 0.0);
+    }
+}
+
+/// Unstretched length of the belt on a pulley by its closed form, m: adhesion or elastic friction, then
+/// slip. `None` where soft bristles let the belt stick again after it has slipped, and where the strain at
+/// the entry is below the smallest number.
+fn unstretched_on(belt_loop: &BeltLoop, state: &LoopState, index: usize) -> Option<f64> {
+    let count = state.spans.len();
+    let (stated, pulley) = (&belt_loop.pulleys[index], &state.pulleys[index]);
+    let axial = belt_loop.belt.axial_stiffness;
+    let stiffness = axial - belt_loop.belt.mass_per_length * state.unstretched_speed.powi(2);
+    let entering = state.spans[(index + count - 1) % count].tractive_tension;
+    let leaving = state.spans[index].tractive_tension;
+    let slip_rate = stated.friction_coefficient / stated.radius;
+    let sense = (leaving - entering).signum();
+    let first = pulley.no_slip_arc * stated.radius;
+    let slipped = leaving * (-sense * slip_rate * stated.radius * pulley.slip_arc).exp();
+    let on_slip = stiffness / (slip_rate * axial)
+        * (leaving / slipped * ((axial + slipped) / (axial + leaving)))
+            .ln()
+            .abs();
+    let unslipped = match belt_loop.law {
+        FrictionLaw::Epp {
+            stiffness: bristles,
+        } if pulley.torque != 0.0 => {
+            let rate = (bristles / stiffness).sqrt();
+            let sticks_again = sense > 0.0 && rate < slip_rate && pulley.slip_arc > 0.0;
+            if sticks_again || rate * first > 600.0 {
+                return None;
+            }
+            let b = stiffness * pulley.entry_strain;
+            let a = axial + entering - b;
+            let tanh = (0.5 * rate * first).tanh();
+            let ratio = ((a - b) / (a + b)).abs().sqrt();
+            let integral = match a > b {
+                // artanh x with 1 − x in parts, of which none is a difference.
+                true => {
+                    let less = 2.0 / ((rate * first).exp() + 1.0)
+                        + tanh * (2.0 * b / (a + b)) / (1.0 + ratio);
+                    0.5 * ((1.0 + ratio * tanh) / less).ln()
+                }
+                false => (ratio * tanh).atan(),
+            };
+            2.0 * stiffness / rate / ((a - b) * (a + b)).abs().sqrt() * integral
+        }
+        _ => first * stiffness / (axial + entering),
+    };
+    Some(unslipped + on_slip)
+}

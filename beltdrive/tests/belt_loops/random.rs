@@ -1,0 +1,226 @@
+//! Random loops: solved with all invariants, or refused for a reason.
+
+use super::invariants::hold;
+use super::{belt, pulley};
+use beltdrive::belt_loop::{BeltLoop, Closure, Duty, Guide, Mount, Sense, Side, Tensioner, solve};
+use beltdrive::{Belt, FrictionLaw};
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+/// Numbers between 0 and 1 (Marsaglia, Xorshift RNGs, J. Stat. Softw. 8, 2003).
+struct Random(u64);
+
+impl Random {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        low + (high - low) * (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+fn random_loop(random: &mut Random) -> BeltLoop {
+    let count = random.between(2.0, 10.0).floor();
+    let law = match random.between(0.0, 1.0) < 0.5 {
+        true => FrictionLaw::Coulomb,
+        false => FrictionLaw::Epp {
+            stiffness: random.between(15.0, 23.0).exp(),
+        },
+    };
+    let driver = random.between(0.0, count).floor();
+    let held = random.between(0.0, 2.0 * count).floor();
+    let sense = match random.between(0.0, 1.0) < 0.5 {
+        true => Sense::CounterClockwise,
+        false => Sense::Clockwise,
+    };
+    let mut pulleys = Vec::new();
+    let mut index = 0.0;
+    while index < count {
+        let angle = sense.sign() * (index + random.between(-0.3, 0.3)) / count * TAU;
+        let is_outside = count > 3.0 && random.between(0.0, 1.0) < 0.3;
+        let distance = if is_outside {
+            random.between(0.2, 0.7)
+        } else {
+            random.between(0.8, 1.2)
+        };
+        let load = match random.between(0.0, 1.0) {
+            share if share < 0.3 => 0.0,
+            share if share < 0.4 => -random.between(0.0, 10.0),
+            _ => random.between(0.0, 25.0),
+        };
+        let centre = [0.5 * distance * angle.cos(), 0.5 * distance * angle.sin()];
+        let duty = match index == driver {
+            true => Duty::Driver(random.between(10.0, 250.0)),
+            false => Duty::Torque(load),
+        };
+        let side = if is_outside {
+            Side::Outside
+        } else {
+            Side::Inside
+        };
+        let mut placed = pulley(
+            &format!("{index}"),
+            centre,
+            random.between(0.02, 0.12),
+            side,
+            duty,
+        );
+        placed.friction_coefficient = random.between(0.2, 1.2);
+        if index == held && index != driver {
+            let start = random.between(-3.0, 3.0);
+            placed.duty = Duty::Torque(0.0);
+            placed.mount = Mount::Tensioner(Tensioner {
+                guide: Guide::Rotary {
+                    pivot: [centre[0] - 0.1 * start.cos(), centre[1] - 0.1 * start.sin()],
+                    arm_length: 0.1,
+                },
+                stiffness: random.between(5.0, 100.0),
+                free_coordinate: start + random.between(-1.5, 1.5),
+                start_coordinate: start,
+                travel: None,
+            });
+        }
+        pulleys.push(placed);
+        index += 1.0;
+    }
+    let tension = random.between(50.0, 1500.0);
+    BeltLoop {
+        belt: Belt {
+            mass_per_length: random.between(0.02, 0.3),
+            axial_stiffness: random.between(9.0, 14.0).exp(),
+            ..belt()
+        },
+        law,
+        sense,
+        turning_number: 1,
+        pulleys,
+        closure: Closure::SetupTension(tension),
+    }
+}
+
+/// The loop with another closure that is often met.
+fn with_random_closure(mut belt_loop: BeltLoop, random: &mut Random) -> BeltLoop {
+    let Closure::SetupTension(tension) = belt_loop.closure else {
+        return belt_loop;
+    };
+    let starts = belt_loop
+        .pulleys
+        .iter()
+        .find_map(|pulley| match pulley.mount {
+            Mount::Tensioner(tensioner) => Some(tensioner.start_coordinate),
+            Mount::Fixed(_) => None,
+        });
+    let span = random.between(0.0, belt_loop.pulleys.len() as f64);
+    belt_loop.closure = match (random.between(0.0, 4.0), starts) {
+        (choice, _) if choice < 1.0 => belt_loop.closure,
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "an index"
+        )]
+        (choice, _) if choice < 2.0 => Closure::SpanTension {
+            span: span as usize,
+            tension,
+        },
+        (choice, Some(start)) if choice < 3.0 => Closure::RestCoordinate(start),
+        (_, start) => match belt_loop.layout(start.unwrap_or(0.0)) {
+            Ok(layout) => {
+                let strain = tension / belt_loop.belt.axial_stiffness;
+                Closure::UnstretchedLength(layout.length() / (1.0 + strain))
+            }
+            Err(_) => belt_loop.closure,
+        },
+    };
+    belt_loop
+}
+
+#[test]
+fn random_loops_are_solved_or_refused_for_a_reason() {
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let mut solved_with = [0; 10];
+    let mut reasons = BTreeMap::new();
+    for _ in 0..4000 {
+        let belt_loop = random_loop(&mut random);
+        let belt_loop = with_random_closure(belt_loop, &mut random);
+        match solve(&belt_loop) {
+            Ok(state) => {
+                hold(&belt_loop, &state);
+                solved_with[belt_loop.pulleys.len()] += 1;
+            }
+            Err(error) => {
+                let message = error.to_string();
+                assert!(
+                    !message.contains("NaN") && !message.contains('\n'),
+                    "{message}"
+                );
+                let name = format!("{error:?}");
+                let name = name
+                    .split([' ', '(', '{'])
+                    .next()
+                    .unwrap_or_default()
+                    .to_owned();
+                assert!(name != "NotFound", "{error}\n{belt_loop:?}");
+                assert!(name != "Statement", "{error}\n{belt_loop:?}");
+                *reasons.entry(name).or_insert(0) += 1;
+            }
+        }
+    }
+    println!("solved {solved_with:?}, refused {reasons:?}");
+    assert!(
+        solved_with[2..].iter().all(|&count| count > 0),
+        "{solved_with:?}"
+    );
+    assert!(reasons.contains_key("Layout") && reasons.contains_key("GrossSlip"));
+}
+
+/// Loops with one number far from any belt drive.
+#[test]
+fn absurd_loops_have_finite_answers_or_a_reason() {
+    let mut random = Random(0x2545_f491_4f6c_dd1d);
+    let mut count = 0;
+    for _ in 0..4000 {
+        let belt_loop = random_loop(&mut random);
+        let mut belt_loop = with_random_closure(belt_loop, &mut random);
+        let factor = 10_f64.powf(random.between(-20.0, 20.0));
+        let pulley = &mut belt_loop.pulleys[1];
+        match random.between(0.0, 7.0) {
+            choice if choice < 1.0 => belt_loop.belt.mass_per_length *= factor,
+            choice if choice < 2.0 => belt_loop.belt.axial_stiffness *= factor,
+            choice if choice < 3.0 => pulley.friction_coefficient *= factor,
+            choice if choice < 4.0 => pulley.radius *= factor.min(1.0),
+            choice if choice < 5.0 => match &mut pulley.duty {
+                Duty::Driver(number) | Duty::Torque(number) => *number *= factor,
+            },
+            choice if choice < 6.0 => match &mut belt_loop.law {
+                FrictionLaw::Epp { stiffness } => *stiffness *= factor,
+                _ => continue,
+            },
+            _ => match &mut belt_loop.closure {
+                Closure::SetupTension(number)
+                | Closure::UnstretchedLength(number)
+                | Closure::RestCoordinate(number)
+                | Closure::SpanTension {
+                    tension: number, ..
+                } => *number *= factor,
+            },
+        }
+        match solve(&belt_loop) {
+            Ok(state) => {
+                count += 1;
+                let text = format!("{state:?}");
+                assert!(
+                    !text.contains("NaN") && !text.contains("inf"),
+                    "{belt_loop:?}\n{text}"
+                );
+            }
+            Err(error) => {
+                let text = error.to_string();
+                assert!(
+                    !text.contains("NaN") && !text.contains('\n'),
+                    "{belt_loop:?}\n{text}"
+                );
+            }
+        }
+    }
+    assert!(count > 400, "{count}");
+}
