@@ -11,16 +11,12 @@ use crate::problem::guess::interval_of;
 use crate::problem::problem::Segment;
 use crate::result::quality::{GlobalErrors, Quality};
 use crate::result::stats::Stats;
-#[cfg(feature = "serde")]
-use crate::result::stored::Stored;
 use std::fmt;
 use std::sync::Arc;
 
 /// A solution (or, in an [`Error`](crate::Error), the best iterate): a collocation polynomial on
 /// every interval, the parameters, and what is known of their accuracy.
 #[derive(Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(into = "Stored", try_from = "Stored"))]
 pub struct Solution {
     pub(crate) segments: Vec<Segment>,
     /// The units of the states of all segments and of the parameters; empty if they are all one.

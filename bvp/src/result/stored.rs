@@ -104,6 +104,19 @@ impl TryFrom<Stored> for Solution {
     }
 }
 
+impl serde::Serialize for Solution {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        Stored::from(self.clone()).serialize(serializer)
+    }
+}
+
+impl<'de> serde::Deserialize<'de> for Solution {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let stored = Stored::deserialize(deserializer)?;
+        Self::try_from(stored).map_err(serde::de::Error::custom)
+    }
+}
+
 impl Stored {
     /// Checks that every segment has its nodes and a number for every unknown.
     fn check(&self) -> Result<(), Error> {

@@ -15,20 +15,24 @@ use crate::problem::equations::{Equations, Shape};
 use crate::problem::guess::Guess;
 use crate::problem::held::Held;
 use crate::problem::problem::Ends;
+use crate::result::error::Error;
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
 use crate::solver::options::Options;
-use crate::solver::solver::solve;
 use crate::solver::stepping::{LOOSE, follow, on_the_way};
 use crate::solver::straight::Straight;
 
-/// A rough solution of the problem, of which only the parameters and the mesh of the guess are
+/// A solver of boundary value problems.
+type Solve = fn(&dyn Equations, &dyn Guess, &Options) -> Result<Solution, Error>;
+
+/// A rough solution of the problem by this solver, of which only the parameters and the mesh of the guess are
 /// used; `None` if the path ends before it. All cost is added to `stats`.
 pub(crate) fn rough_solution(
     equations: &Held<'_>,
     guess: &dyn Guess,
     options: &Options,
     stats: &mut Stats,
+    solve: Solve,
 ) -> Option<Solution> {
     let line = Straight::new(equations, guess)?;
     let options = Options {

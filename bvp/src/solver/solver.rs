@@ -124,7 +124,7 @@ impl Run<'_> {
             stats,
             ..
         } = &mut self.problem;
-        let rough = rough_solution(equations, guess, options, stats);
+        let rough = rough_solution(equations, guess, options, stats, solve);
         let rescued = rough.map(|rough| self.adapt(rough.mesh.clone(), Start::Solution(&rough)));
         match rescued {
             Some(Ok(solution)) => Ok(solution),
