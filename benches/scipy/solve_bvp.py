@@ -23,7 +23,7 @@ TOLERANCES = ("1e-3", "1e-6", "1e-9")
 RUNS = 5
 MAX_NODES = 30_000
 FALSE_FROM = 10.0
-TABLES = Path(__file__).parents[2] / "tests" / "reference_solutions.txt"
+TABLES = Path(__file__).parents[2] / "tests" / "src" / "reference_solutions.txt"
 
 
 def read_tables():
