@@ -9,8 +9,8 @@ use beltdrive::{Belt, BeltKind, FrictionLaw, NormalForce};
 use serde_json::Value;
 
 /// Relative bound of all quantities, and absolute bound of speed losses.
-const WITHIN: f64 = 1e-10;
-const SPEED_LOSS: f64 = 1e-12;
+const WITHIN: f64 = 1e-12;
+const SPEED_LOSS: f64 = 1e-15;
 
 /// The cases: name, loop, and what is known of it.
 pub(crate) fn read() -> Vec<(String, BeltLoop, Value)> {

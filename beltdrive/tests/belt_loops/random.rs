@@ -2,7 +2,9 @@
 
 use super::invariants::hold;
 use super::{belt, pulley};
-use beltdrive::belt_loop::{BeltLoop, Closure, Duty, Guide, Mount, Sense, Side, Tensioner, solve};
+use beltdrive::belt_loop::{
+    BeltLoop, Closure, Duty, Guide, LoopError, Mount, Sense, Side, Tensioner, solve,
+};
 use beltdrive::{Belt, FrictionLaw};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -67,23 +69,42 @@ fn random_loop(random: &mut Random) -> BeltLoop {
         );
         placed.friction_coefficient = random.between(0.2, 1.2);
         if index == held && index != driver {
-            let start = random.between(-3.0, 3.0);
             placed.duty = Duty::Torque(0.0);
-            placed.mount = Mount::Tensioner(Tensioner {
-                guide: Guide::Rotary {
-                    pivot: [centre[0] - 0.1 * start.cos(), centre[1] - 0.1 * start.sin()],
-                    arm_length: 0.1,
+            let angle = random.between(-3.0, 3.0);
+            let way = [angle.cos(), angle.sin()];
+            let stiffness = random.between(5.0, 100.0);
+            let travel = None;
+            placed.mount = Mount::Tensioner(match random.between(0.0, 1.0) < 0.5 {
+                true => Tensioner {
+                    guide: Guide::Rotary {
+                        pivot: [centre[0] - 0.1 * way[0], centre[1] - 0.1 * way[1]],
+                        arm_length: 0.1,
+                    },
+                    stiffness,
+                    free_coordinate: angle + random.between(-1.5, 1.5),
+                    start_coordinate: angle,
+                    travel,
                 },
-                stiffness: random.between(5.0, 100.0),
-                free_coordinate: start + random.between(-1.5, 1.5),
-                start_coordinate: start,
-                travel: None,
+                false => Tensioner {
+                    guide: Guide::Translating {
+                        origin: centre,
+                        direction: way,
+                    },
+                    stiffness: 100.0 * stiffness,
+                    free_coordinate: random.between(-0.2, 0.2),
+                    start_coordinate: 0.0,
+                    travel,
+                },
             });
         }
         pulleys.push(placed);
         index += 1.0;
     }
     let tension = random.between(50.0, 1500.0);
+    let is_crossed = count < 3.0 && random.between(0.0, 1.0) < 0.3;
+    if is_crossed {
+        pulleys[1].side = Side::Outside;
+    }
     BeltLoop {
         belt: Belt {
             mass_per_length: random.between(0.02, 0.3),
@@ -92,7 +113,7 @@ fn random_loop(random: &mut Random) -> BeltLoop {
         },
         law,
         sense,
-        turning_number: 1,
+        turning_number: if is_crossed { 0 } else { 1 },
         pulleys,
         closure: Closure::SetupTension(tension),
     }
@@ -223,4 +244,60 @@ fn absurd_loops_have_finite_answers_or_a_reason() {
         }
     }
     assert!(count > 400, "{count}");
+}
+
+/// The load limit by another way: just below it the loop is solved, just above it slips.
+#[test]
+fn gross_slip_begins_at_the_load_limit() {
+    let mut random = Random(0x6a09_e667_f3bc_c908);
+    let mut count = 0;
+    for _ in 0..1500 {
+        let belt_loop = random_loop(&mut random);
+        let mut belt_loop = with_random_closure(belt_loop, &mut random);
+        belt_loop.law = FrictionLaw::Coulomb;
+        let Ok(state) = solve(&belt_loop) else {
+            continue;
+        };
+        let Some(limit) = state.load_limit else {
+            continue;
+        };
+        // A torque of rounding errors would slip at a factor of its own.
+        if limit.factor > 1e6 {
+            continue;
+        }
+        count += 1;
+        let at = |share: f64| {
+            let mut scaled = belt_loop.clone();
+            for pulley in &mut scaled.pulleys {
+                if let Duty::Torque(torque) = &mut pulley.duty {
+                    *torque *= share * limit.factor;
+                }
+            }
+            (solve(&scaled), scaled)
+        };
+        let (below, scaled) = at(1.0 - 1e-7);
+        match below {
+            Ok(below) => {
+                hold(&scaled, &below);
+                let used = below.pulleys[limit.pulley].friction_utilisation;
+                assert!(used > 1.0 - 1e-4, "{used} {scaled:?}");
+            }
+            Err(error) => assert!(matches!(error, LoopError::Overstretched { .. }), "{error}"),
+        }
+        let (above, scaled) = at(1.0 + 1e-7);
+        let LoopError::GrossSlip {
+            pulley,
+            load_factor,
+            ..
+        } = above.expect_err("gross slip")
+        else {
+            panic!("gross slip {scaled:?}")
+        };
+        assert_eq!(pulley, scaled.pulleys[limit.pulley].name);
+        assert!(
+            (load_factor * (1.0 + 1e-7) - 1.0).abs() < 1e-9,
+            "{load_factor}"
+        );
+    }
+    assert!(count > 200, "{count}");
 }
