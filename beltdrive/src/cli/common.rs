@@ -26,7 +26,7 @@ pub(super) struct Common {
 impl Common {
     /// The drive, once it is clear that its results have somewhere to go.
     pub(super) fn drive(&self) -> Result<Drive, Failure> {
-        self.output.check()?;
+        self.output.check(&self.file)?;
         let (name, text) = read(&self.file)?;
         input::parse(&name, &text, &self.overrides).map_err(Failure::usage)
     }

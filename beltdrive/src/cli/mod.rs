@@ -1,6 +1,7 @@
 //! The commands: what they read, what they write, and their exit status.
 
 mod common;
+mod destinations;
 mod examples;
 mod failure;
 mod limits;

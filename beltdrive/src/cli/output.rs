@@ -1,10 +1,10 @@
 //! Where results go: a table on standard output, files, figures.
 
+use super::destinations::Destinations;
 use super::failure::Failure;
-use beltdrive::plot;
+use beltdrive::{plot, report::write_file};
 use clap::Args;
 use std::{
-    fs,
     io::{self, ErrorKind, Write},
     path::{Path, PathBuf},
 };
@@ -39,13 +39,17 @@ pub(super) trait Report {
 }
 
 impl Output {
-    /// Refuses two results on one standard output.
-    pub(super) fn check(&self) -> Result<(), Failure> {
-        if is_stdout(self.json.as_deref()) && is_stdout(self.csv.as_deref()) {
-            let message = "error: only one of --json and --csv can go to standard output";
-            return Err(Failure::usage(message));
+    /// Refuses outputs that would overwrite each other or the drive file.
+    pub(super) fn check(&self, drive_file: &Path) -> Result<(), Failure> {
+        Destinations {
+            texts: &[
+                ("--json", self.json.as_deref()),
+                ("--csv", self.csv.as_deref()),
+            ],
+            figures: self.plot.as_deref(),
+            drive_file: Some(drive_file),
         }
-        Ok(())
+        .check()
     }
 
     /// Prints and writes a result in the forms asked for.
@@ -87,7 +91,7 @@ pub(super) fn write_text(path: &Path, text: &str) -> Result<Option<PathBuf>, Fai
         return Ok(None);
     }
     let action = format!("write {}", path.display());
-    fs::write(path, text).map_err(|error| Failure::io(&action, &error))?;
+    write_file(path, text).map_err(|error| Failure::io(&action, &error))?;
     Ok(Some(path.to_owned()))
 }
 

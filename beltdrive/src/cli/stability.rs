@@ -30,7 +30,7 @@ pub(super) struct Command {
 
 impl Command {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        self.output.check()?;
+        self.output.check(&self.file)?;
         let (name, text) = read(&self.file)?;
         let drive = input::parse(&name, &text, &self.overrides).map_err(Failure::usage)?;
         let stability = with_bar(self.output.quiet, |progress| {

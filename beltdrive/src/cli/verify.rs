@@ -1,5 +1,6 @@
 //! `beltdrive verify`: the published results that the program stands on, recomputed.
 
+use super::destinations::Destinations;
 use super::failure::Failure;
 use super::output::{is_stream, note, print, write_text};
 use super::progress::with_bar;
@@ -42,14 +43,19 @@ type Form = fn(&Verification) -> String;
 
 impl Verify {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        let on_stdout = self.outputs().filter(|(path, _)| is_stream(path)).count();
-        if on_stdout > 1 {
-            let message =
-                "error: only one of --json, --markdown and --csv can go to standard output";
-            return Err(Failure::usage(message));
+        Destinations {
+            texts: &[
+                ("--json", self.json.as_deref()),
+                ("--markdown", self.markdown.as_deref()),
+                ("--csv", self.csv.as_deref()),
+            ],
+            figures: None,
+            drive_file: None,
         }
+        .check()?;
+        let on_stdout = self.outputs().any(|(path, _)| is_stream(path));
         let verification = with_bar(self.quiet, verify);
-        if !self.quiet && on_stdout == 0 {
+        if !self.quiet && !on_stdout {
             print(&table(&verification))?;
         }
         for (path, form) in self.outputs() {

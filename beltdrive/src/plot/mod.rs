@@ -13,6 +13,7 @@ mod profiles;
 mod stability;
 mod style;
 
+use crate::report::write_file;
 use crate::{Branch, LimitCurve, Stability, SteadyState};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -41,7 +42,7 @@ pub enum Error {
 
 /// Writes all figures of a state into a directory, which is created where it does not exist, and
 /// returns the files written: `drive.svg`, the drive to scale, and the profiles along both pulleys.
-/// Existing files of these names are replaced.
+/// Existing files of these names are replaced, each once the new one is complete.
 ///
 /// A V-belt has the profiles `tension.svg`, `inclination.svg`, `penetration.svg`,
 /// `sliding_angle.svg` and `normal_and_friction_force.svg`; a flat belt has `tension.svg`,
@@ -94,7 +95,7 @@ fn write(
     figures
         .map(|(name, figure)| {
             let path = directory.join(name);
-            match fs::write(&path, figure) {
+            match write_file(&path, &figure) {
                 Ok(()) => Ok(path),
                 Err(source) => Err(Error::Figure { path, source }),
             }

@@ -8,6 +8,7 @@ pub mod branch;
 mod columns;
 mod csv;
 mod errors;
+mod file;
 mod json;
 pub mod limit_curve;
 pub mod limits;
@@ -33,6 +34,7 @@ pub(crate) mod words;
 
 pub use self::csv::csv;
 pub(crate) use belt::convention;
+pub use file::write_file;
 pub use json::json;
 pub(crate) use lines::folded;
 pub(crate) use precision::Precision;

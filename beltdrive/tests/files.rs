@@ -1,0 +1,163 @@
+//! Files that the program reads and writes: none is destroyed, none is read without end.
+
+#[expect(dead_code, reason = "the drives of the other tests")]
+mod support;
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_beltdrive");
+
+/// A fresh directory of this test run with a right drive file, `drive.toml`.
+fn directory(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR"))
+        .join("files")
+        .join(name);
+    let _ = fs::remove_dir_all(&path);
+    fs::create_dir_all(&path).unwrap();
+    fs::write(path.join("drive.toml"), support::DRIVE).unwrap();
+    path
+}
+
+fn run(directory: &Path, args: &[&str]) -> Output {
+    let mut command = Command::new(PROGRAM);
+    command.args(args).current_dir(directory).output().unwrap()
+}
+
+#[track_caller]
+fn refused(output: &Output, message: &str) {
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{text}");
+    assert!(text.contains(message), "{text}");
+    assert!(output.stdout.is_empty());
+}
+
+fn names(directory: &Path) -> Vec<String> {
+    let names = fs::read_dir(directory).unwrap();
+    let mut names: Vec<_> = names
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+/// A file size limit of 512 or 1024 bytes stands for a full disk where its signal is ignored, and for a run
+/// that is ended while it writes where it is not.
+#[cfg(unix)]
+#[test]
+fn a_full_disk_and_an_interrupted_run_leave_the_old_file() {
+    for (name, signal, status) in [("full", "trap '' XFSZ;", Some(2)), ("ended", "", None)] {
+        let directory = directory(name);
+        for option in ["--json", "--csv"] {
+            let file = directory.join("out");
+            fs::write(&file, "good").unwrap();
+            let command = format!(
+                "ulimit -c 0; ulimit -f 1; {signal} exec \"$0\" solve drive.toml {option} out --quiet"
+            );
+            let output = Command::new("sh")
+                .args(["-c", &command, PROGRAM])
+                .current_dir(&directory)
+                .output()
+                .unwrap();
+            assert_eq!(output.status.code(), status);
+            assert_eq!(
+                fs::read_to_string(&file).unwrap(),
+                "good",
+                "{name} {option}"
+            );
+        }
+        if status.is_some() {
+            assert_eq!(names(&directory), ["drive.toml", "out"]);
+        }
+        let figures = directory.join("figures");
+        fs::create_dir(&figures).unwrap();
+        fs::write(figures.join("drive.svg"), "good").unwrap();
+        let command = format!(
+            "ulimit -c 0; ulimit -f 1; {signal} exec \"$0\" solve drive.toml --plot figures --quiet"
+        );
+        let output = Command::new("sh")
+            .args(["-c", &command, PROGRAM])
+            .current_dir(&directory)
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), status);
+        assert_eq!(
+            fs::read_to_string(figures.join("drive.svg")).unwrap(),
+            "good"
+        );
+    }
+}
+
+#[test]
+fn the_drive_file_is_not_overwritten() {
+    let directory = directory("same");
+    for command in ["solve", "limits", "stability"] {
+        let output = run(
+            &directory,
+            &[command, "drive.toml", "--json", "./drive.toml"],
+        );
+        refused(
+            &output,
+            "--json ./drive.toml would overwrite the drive file",
+        );
+    }
+    assert_eq!(
+        fs::read_to_string(directory.join("drive.toml")).unwrap(),
+        support::DRIVE
+    );
+}
+
+#[test]
+fn two_outputs_are_not_one_file() {
+    let directory = directory("two");
+    let output = run(
+        &directory,
+        &["solve", "drive.toml", "--json", "a", "--csv", "./a"],
+    );
+    refused(&output, "--json and --csv name the same file, ./a");
+    let output = run(&directory, &["verify", "--markdown", "a", "--csv", "a"]);
+    refused(&output, "--markdown and --csv name the same file, a");
+    let figure = [
+        "solve",
+        "drive.toml",
+        "--plot",
+        "figures",
+        "--csv",
+        "figures/drive.svg",
+    ];
+    refused(
+        &run(&directory, &figure),
+        "--csv figures/drive.svg is where --plot puts its figures",
+    );
+    let figure = ["solve", "drive.toml", "--plot", "a", "--csv", "a"];
+    refused(
+        &run(&directory, &figure),
+        "--csv a is where --plot puts its figures",
+    );
+    assert_eq!(names(&directory), ["drive.toml"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn devices_take_any_number_of_outputs() {
+    let directory = directory("devices");
+    let null = [
+        "solve",
+        "drive.toml",
+        "--json",
+        "/dev/null",
+        "--csv",
+        "/dev/null",
+        "--quiet",
+    ];
+    let output = run(&directory, &null);
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
