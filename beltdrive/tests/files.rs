@@ -161,3 +161,55 @@ fn devices_take_any_number_of_outputs() {
         String::from_utf8_lossy(&output.stderr)
     );
 }
+
+#[cfg(unix)]
+#[test]
+fn what_is_no_drive_file_is_not_read_without_end() {
+    let directory = directory("endless");
+    refused(
+        &run(&directory, &["solve", "/dev/zero"]),
+        "/dev/zero is a device, not a drive file",
+    );
+    refused(
+        &run(&directory, &["solve", "."]),
+        ". is a directory, not a drive file",
+    );
+    let zeros = fs::File::open("/dev/zero").unwrap();
+    let mut command = Command::new(PROGRAM);
+    let output = command.args(["solve", "-"]).stdin(zeros).output().unwrap();
+    refused(&output, "standard input is larger than 1 MiB");
+}
+
+#[test]
+fn the_size_of_a_drive_file_is_bounded() {
+    let directory = directory("large");
+    let mut text = support::DRIVE.to_owned();
+    text.push_str(&"#".repeat((1 << 20) - text.len()));
+    let file = directory.join("drive.toml");
+    fs::write(&file, &text).unwrap();
+    let output = run(&directory, &["solve", "drive.toml", "--quiet"]);
+    assert_eq!(output.status.code(), Some(0));
+    fs::write(&file, text + "#").unwrap();
+    refused(
+        &run(&directory, &["solve", "drive.toml"]),
+        "drive.toml is larger than 1 MiB",
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_with_a_name_is_read() {
+    let directory = directory("pipe");
+    let command = "mkfifo p && { cat drive.toml > p & exec \"$0\" solve p --quiet; }";
+    let output = Command::new("sh")
+        .args(["-c", command, PROGRAM])
+        .current_dir(&directory)
+        .output()
+        .unwrap();
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}

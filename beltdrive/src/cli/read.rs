@@ -3,20 +3,34 @@
 use super::failure::Failure;
 use super::output::is_stream;
 use beltdrive::examples;
+#[cfg(unix)]
+use std::os::unix::fs::FileTypeExt;
 use std::{
-    fs,
+    fs::{self, File, FileType},
     io::{self, ErrorKind, Read},
     path::Path,
 };
 
+/// The largest drive file, in MiB: a thousand times the size of one with every key and a comment beside
+/// each, which takes some 2 kB. Without a bound a device without an end would fill the memory.
+const LARGEST: u64 = 1;
+
 /// The name and the text of a drive file or of standard input.
 pub(super) fn read(file: &Path) -> Result<(String, String), Failure> {
     let (name, bytes) = if is_stream(file) {
-        let mut bytes = Vec::new();
-        let outcome = io::stdin().read_to_end(&mut bytes);
-        ("standard input".to_owned(), outcome.map(|_| bytes))
+        ("standard input".to_owned(), bounded(io::stdin().lock()))
     } else {
-        (file.display().to_string(), fs::read(file))
+        let name = file.display().to_string();
+        let metadata = fs::metadata(file);
+        if let Some(kind) = metadata
+            .ok()
+            .and_then(|metadata| unreadable(metadata.file_type()))
+        {
+            return Err(Failure::Usage(format!(
+                "error: {name} is {kind}, not a drive file"
+            )));
+        }
+        (name, File::open(file).and_then(bounded))
     };
     let bytes = bytes.map_err(|error| match Failure::io(&format!("read {name}"), &error) {
         Failure::Usage(message) if error.kind() == ErrorKind::NotFound => {
@@ -24,6 +38,12 @@ pub(super) fn read(file: &Path) -> Result<(String, String), Failure> {
         }
         failure => failure,
     })?;
+    if bytes.len() as u64 > LARGEST << 20 {
+        return Err(Failure::Usage(format!(
+            "error: {name} is larger than {LARGEST} MiB, a thousand times what a drive file takes: \
+             not a drive file"
+        )));
+    }
     let text = String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
         Failure::Usage(format!(
@@ -31,6 +51,25 @@ pub(super) fn read(file: &Path) -> Result<(String, String), Failure> {
         ))
     })?;
     Ok((name, text))
+}
+
+/// The bytes of a source, but of one that is too large only one more than the bound.
+fn bounded(source: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    source.take((LARGEST << 20) + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// What a path is that leads to neither a file nor a pipe.
+fn unreadable(kind: FileType) -> Option<&'static str> {
+    if kind.is_dir() {
+        return Some("a directory");
+    }
+    #[cfg(unix)]
+    if kind.is_char_device() || kind.is_block_device() {
+        return Some("a device");
+    }
+    None
 }
 
 /// Help for a missing file that is called like a shipped example.
