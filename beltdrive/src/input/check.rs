@@ -94,6 +94,9 @@ pub(super) fn number(
         let finding = Finding::new(place, message).expected(expected);
         return Err(match found.times(Dimension::ANGLE, 1) == dimension {
             true => finding.help("write what turns by: an angle in rad, deg or rev"),
+            false if found.times(Dimension::ACCELERATION, 1) == dimension => {
+                finding.help("a mass is no force: write lbf, kgf or N")
+            }
             false => finding,
         });
     }

@@ -22,6 +22,7 @@ impl Dimension {
     pub(super) const ANGLE: Self = Self::new(0, 0, 0, 1);
     pub(super) const INVERSE_LENGTH: Self = Self::new(0, -1, 0, 0);
     pub(super) const VELOCITY: Self = Self::new(0, 1, -1, 0);
+    pub(super) const ACCELERATION: Self = Self::new(0, 1, -2, 0);
     pub(super) const ANGULAR_SPEED: Self = Self::new(0, 0, -1, 1);
     pub(super) const MASS_PER_LENGTH: Self = Self::new(1, -1, 0, 0);
     pub(super) const FORCE: Self = Self::new(1, 1, -2, 0);
@@ -46,7 +47,7 @@ impl Dimension {
         (Self::POWER, "a power"),
         (Self::new(0, 2, 0, 0), "an area"),
         (Self::new(0, 0, -1, 0), "an inverse time"),
-        (Self::new(0, 1, -2, 0), "an acceleration"),
+        (Self::ACCELERATION, "an acceleration"),
         (Self::new(1, 0, -2, 0), "a force per length"),
     ];
 

@@ -1,13 +1,15 @@
 //! Units of measurement: their symbols and the grammar of compound units.
 //!
 //! ```text
-//! unit     = ["1"] ["/"] factor { ["*" | "·" | "/"] factor }
+//! unit     = spelling | ["1"] ["/"] factor { ["*" | "·" | "." | "-" | "/"] factor }
 //! factor   = symbol [["^"] exponent]
 //! symbol   = [prefix] unit symbol
 //! exponent = a small integer, also in superscript
 //! ```
 //!
-//! Factors side by side multiply; a `/` divides by the next factor only: `N/m s` is `(N/m)·s`.
+//! Factors side by side multiply; a `/` divides by the next factor only: `N/m s` is `(N/m)·s`. A `-` before
+//! a letter multiplies, before a digit it belongs to an exponent. A spelling stands in the table as a whole:
+//! the `lb` of `ft-lb` is a force, and what turns at `1450 1/min` makes 1450 revolutions a minute.
 
 use super::{dimension::Dimension, spelling};
 use std::{f64::consts::TAU, ops::Range};
@@ -23,21 +25,23 @@ pub(super) struct Unit {
 
 /// A unit with a symbol of its own.
 struct Named {
-    symbol: &'static str,
+    /// Its spellings, the preferred one first. In compound ones every product is a `-`, and an exponent
+    /// has no `^`, as [`plain`] makes them.
+    symbols: &'static [&'static str],
     name: &'static str,
     unit: Unit,
-    /// Whether the symbol takes SI prefixes.
+    /// Whether the symbols take SI prefixes.
     metric: bool,
 }
 
 const fn metric(
-    symbol: &'static str,
+    symbols: &'static [&'static str],
     name: &'static str,
     scale: f64,
     dimension: Dimension,
 ) -> Named {
     Named {
-        symbol,
+        symbols,
         name,
         unit: Unit { scale, dimension },
         metric: true,
@@ -45,14 +49,14 @@ const fn metric(
 }
 
 const fn other(
-    symbol: &'static str,
+    symbols: &'static [&'static str],
     name: &'static str,
     scale: f64,
     dimension: Dimension,
 ) -> Named {
     Named {
         metric: false,
-        ..metric(symbol, name, scale, dimension)
+        ..metric(symbols, name, scale, dimension)
     }
 }
 
@@ -63,62 +67,102 @@ const POUND: f64 = 0.453_592_37;
 /// Standard gravity, m/s² (exact).
 const GRAVITY: f64 = 9.806_65;
 
-const UNITS: [Named; 31] = [
-    metric("m", "metre", 1.0, Dimension::LENGTH),
-    other("in", "inch", INCH, Dimension::LENGTH),
-    other("ft", "foot", 12.0 * INCH, Dimension::LENGTH),
-    metric("g", "gram", 1e-3, Dimension::MASS),
-    other("lb", "pound", POUND, Dimension::MASS),
-    other("lbm", "pound mass", POUND, Dimension::MASS),
-    other("oz", "ounce", POUND / 16.0, Dimension::MASS),
-    metric("s", "second", 1.0, Dimension::TIME),
-    other("min", "minute", 60.0, Dimension::TIME),
-    other("h", "hour", 3600.0, Dimension::TIME),
-    metric("rad", "radian", 1.0, Dimension::ANGLE),
-    other("deg", "degree", TAU / 360.0, Dimension::ANGLE),
-    other("°", "degree", TAU / 360.0, Dimension::ANGLE),
-    other("rev", "revolution", TAU, Dimension::ANGLE),
-    other("rpm", "rev/min", TAU / 60.0, Dimension::ANGULAR_SPEED),
-    // A frequency of rotation: what turns at 1 Hz turns by 2π rad in a second.
-    metric("Hz", "hertz", TAU, Dimension::ANGULAR_SPEED),
-    metric("N", "newton", 1.0, Dimension::FORCE),
-    other("kgf", "kilopond", GRAVITY, Dimension::FORCE),
-    other("lbf", "pound force", POUND * GRAVITY, Dimension::FORCE),
-    metric("Pa", "pascal", 1.0, Dimension::FORCE_PER_AREA),
-    metric("bar", "bar", 1e5, Dimension::FORCE_PER_AREA),
+const UNITS: [Named; 38] = [
+    metric(&["m"], "metre", 1.0, Dimension::LENGTH),
+    other(&["in", "inch"], "inch", INCH, Dimension::LENGTH),
+    other(&["ft"], "foot", 12.0 * INCH, Dimension::LENGTH),
+    metric(&["g"], "gram", 1e-3, Dimension::MASS),
+    other(&["lb", "lbs"], "pound", POUND, Dimension::MASS),
+    other(&["lbm"], "pound mass", POUND, Dimension::MASS),
+    other(&["oz"], "ounce", POUND / 16.0, Dimension::MASS),
+    metric(&["s", "sec"], "second", 1.0, Dimension::TIME),
+    other(&["min"], "minute", 60.0, Dimension::TIME),
+    other(&["h", "hr"], "hour", 3600.0, Dimension::TIME),
+    metric(&["rad"], "radian", 1.0, Dimension::ANGLE),
+    other(&["deg", "°"], "degree", TAU / 360.0, Dimension::ANGLE),
+    other(&["rev", "r", "U"], "revolution", TAU, Dimension::ANGLE),
+    // ISO 80000-3 gives r/min and 1/min for the rotational frequency: no other angle than a revolution is
+    // meant. 1/s is not here, because it may be rad/s.
     other(
-        "psi",
+        &["rpm", "RPM", "1/min", "/min", "min-1"],
+        "rev/min",
+        TAU / 60.0,
+        Dimension::ANGULAR_SPEED,
+    ),
+    // A frequency of rotation: what turns at 1 Hz turns by 2π rad in a second.
+    metric(&["Hz"], "hertz", TAU, Dimension::ANGULAR_SPEED),
+    metric(&["N"], "newton", 1.0, Dimension::FORCE),
+    other(&["kgf", "kp"], "kilopond", GRAVITY, Dimension::FORCE),
+    other(&["lbf"], "pound force", POUND * GRAVITY, Dimension::FORCE),
+    metric(&["Pa"], "pascal", 1.0, Dimension::FORCE_PER_AREA),
+    metric(&["bar"], "bar", 1e5, Dimension::FORCE_PER_AREA),
+    other(
+        &["psi"],
         "pound per square inch",
         POUND * GRAVITY / (INCH * INCH),
         Dimension::FORCE_PER_AREA,
     ),
-    metric("J", "joule", 1.0, Dimension::TORQUE),
+    metric(&["J"], "joule", 1.0, Dimension::TORQUE),
     // The product written without a sign, as torques often are.
-    metric("Nm", "newton metre", 1.0, Dimension::TORQUE),
-    metric("W", "watt", 1.0, Dimension::POWER),
+    metric(&["Nm"], "newton metre", 1.0, Dimension::TORQUE),
+    other(&["Ncm"], "newton centimetre", 1e-2, Dimension::TORQUE),
+    other(&["Nmm"], "newton millimetre", 1e-3, Dimension::TORQUE),
+    // In these the pound and the ounce are forces.
+    other(
+        &["ft-lb", "lb-ft", "ft-lbs"],
+        "foot pound",
+        12.0 * INCH * POUND * GRAVITY,
+        Dimension::TORQUE,
+    ),
+    other(
+        &["in-lb", "lb-in", "in-lbs"],
+        "inch pound",
+        INCH * POUND * GRAVITY,
+        Dimension::TORQUE,
+    ),
+    other(
+        &["oz-in", "in-oz"],
+        "inch ounce",
+        INCH * POUND * GRAVITY / 16.0,
+        Dimension::TORQUE,
+    ),
+    metric(&["W"], "watt", 1.0, Dimension::POWER),
     // Mechanical horsepower: 550 ft·lbf/s.
     other(
-        "hp",
+        &["hp"],
         "horsepower",
         550.0 * 12.0 * INCH * POUND * GRAVITY,
         Dimension::POWER,
     ),
     other(
-        "mph",
+        &["mph"],
         "mile/h",
         5280.0 * 12.0 * INCH / 3600.0,
         Dimension::VELOCITY,
     ),
-    other("mil", "mil", 1e-3 * INCH, Dimension::LENGTH),
-    other("t", "tonne", 1e3, Dimension::MASS),
     other(
-        "ozf",
+        &["fpm"],
+        "foot/min",
+        12.0 * INCH / 60.0,
+        Dimension::VELOCITY,
+    ),
+    other(&["mil"], "mil", 1e-3 * INCH, Dimension::LENGTH),
+    other(&["t"], "tonne", 1e3, Dimension::MASS),
+    other(
+        &["ozf"],
         "ounce force",
         POUND * GRAVITY / 16.0,
         Dimension::FORCE,
     ),
     other(
-        "kip",
+        &["ksi"],
+        "kilopound per square inch",
+        1e3 * POUND * GRAVITY / (INCH * INCH),
+        Dimension::FORCE_PER_AREA,
+    ),
+    other(&["%"], "percent", 1e-2, Dimension::NUMBER),
+    other(
+        &["kip"],
         "kilopound force",
         1e3 * POUND * GRAVITY,
         Dimension::FORCE,
@@ -126,11 +170,12 @@ const UNITS: [Named; 31] = [
 ];
 
 /// SI prefixes: symbol, name, factor. Micro is written in three ways.
-const PREFIXES: [(&str, &str, f64); 11] = [
+const PREFIXES: [(&str, &str, f64); 12] = [
     ("G", "giga", 1e9),
     ("M", "mega", 1e6),
     ("k", "kilo", 1e3),
     ("h", "hecto", 1e2),
+    ("da", "deca", 1e1),
     ("d", "deci", 1e-1),
     ("c", "centi", 1e-2),
     ("m", "milli", 1e-3),
@@ -145,6 +190,10 @@ const MAX_EXPONENT: u32 = 9;
 
 /// Reads a unit; the error is the part of `text` that is none.
 pub(super) fn parse(text: &str) -> Result<Unit, Range<usize>> {
+    let whole = plain(text);
+    if let Some(named) = UNITS.iter().find(|named| named.symbols.contains(&&*whole)) {
+        return Ok(named.unit);
+    }
     let mut unit = Unit {
         scale: 1.0,
         dimension: Dimension::NUMBER,
@@ -158,15 +207,17 @@ pub(super) fn parse(text: &str) -> Result<Unit, Range<usize>> {
     let mut operator: Option<(char, Range<usize>)> = None;
     while let Some(first) = text[position..].chars().next() {
         let rest = &text[position..];
-        let length = match first {
-            _ if is_separator(first) => first.len_utf8(),
-            _ => rest.find(is_separator).unwrap_or(rest.len()),
+        let joins = position > 0 && is_hyphen(rest);
+        let is_factor = !joins && !is_separator(first);
+        let length = match is_factor {
+            true => factor_length(rest),
+            false => first.len_utf8(),
         };
         let range = position..position + length;
         position = range.end;
         if first.is_whitespace() {
             continue;
-        } else if !is_separator(first) {
+        } else if is_factor {
             let (factor, exponent) = factor(&text[range.clone()]).ok_or(range)?;
             let exponent = match operator.take() {
                 Some(('/', _)) => -exponent,
@@ -188,7 +239,7 @@ pub(super) fn parse(text: &str) -> Result<Unit, Range<usize>> {
 pub(super) fn nearest(factor: &str) -> Option<String> {
     let (symbol, exponent) = split_exponent(factor);
     let plain = UNITS.iter().flat_map(|named| {
-        let symbol = named.symbol.to_owned();
+        let symbol = named.symbols[0].to_owned();
         [
             (symbol.clone(), symbol.clone()),
             (named.name.to_owned(), symbol),
@@ -197,7 +248,7 @@ pub(super) fn nearest(factor: &str) -> Option<String> {
     let metric = UNITS.iter().filter(|named| named.metric);
     let prefixed = metric.flat_map(|named| {
         PREFIXES.iter().flat_map(|(prefix, name, _)| {
-            let symbol = format!("{prefix}{}", named.symbol);
+            let symbol = format!("{prefix}{}", named.symbols[0]);
             [
                 (symbol.clone(), symbol.clone()),
                 (format!("{name}{}", named.name), symbol),
@@ -208,7 +259,29 @@ pub(super) fn nearest(factor: &str) -> Option<String> {
 }
 
 fn is_separator(c: char) -> bool {
-    c.is_whitespace() || matches!(c, '*' | '·' | '⋅' | '/')
+    c.is_whitespace() || matches!(c, '*' | '·' | '⋅' | '.' | '/')
+}
+
+/// Whether a text begins with a `-` that multiplies: one before a letter.
+fn is_hyphen(text: &str) -> bool {
+    let behind = text.strip_prefix('-');
+    behind.is_some_and(|behind| behind.starts_with(char::is_alphabetic))
+}
+
+/// Length of the factor that a text begins with.
+fn factor_length(text: &str) -> usize {
+    let mut places = text.char_indices();
+    let end = places.find(|&(i, c)| is_separator(c) || is_hyphen(&text[i..]));
+    end.map_or(text.len(), |(i, _)| i)
+}
+
+/// A text as the table spells it: `ft·lb` and `ft lb` as `ft-lb`, `min⁻¹` and `min^-1` as `min-1`.
+fn plain(text: &str) -> String {
+    let text: String = text.chars().map(plain_digit).collect();
+    let factors = text.split(|c| is_separator(c) && c != '/');
+    let factors: Vec<_> = factors.filter(|factor| !factor.is_empty()).collect();
+    let text = factors.join("-").replace('^', "");
+    text.replace("-/", "/").replace("/-", "/")
 }
 
 /// Reads one factor: a unit and the exponent it is raised to.
@@ -252,7 +325,7 @@ fn plain_digit(c: char) -> char {
 /// A symbol as it stands in the table or, if it stands there not, with a prefix split off: `min` is
 /// a minute and no milli-inch.
 fn lookup(symbol: &str) -> Option<Unit> {
-    let find = |symbol| UNITS.iter().find(|named| named.symbol == symbol);
+    let find = |symbol: &str| UNITS.iter().find(|named| named.symbols.contains(&symbol));
     if let Some(named) = find(symbol) {
         return Some(named.unit);
     }
@@ -316,17 +389,62 @@ mod tests {
     #[test]
     fn every_symbol_is_read_as_itself_with_and_without_prefix() {
         for named in &UNITS {
-            check(named.symbol, named.unit.scale, named.unit.dimension);
+            for symbol in named.symbols {
+                check(symbol, named.unit.scale, named.unit.dimension);
+            }
             for (prefix, _, factor) in PREFIXES {
-                let prefixed = format!("{prefix}{}", named.symbol);
-                let own = UNITS.iter().any(|other| other.symbol == prefixed);
+                let prefixed = format!("{prefix}{}", named.symbols[0]);
+                let own = UNITS
+                    .iter()
+                    .any(|other| other.symbols.contains(&&*prefixed));
                 if named.metric && !own {
                     check(&prefixed, factor * named.unit.scale, named.unit.dimension);
                 } else if !own {
-                    assert_eq!(parse(&prefixed), Err(0..prefixed.len()), "{prefixed}");
+                    assert!(parse(&prefixed).is_err(), "{prefixed}");
                 }
             }
         }
+    }
+
+    #[test]
+    fn spellings_of_engineers_are_read() {
+        for text in [
+            "1/min",
+            "1 / min",
+            "/min",
+            "min-1",
+            "min^-1",
+            "min⁻¹",
+            "r/min",
+            "U/min",
+            "rev/min",
+            "RPM",
+            "rev min^-1",
+        ] {
+            check(text, TAU / 60.0, Dimension::ANGULAR_SPEED);
+        }
+        for text in ["N.m", "N-m", "N·m", "N m", "Nm", "J", "daN.dm", "N.m^2/m"] {
+            check(text, 1.0, Dimension::TORQUE);
+        }
+        for text in [
+            "ft-lb", "ft·lb", "ft lb", "ft.lb", "lb-ft", "lb·ft", "ft-lbs", "ft-lbf", "lbf ft",
+        ] {
+            check(text, 1.355_817_948_331_400_4, Dimension::TORQUE);
+        }
+        check("in-lb", 0.112_984_829_027_616_7, Dimension::TORQUE);
+        check("oz-in", 0.007_061_551_814_226_044, Dimension::TORQUE);
+        check("%", 0.01, Dimension::NUMBER);
+        check("daN", 10.0, Dimension::FORCE);
+        check("daN/mm^2", 1e7, Dimension::FORCE_PER_AREA);
+        check("fpm", 0.005_08, Dimension::VELOCITY);
+        check("kg.m-1", 1.0, Dimension::MASS_PER_LENGTH);
+        // Neither rad/s nor rev/s beyond doubt.
+        check("1/s", 1.0, Dimension::NUMBER.times(Dimension::TIME, -1));
+        check(
+            "1/h",
+            1.0 / 3600.0,
+            Dimension::NUMBER.times(Dimension::TIME, -1),
+        );
     }
 
     #[test]
@@ -335,6 +453,9 @@ mod tests {
         assert_eq!(parse("N/parsec^2"), Err(2..10));
         assert_eq!(parse("N//m"), Err(2..3));
         assert_eq!(parse("N/"), Err(1..2));
+        assert_eq!(parse("N-"), Err(0..2));
+        assert_eq!(parse("N.-m"), Err(2..3));
+        assert_eq!(parse("-m"), Err(0..2));
         for text in [
             "m^", "m^0", "m^99", "m^2^2", "m^2m", "2", "1", "^2", "kkg", "kin",
         ] {
