@@ -109,7 +109,7 @@ impl<'d> Chart<'d> {
             tight.set(&mut drive, least);
         }
         let (first, solved) = first_state(&drive, &self.key, self.tolerance)?;
-        let [_, high] = domain(&first, &self.key);
+        let [_, high] = domain(&first, &self.key, self.tolerance)?;
         let (key, tolerance) = (&self.key, self.tolerance);
         let found = upwards(&first, key, tolerance, solved, high, &mut |_, _| {});
         self.convergence.add(&found.tracer.convergence);
@@ -119,7 +119,7 @@ impl<'d> Chart<'d> {
             reason,
             state,
             ..
-        } = found.limit();
+        } = found.limit()?;
         match (reason, found.tracer.near) {
             (RangeEnd::Limit(reason), Some(near)) => Ok(Located {
                 point: LimitCurvePoint {

@@ -1,7 +1,7 @@
 //! Both ends of the range of an entry over which a drive has steady states.
 
 use super::path::{Path, Solved};
-use super::solve::{carried, find};
+use super::solve::{carried, find, forwards, is_crossed};
 use super::state::describe;
 use super::tracer::{Tracer, Until};
 use super::watched::RATIOS;
@@ -36,10 +36,11 @@ pub(crate) fn limits(
     progress(0.0, "solving a state between the limits");
     let (drive, solved) = first_state(drive, key, tolerance)?;
     let value = key.get(&drive);
-    let [low, high] = domain(&drive, key);
+    let [low, high] = domain(&drive, key, tolerance)?;
+    forwards(&drive, &describe(&Path::new(&drive, tolerance), &solved))?;
 
     let mut up = upwards(&drive, key, tolerance, solved.clone(), high, progress);
-    let largest = up.limit();
+    let largest = up.limit()?;
     let is_load = *key == Key::load(&drive);
     let bottom = if is_load && !matches!(drive.law, crate::FrictionLaw::Bristle { .. }) {
         // Below that the branch is left to the state without load.
@@ -48,16 +49,19 @@ pub(crate) fn limits(
         low
     };
     let mut tracer = Tracer::new(&drive, *key, [bottom, value], tolerance, Until::LimitPoint);
+    if is_load {
+        tracer.no_load = Some(low);
+    }
     let end = if bottom < value {
         tracer.run(solved, value, Direction::Decreasing, progress)
     } else {
         BranchEnd::Target
     };
     let down = Traced { tracer, end };
-    let smallest = if is_load && bottom > low {
-        no_load(&drive, tolerance)?
+    let smallest = if is_load && (bottom > low || bottom == value) {
+        no_load(&drive, key, tolerance)?
     } else {
-        down.limit()
+        down.limit()?
     };
     let mut down = down.tracer;
 
@@ -133,6 +137,9 @@ pub(super) fn upwards<'d>(
     loop {
         (top, stretches) = ((top * STRETCH).min(high), stretches + 1);
         let mut tracer = Tracer::new(drive, *key, [value, top], tolerance, Until::LimitPoint);
+        if is_slack(key) {
+            tracer.no_load = Some(high);
+        }
         let end = tracer.run(solved.clone(), value, Direction::Increasing, progress);
         let reached = tracer.points.last().is_some_and(|point| point.value == top);
         if !reached || top == high || stretches == STRETCHES {
@@ -143,7 +150,10 @@ pub(super) fn upwards<'d>(
 
 impl Traced<'_> {
     /// Its end as a limit.
-    pub(super) fn limit(&self) -> Limit {
+    ///
+    /// # Errors
+    /// The branch could not be followed from its first state.
+    pub(super) fn limit(&self) -> Result<Limit, SolveError> {
         let last = self.tracer.events.last();
         let reason = match last {
             Some(event) if matches!(event.kind, EventKind::GrossSlip(_)) => {
@@ -158,27 +168,27 @@ impl Traced<'_> {
         };
         let event = last.filter(|_| matches!(reason, RangeEnd::Limit(_)));
         let at_event = event.map(|event| &event.point);
-        let point = at_event
-            .or(self.tracer.points.last())
-            .expect("a trace has a first point");
-        Limit {
+        let Some(point) = at_event.or(self.tracer.points.last()) else {
+            return Err(SolveError::NoLimit {
+                reached: self.tracer.key.get(self.tracer.drive),
+                cause: self.end.to_string(),
+            });
+        };
+        Ok(Limit {
             value: point.value,
             value_error: event.and_then(|event| event.value_error),
             reason,
             state: point.state.clone(),
             errors: event.and_then(|event| event.errors),
-        }
+        })
     }
 }
 
 /// The state without load: both spans have the same tension. Its ε is the smallest that was reached.
-fn no_load(drive: &Drive, tolerance: f64) -> Result<Limit, SolveError> {
-    let key = Key::load(drive);
-    let mut idle = drive.clone();
-    let value = drive.load.slack.value();
-    key.set(&mut idle, value);
+fn no_load(drive: &Drive, key: &Key, tolerance: f64) -> Result<Limit, SolveError> {
+    let idle = idle(drive, key);
     let mut path = Path::new(&idle, tolerance);
-    let scaled = value / path.scales.force;
+    let scaled = idle.load.tight.value() / path.scales.force;
     let solved = match path.at_load(scaled) {
         Ok(solved) => solved,
         // Stuck on the way to a smaller ε.
@@ -195,32 +205,71 @@ fn no_load(drive: &Drive, tolerance: f64) -> Result<Limit, SolveError> {
     // Without an estimate of its own the state is only as good as the effect of its ε is known.
     let estimate = solved.solution.error_estimate();
     let relative = estimate.map(|estimate| estimate.max(path.epsilon_effect));
+    let (value, value_error) = match is_crossed(drive) {
+        false => (idle.load.tight.value(), Some(0.0)),
+        true => {
+            let value = match key.path().contains("tractive") {
+                true => state.tight_tractive_tension,
+                false => state.tight_tension,
+            };
+            (value, relative.map(|relative| relative * value))
+        }
+    };
     let state = StateSummary {
         error_estimate: relative,
         ..StateSummary::from(&state)
     };
     Ok(Limit {
         value,
-        value_error: Some(0.0),
+        value_error,
         reason: RangeEnd::NoLoad,
         errors: relative.map(|relative| StateErrors::relative(&state, drive, relative)),
         state,
     })
 }
 
+/// Whether an entry is the tension of the slack span.
+fn is_slack(key: &Key) -> bool {
+    key.path().starts_with("load.slack")
+}
+
+/// The drive with the tension of one span replaced by that of the other.
+fn idle(drive: &Drive, key: &Key) -> Drive {
+    let mut idle = drive.clone();
+    match is_slack(key) {
+        true => idle.load.slack = idle.load.tight,
+        false => idle.load.tight = idle.load.slack,
+    }
+    idle
+}
+
+/// The value of a span tension at which both spans have the same: a bound of its values.
+fn equal(drive: &Drive, key: &Key, tolerance: f64) -> Result<f64, SolveError> {
+    match is_crossed(drive) {
+        false => Ok(idle(drive, key).load.tight.value()),
+        true => no_load(drive, key, tolerance).map(|limit| limit.value),
+    }
+}
+
 /// The values of an entry that a drive can have.
-pub(super) fn domain(drive: &Drive, key: &Key) -> [f64; 2] {
+///
+/// # Errors
+/// The state without load, at which a tension ends, was not found.
+pub(super) fn domain(drive: &Drive, key: &Key, tolerance: f64) -> Result<[f64; 2], SolveError> {
     let value = key.get(drive);
-    let (slack, tight) = (drive.load.slack.value(), drive.load.tight.value());
     let [mut low, mut high] = [SMALLEST_SHARE * value, f64::INFINITY];
     match key.path() {
-        "load.tight_tractive_tension" | "load.tight_tension" => low = slack,
-        "load.slack_tractive_tension" | "load.slack_tension" => high = tight,
+        "load.tight_tractive_tension" | "load.tight_tension" => {
+            low = equal(drive, key, tolerance)?;
+        }
+        "load.slack_tractive_tension" | "load.slack_tension" => {
+            high = equal(drive, key, tolerance)?;
+        }
         "groove.half_angle" => high = 0.49 * PI,
         "layout.centre_distance" => low = 1.001 * (drive.driver_radius + drive.driven_radius),
         "pulleys.driver.radius" => high = 0.999 * drive.centre_distance - drive.driven_radius,
         "pulleys.driven.radius" => high = 0.999 * drive.centre_distance - drive.driver_radius,
         _ => {}
     }
-    [low, high]
+    Ok([low, high])
 }

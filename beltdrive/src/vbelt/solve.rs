@@ -4,6 +4,7 @@ use super::limit::Found;
 use super::path::{Path, Solved, Stuck};
 use super::state::steady_state;
 use crate::{Drive, SolveError, SolveOptions, SpanTension, SteadyState};
+use std::mem::discriminant;
 use web_time::Instant;
 
 /// The steady state of a V-belt drive, from nothing but the drive.
@@ -59,8 +60,25 @@ fn conclude(
     let state = steady_state(&path, solved, start);
     match state.violated() {
         Some(check) => Err(SolveError::Violated(check.clone())),
-        None => Ok(state),
+        None => forwards(path.drive, &state).map(|()| state),
     }
+}
+
+/// Refuses a state in which the tight span is the slacker one. Where one tension is stated as tractive and
+/// the other as belt tension this is seen only once the belt speed is known.
+pub(super) fn forwards(drive: &Drive, state: &SteadyState) -> Result<(), SolveError> {
+    match is_crossed(drive) && state.tight_tension < state.slack_tension {
+        true => Err(SolveError::Backwards {
+            slack: state.slack_tension,
+            tight: state.tight_tension,
+        }),
+        false => Ok(()),
+    }
+}
+
+/// Whether the tension of one span is stated as tractive and that of the other as belt tension.
+pub(super) fn is_crossed(drive: &Drive) -> bool {
+    discriminant(&drive.load.slack) != discriminant(&drive.load.tight)
 }
 
 /// The state found, or the reason why the load is not carried or not reached.

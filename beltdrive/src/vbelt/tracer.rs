@@ -11,6 +11,7 @@
 
 use super::path::Solved;
 use super::piece::PieceEnd;
+use super::solve::is_crossed;
 use crate::input::Key;
 use crate::{
     BranchEnd, BranchEvent, Drive, EventKind, StateErrors, StateSummary, SteadyState,
@@ -50,6 +51,8 @@ pub(super) struct Tracer<'d> {
     pub(super) refinements: i32,
     /// The last state that is no limit point, and the value of the entry there.
     pub(super) near: Option<(f64, Solved)>,
+    /// The value at which both spans have the same tension, where it is known.
+    pub(super) no_load: Option<f64>,
 }
 
 impl<'d> Tracer<'d> {
@@ -76,6 +79,12 @@ impl<'d> Tracer<'d> {
             before: 0.0,
             refinements: 0,
             near: None,
+            no_load: match key {
+                _ if is_crossed(drive) => None,
+                key if key == Key::load(drive) => Some(drive.load.slack.value()),
+                key if key.path().starts_with("load.slack") => Some(drive.load.tight.value()),
+                _ => None,
+            },
         }
     }
 
@@ -208,14 +217,7 @@ impl<'d> Tracer<'d> {
         let first = self.points.first().map(|point| point.value);
         match stop {
             Some(Stop::Bound { .. }) => {
-                let is_load = self.key == Key::load(self.drive);
-                let is_slack = self.key.path().starts_with("load.slack");
-                let other = match self.drive.load {
-                    load if is_load => Some(load.slack.value()),
-                    load if is_slack => Some(load.tight.value()),
-                    _ => None,
-                };
-                let no_load = other.is_some() && value == other;
+                let no_load = value.is_some() && value == self.no_load;
                 if no_load {
                     BranchEnd::NoLoad
                 } else if value == first {
