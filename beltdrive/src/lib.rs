@@ -99,6 +99,7 @@
 
 pub mod belt_loop;
 mod branch;
+mod difficulty;
 mod drive;
 pub mod examples;
 pub mod flat;

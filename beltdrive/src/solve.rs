@@ -1,5 +1,6 @@
 //! Steady states of every kind of drive: a drive in, a state or the reason why there is none out.
 
+use crate::difficulty;
 use crate::report::six_digits;
 use crate::{BeltKind, Check, Drive, FrictionLaw, LimitReason, SpanTension, SteadyState};
 use crate::{flat, vbelt};
@@ -94,7 +95,7 @@ pub enum SolveError {
     #[error("{0}")]
     NotModelled(&'static str),
     /// The way to the steady state was not found.
-    #[error("not converged: {}; {cause}", reached(*.tight))]
+    #[error("not converged: {}; {}", reached(*.tight), difficulty::of_solver(.cause))]
     NotConverged {
         /// Tight tension up to which the state was found, N.
         tight: Option<f64>,

@@ -168,11 +168,11 @@ fn files_and_figures_are_written() {
 fn what_is_not_modelled_is_refused() {
     fails(
         &stability("kim2009", &[]),
-        1,
+        2,
         "the stability of V-belt drives is not modelled",
     );
     let creep = stability("kim2009-flat", &["--set", "friction.law=creep-rate"]);
-    fails(&creep, 1, "friction laws epp and coulomb only");
+    fails(&creep, 2, "friction laws epp and coulomb only");
     for modes in ["0", "61", "x"] {
         fails(
             &stability("kim2009-flat", &["--modes", modes]),

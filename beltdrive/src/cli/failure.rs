@@ -25,6 +25,13 @@ impl Failure {
 
 impl From<SolveError> for Failure {
     fn from(error: SolveError) -> Self {
-        Self::Unsolved(format!("error: {error}"))
+        let message = format!("error: {error}");
+        match error {
+            // What was asked makes no sense, whatever the drive carries.
+            SolveError::NotModelled(_)
+            | SolveError::Backwards { .. }
+            | SolveError::Tolerance { .. } => Self::Usage(message),
+            _ => Self::Unsolved(message),
+        }
     }
 }

@@ -10,6 +10,7 @@ use super::state::describe;
 use super::tracer::{Tracer, Until};
 use super::watched::{FIRST_ZONE, RATIO, RATIOS};
 use super::zones::Split;
+use crate::difficulty;
 use crate::{BranchEnd, Drive, EventKind, FrictionLaw, Pulley};
 use bvp::{Control, Family, Scheme};
 use continuation::{Branch, Direction, Kind, Options, Point};
@@ -108,7 +109,10 @@ impl Tracer<'_> {
         direction: Direction,
         progress: &mut dyn FnMut(f64, &str),
     ) -> PieceEnd {
-        let not_converged = |cause: String| PieceEnd::Branch(BranchEnd::NotConverged { cause });
+        let not_converged = |cause: &str| {
+            let cause = cause.to_owned();
+            PieceEnd::Branch(BranchEnd::NotConverged { cause })
+        };
         let unit = self.unit();
         let drive = self.drive_at(value);
         // A piece may begin where ε changes: what counts is what lies ahead.
@@ -119,7 +123,7 @@ impl Tracer<'_> {
         let epsilon = Self::epsilon(&self.drive_at(value + ahead * unit));
         let solved = match self.normalised(solved.clone(), &drive, epsilon) {
             Ok(solved) => solved,
-            Err(stuck) => return not_converged(stuck.cause.to_string()),
+            Err(stuck) => return not_converged(difficulty::of_solver(&stuck.cause)),
         };
         self.convergence.slip_normalisation = self.convergence.slip_normalisation.max(epsilon);
         let entry = Entry {
@@ -136,7 +140,7 @@ impl Tracer<'_> {
         };
         let (discretised, z) = match Family::new(&family, first, &[], &guess, &options) {
             Ok(start) => start,
-            Err(error) => return not_converged(error.to_string()),
+            Err(error) => return not_converged(difficulty::of_solver(&error)),
         };
         let mut curve = Curve {
             family: discretised,
@@ -155,7 +159,7 @@ impl Tracer<'_> {
         };
         let branch = match Branch::new(&mut curve, &z, direction, &options) {
             Ok(branch) => branch,
-            Err(error) => return not_converged(error.to_string()),
+            Err(error) => return not_converged(difficulty::of_branch(&error)),
         };
         let mut branch = self.with_events(branch, &solved, first);
         let mut last = bvp::Stats::default();
@@ -255,7 +259,7 @@ impl Tracer<'_> {
                 }
             }
             Err(stuck) => PieceEnd::Branch(BranchEnd::NotConverged {
-                cause: stuck.cause.to_string(),
+                cause: difficulty::of_solver(&stuck.cause).to_owned(),
             }),
         }
     }

@@ -12,6 +12,7 @@
 use super::path::Solved;
 use super::piece::PieceEnd;
 use super::solve::is_crossed;
+use crate::difficulty;
 use crate::input::Key;
 use crate::{
     BranchEnd, BranchEvent, Drive, EventKind, StateErrors, StateSummary, SteadyState,
@@ -228,7 +229,7 @@ impl<'d> Tracer<'d> {
             }
             Some(Stop::Closed) => BranchEnd::Closed,
             Some(stop) => BranchEnd::NotConverged {
-                cause: stop.to_string(),
+                cause: difficulty::of_stop(&stop),
             },
             None => BranchEnd::Target,
         }
