@@ -183,13 +183,13 @@ fn values_out_of_range() {
     expected: an angle, e.g. "18 deg"
     "#);
     assert_snapshot!(error("\"18 deg\"", "18"), @r#"
-    error: `groove.half_angle` must lie between 0 and 90 deg
+    error: `groove.half_angle` has no unit: 18 rad must lie between 0 and 90 deg
        --> drive.toml:10:14
        |
     10 | half_angle = 18
        |              ^^
     expected: an angle, e.g. "18 deg"
-    help: a bare number is in SI units: an angle in rad
+    help: did you mean `18 deg`?
     "#);
     assert_snapshot!(error("1000 rpm", "-1000 rpm"), @r#"
     error: `pulleys.driver.speed` must be positive

@@ -162,13 +162,13 @@ fn values_are_read_by_the_rules_of_the_drive_file() {
     expected: a pure number, e.g. 0.4
     ");
     assert_snapshot!(value_error("groove.half_angle", "18"), @r#"
-    error: `groove.half_angle` must lie between 0 and 90 deg
+    error: `groove.half_angle` has no unit: 18 rad must lie between 0 and 90 deg
       --> command line:1:8
       |
     1 | --from 18
       |        ^^
     expected: an angle, e.g. "18 deg"
-    help: a bare number is in SI units: an angle in rad
+    help: did you mean `18 deg`?
     "#);
     assert_snapshot!(value_error("friction.coefficient", "-1"), @r"
     error: `friction.coefficient` must be positive

@@ -79,9 +79,9 @@ impl Argument<'_> {
             None => {
                 let keys = || Key::all(drive).map(|key| key.path());
                 let names = keys().map(|path| (schema::split(path).1, path));
-                let candidates = keys().map(|path| (path, path)).chain(names);
+                let near = spelling::nearest_path(path, keys());
                 finding(format!("unknown key `{path}`"))
-                    .did_you_mean(spelling::nearest(path, candidates))
+                    .did_you_mean(near.or_else(|| spelling::nearest(path, names)))
             }
         }
         .expected(check::one_of(

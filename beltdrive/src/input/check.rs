@@ -114,14 +114,15 @@ pub(super) fn number(
         schema::Range::NotNegative => "must not be negative".to_owned(),
         schema::Range::Below(_, limit) => format!("must lie between 0 and {limit}"),
     };
-    let finding = Finding::new(entry.place.clone(), format!("`{}` {fault}", rule.path));
-    Err(match range {
-        schema::Range::Below(..) if is_bare => {
-            finding.help("a bare number is in SI units: an angle in rad")
-        }
-        _ => finding,
+    if dimension == Dimension::ANGLE && is_bare && value.is_finite() && value > 0.0 {
+        // A bare number beyond the range is meant in degrees.
+        let message = format!("`{}` has no unit: {value} rad {fault}", rule.path);
+        return Err(Finding::new(entry.place.clone(), message)
+            .expected(expected)
+            .did_you_mean(Some(format!("{value} deg"))));
     }
-    .expected(expected))
+    let finding = Finding::new(entry.place.clone(), format!("`{}` {fault}", rule.path));
+    Err(finding.expected(expected))
 }
 
 /// The words of a list for a message.

@@ -284,7 +284,10 @@ pub(super) fn nearest(path: &str) -> Option<&'static str> {
     let elsewhere = || RULES.iter().map(|rule| (split(rule.path).1, rule.meant()));
     spelling::nearest(name, names(table).into_iter().map(|name| (name, name)))
         .or_else(|| spelling::nearest(name, elsewhere()))
-        .or_else(|| spelling::nearest(path, RULES.iter().map(|rule| (rule.path, rule.meant()))))
+        .or_else(|| {
+            let near = spelling::nearest_path(path, RULES.iter().map(|rule| rule.path));
+            near.and_then(rule).map(Rule::meant)
+        })
 }
 
 /// The path of the entry `name` of a table. A name that is no bare TOML key keeps its quotes, so
@@ -336,6 +339,8 @@ mod tests {
         assert_eq!(nearest("belt.half_angel"), Some("groove.half_angle"));
         assert_eq!(nearest("frction"), Some("friction"));
         assert_eq!(nearest("belt.colour"), None);
+        assert_eq!(nearest("pulleys.driver.diameter"), None);
+        assert_eq!(nearest("friction.mu"), None);
         assert_eq!(nearest("torqe"), Some(TORQUE));
         assert_eq!(nearest("normal_force"), Some(NORMAL_FORCE));
     }

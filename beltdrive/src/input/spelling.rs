@@ -22,9 +22,41 @@ pub(crate) fn nearest<S: AsRef<str>, T>(
         .map(|(_, item)| item)
 }
 
+/// The dotted path nearest to `path`: of as many names, each of which is near enough to its counterpart to be
+/// what was meant.
+pub(crate) fn nearest_path<'c>(
+    path: &str,
+    candidates: impl IntoIterator<Item = &'c str>,
+) -> Option<&'c str> {
+    let names: Vec<_> = path.split('.').collect();
+    let is_near = |candidate: &&str| {
+        let others: Vec<_> = candidate.split('.').collect();
+        let mut pairs = names.iter().zip(&others);
+        others.len() == names.len() && pairs.all(|(a, b)| nearest(a, [(b, ())]).is_some())
+    };
+    let near = candidates.into_iter().filter(is_near);
+    nearest(path, near.map(|candidate| (candidate, candidate)))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::nearest;
+    use super::{nearest, nearest_path};
+
+    #[test]
+    fn every_name_of_a_path_is_near() {
+        let paths = [
+            "friction.law",
+            "pulleys.driver.speed",
+            "pulleys.driven.radius",
+        ];
+        assert_eq!(nearest_path("frction.lwa", paths), Some("friction.law"));
+        assert_eq!(
+            nearest_path("pulley.driven.radius", paths),
+            Some("pulleys.driven.radius")
+        );
+        assert_eq!(nearest_path("friction.mu", paths), None);
+        assert_eq!(nearest_path("pulleys.driver.diameter", paths), None);
+    }
 
     #[test]
     fn finds_slips_and_case_but_nothing_far() {
