@@ -213,3 +213,47 @@ fn a_pipe_with_a_name_is_read() {
         String::from_utf8_lossy(&output.stderr)
     );
 }
+
+#[test]
+fn every_file_says_where_it_comes_from() {
+    let directory = directory("origin");
+    let coefficient = "friction.coefficient=0.39";
+    let outputs = [
+        "--json", "a.json", "--csv", "a.csv", "--plot", "figures", "--quiet",
+    ];
+    let args = [&["solve", "drive.toml", "--set", coefficient][..], &outputs].concat();
+    assert_eq!(run(&directory, &args).status.code(), Some(0));
+    let text = |name: &str| fs::read_to_string(directory.join(name)).unwrap();
+
+    let json: serde_json::Value = serde_json::from_str(&text("a.json")).unwrap();
+    let origin = &json["origin"];
+    assert_eq!(origin["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(origin["command_line"][0], "beltdrive");
+    assert_eq!(origin["command_line"][4], coefficient);
+    assert_eq!(origin["drive_file"]["name"], "drive.toml");
+    assert_eq!(origin["drive_file"]["text"], support::DRIVE);
+    assert!(json["efficiency"].is_number());
+
+    let beside: serde_json::Value = serde_json::from_str(&text("a.csv.origin.json")).unwrap();
+    assert_eq!(&beside, origin);
+    assert!(text("a.csv").starts_with("pulley,"));
+
+    let figure = text("figures/drive.svg");
+    let (_, metadata) = figure.split_once("<metadata>").unwrap();
+    let (metadata, _) = metadata.split_once("</metadata>").unwrap();
+    let metadata = metadata
+        .replace("&lt;", "<")
+        .replace("&gt;", ">")
+        .replace("&amp;", "&");
+    let metadata: serde_json::Value = serde_json::from_str(&metadata).unwrap();
+    assert_eq!(&metadata, origin);
+    let same = [
+        "solve",
+        "drive.toml",
+        "--csv",
+        "b",
+        "--json",
+        "b.origin.json",
+    ];
+    refused(&run(&directory, &same), "name the same file");
+}

@@ -1,6 +1,7 @@
 //! What the commands that solve a drive have in common on the command line.
 
 use super::failure::Failure;
+use super::origin::Origin;
 use super::output::Output;
 use super::progress::with_bar;
 use super::read::read;
@@ -24,11 +25,12 @@ pub(super) struct Common {
 }
 
 impl Common {
-    /// The drive, once it is clear that its results have somewhere to go.
-    pub(super) fn drive(&self) -> Result<Drive, Failure> {
+    /// The drive, once it is clear that its results have somewhere to go, and their origin.
+    pub(super) fn drive(&self) -> Result<(Drive, Origin), Failure> {
         self.output.check(&self.file)?;
         let (name, text) = read(&self.file)?;
-        input::parse(&name, &text, &self.overrides).map_err(Failure::usage)
+        let drive = input::parse(&name, &text, &self.overrides).map_err(Failure::usage)?;
+        Ok((drive, Origin::of_drive(name, text)))
     }
 
     /// How steady states are sought.

@@ -22,8 +22,9 @@ impl Destinations<'_> {
         let given = self.texts.iter();
         let given = given.filter_map(|&(option, path)| Some((option, path?)));
         let given: Vec<_> = given.collect();
-        if given.iter().filter(|(_, path)| is_stream(path)).count() > 1 {
-            let options: Vec<_> = self.texts.iter().map(|(option, _)| *option).collect();
+        let streams = given.iter().filter(|(_, path)| is_stream(path));
+        let options: Vec<_> = streams.map(|(option, _)| *option).collect();
+        if options.len() > 1 {
             let (last, others) = options.split_last().expect("two options were given");
             let others = others.join(", ");
             return Err(Failure::usage(format!(

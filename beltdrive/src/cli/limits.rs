@@ -25,7 +25,7 @@ pub(super) struct Limits {
 
 impl Limits {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        let drive = self.common.drive()?;
+        let (drive, origin) = self.common.drive()?;
         let key = match &self.parameter {
             Some(value) => parameter::key("--parameter", value, &drive)?,
             None => Key::load(&drive),
@@ -34,7 +34,7 @@ impl Limits {
         let limits = self
             .common
             .with_progress(|progress| beltdrive::limits(&drive, &key, &options, progress))?;
-        self.common.output.write(&limits)
+        self.common.output.write(&limits, &origin)
     }
 }
 
@@ -51,7 +51,7 @@ impl Report for beltdrive::Limits {
         report::limits::csv(self)
     }
 
-    fn plot(&self, directory: &Path) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_branch(&self.branch, directory)
+    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
+        plot::write_branch(&self.branch, directory, Some(metadata))
     }
 }

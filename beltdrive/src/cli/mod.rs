@@ -5,6 +5,7 @@ mod destinations;
 mod examples;
 mod failure;
 mod limits;
+mod origin;
 mod output;
 mod parameter;
 mod progress;

@@ -2,6 +2,7 @@
 
 use super::destinations::Destinations;
 use super::failure::Failure;
+use super::origin::Origin;
 use beltdrive::{plot, report::write_file};
 use clap::Args;
 use std::{
@@ -34,17 +35,20 @@ pub(super) trait Report {
     fn json(&self) -> String;
     /// Rows.
     fn csv(&self) -> String;
-    /// Writes the figures into a directory and lists the files.
-    fn plot(&self, directory: &Path) -> Result<Vec<PathBuf>, plot::Error>;
+    /// Writes the figures with metadata into a directory and lists the files.
+    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error>;
 }
 
 impl Output {
     /// Refuses outputs that would overwrite each other or the drive file.
     pub(super) fn check(&self, drive_file: &Path) -> Result<(), Failure> {
+        let csv = self.csv.as_deref().filter(|path| !is_stream(path));
+        let origin = csv.map(Origin::beside);
         Destinations {
             texts: &[
                 ("--json", self.json.as_deref()),
                 ("--csv", self.csv.as_deref()),
+                ("the origin of --csv", origin.as_deref()),
             ],
             figures: self.plot.as_deref(),
             drive_file: Some(drive_file),
@@ -53,12 +57,12 @@ impl Output {
     }
 
     /// Prints and writes a result in the forms asked for.
-    pub(super) fn write(&self, report: &impl Report) -> Result<(), Failure> {
+    pub(super) fn write(&self, report: &impl Report, origin: &Origin) -> Result<(), Failure> {
         let outputs = [self.json.as_deref(), self.csv.as_deref()];
         if !self.quiet && !outputs.into_iter().any(is_stdout) {
             print(&report.table())?;
         }
-        for path in self.write_files(report)? {
+        for path in self.write_files(report, origin)? {
             if !self.quiet {
                 note(&format!("wrote {}", path.display()));
             }
@@ -67,17 +71,17 @@ impl Output {
     }
 
     /// Writes the outputs asked for and lists the files among them.
-    fn write_files(&self, report: &impl Report) -> Result<Vec<PathBuf>, Failure> {
+    fn write_files(&self, report: &impl Report, origin: &Origin) -> Result<Vec<PathBuf>, Failure> {
         let mut written = Vec::new();
         if let Some(path) = &self.json {
-            written.extend(write_text(path, &report.json())?);
+            written.extend(write_text(path, &origin.in_json(&report.json()))?);
         }
         if let Some(path) = &self.csv {
-            written.extend(write_text(path, &report.csv())?);
+            written.extend(write_csv(path, &report.csv(), origin)?);
         }
         if let Some(directory) = &self.plot {
             let action = format!("draw figures into {}", directory.display());
-            let figures = report.plot(directory);
+            let figures = report.plot(directory, &origin.json());
             written.extend(figures.map_err(|error| Failure::io(&action, &error))?);
         }
         Ok(written)
@@ -93,6 +97,15 @@ pub(super) fn write_text(path: &Path, text: &str) -> Result<Option<PathBuf>, Fai
     let action = format!("write {}", path.display());
     write_file(path, text).map_err(|error| Failure::io(&action, &error))?;
     Ok(Some(path.to_owned()))
+}
+
+/// Writes a CSV text and, if it goes to a file, its origin to another one beside it. Lists the files.
+pub(super) fn write_csv(path: &Path, text: &str, origin: &Origin) -> Result<Vec<PathBuf>, Failure> {
+    let mut written: Vec<_> = write_text(path, text)?.into_iter().collect();
+    if path.is_file() {
+        written.extend(write_text(&Origin::beside(path), &origin.json())?);
+    }
+    Ok(written)
 }
 
 /// Whether a path stands for a standard stream.

@@ -20,9 +20,9 @@ pub(super) struct Solve {
 
 impl Solve {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        let drive = self.common.drive()?;
+        let (drive, origin) = self.common.drive()?;
         let state = beltdrive::solve(&drive, &self.common.options())?;
-        self.common.output.write(&state)
+        self.common.output.write(&state, &origin)
     }
 }
 
@@ -39,7 +39,7 @@ impl Report for SteadyState {
         report::csv(self)
     }
 
-    fn plot(&self, directory: &Path) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_all(self, directory)
+    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
+        plot::write_all(self, directory, Some(metadata))
     }
 }

@@ -1,6 +1,9 @@
 //! `beltdrive stability`: whether small axial motions of a flat belt on its pulleys grow.
 
-use super::{failure::Failure, output::Output, output::Report, progress::with_bar, read::read};
+use super::{
+    failure::Failure, origin::Origin, output::Output, output::Report, progress::with_bar,
+    read::read,
+};
 use beltdrive::{Stability, input, plot, report};
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
@@ -33,10 +36,11 @@ impl Command {
         self.output.check(&self.file)?;
         let (name, text) = read(&self.file)?;
         let drive = input::parse(&name, &text, &self.overrides).map_err(Failure::usage)?;
+        let origin = Origin::of_drive(name, text);
         let stability = with_bar(self.output.quiet, |progress| {
             beltdrive::stability(&drive, self.modes.into(), progress)
         })?;
-        self.output.write(&stability)
+        self.output.write(&stability, &origin)
     }
 }
 
@@ -53,7 +57,7 @@ impl Report for Stability {
         report::stability::csv(self)
     }
 
-    fn plot(&self, directory: &Path) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_stability(self, directory)
+    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
+        plot::write_stability(self, directory, Some(metadata))
     }
 }

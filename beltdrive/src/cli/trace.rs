@@ -1,6 +1,6 @@
 //! `beltdrive trace`: a branch of steady states, or of limits, over one entry of the drive file.
 
-use super::{common::Common, failure::Failure, output::Report, parameter};
+use super::{common::Common, failure::Failure, origin::Origin, output::Report, parameter};
 use beltdrive::input::Key;
 use beltdrive::{Branch, BranchEnd, Drive, LimitCurve, plot, report};
 use clap::Args;
@@ -39,28 +39,34 @@ pub(super) struct Trace {
 
 impl Trace {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        let drive = self.common.drive()?;
+        let (drive, origin) = self.common.drive()?;
         let key = parameter::key("--parameter", &self.parameter, &drive)?;
         match &self.curve {
-            None => self.branch(&drive, key),
+            None => self.branch(&drive, key, &origin),
             Some(curve) => {
                 let second = parameter::key("--curve", curve, &drive)?;
-                self.limit_curve(&drive, key, second)
+                self.limit_curve(&drive, key, second, &origin)
             }
         }
     }
 
-    fn branch(&self, drive: &Drive, key: Key) -> Result<(), Failure> {
+    fn branch(&self, drive: &Drive, key: Key, origin: &Origin) -> Result<(), Failure> {
         let range = self.range(key, None, drive)?;
         let options = self.common.options();
         let branch = self
             .common
             .with_progress(|progress| beltdrive::trace(drive, &key, range, &options, progress))?;
-        self.common.output.write(&branch)?;
+        self.common.output.write(&branch, origin)?;
         finished(&branch.end)
     }
 
-    fn limit_curve(&self, drive: &Drive, key: Key, second: Key) -> Result<(), Failure> {
+    fn limit_curve(
+        &self,
+        drive: &Drive,
+        key: Key,
+        second: Key,
+        origin: &Origin,
+    ) -> Result<(), Failure> {
         if second == key {
             let message = "error: --parameter and --curve are the same entry";
             return Err(Failure::usage(message));
@@ -70,7 +76,7 @@ impl Trace {
         let curve = self.common.with_progress(|progress| {
             beltdrive::limit_curve(drive, &key, &second, range, &options, progress)
         })?;
-        self.common.output.write(&curve)?;
+        self.common.output.write(&curve, origin)?;
         finished(&curve.end)
     }
 
@@ -102,8 +108,8 @@ impl Report for Branch {
         report::branch::csv(self)
     }
 
-    fn plot(&self, directory: &Path) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_branch(self, directory)
+    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
+        plot::write_branch(self, directory, Some(metadata))
     }
 }
 
@@ -120,7 +126,7 @@ impl Report for LimitCurve {
         report::limit_curve::csv(self)
     }
 
-    fn plot(&self, directory: &Path) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_limit_curve(self, directory)
+    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
+        plot::write_limit_curve(self, directory, Some(metadata))
     }
 }

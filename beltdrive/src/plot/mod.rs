@@ -48,11 +48,17 @@ pub enum Error {
 /// `sliding_angle.svg` and `normal_and_friction_force.svg`; a flat belt has `tension.svg`,
 /// `friction_force.svg`, `normal_force.svg` and `displacement.svg`.
 ///
+/// `metadata` is a text that every figure carries, but does not show.
+///
 /// # Errors
 /// [`Error`] names the directory or file that cannot be written.
-pub fn write_all(state: &SteadyState, directory: &Path) -> Result<Vec<PathBuf>, Error> {
+pub fn write_all(
+    state: &SteadyState,
+    directory: &Path,
+    metadata: Option<&str>,
+) -> Result<Vec<PathBuf>, Error> {
     let drive = std::iter::once(("drive.svg", drive::figure(state)));
-    write(drive.chain(profiles::figures(state)), directory)
+    write(drive.chain(profiles::figures(state)), directory, metadata)
 }
 
 /// Writes `branch.svg`, the bifurcation diagram of a branch, into a directory, as [`write_all`]
@@ -60,9 +66,13 @@ pub fn write_all(state: &SteadyState, directory: &Path) -> Result<Vec<PathBuf>, 
 ///
 /// # Errors
 /// As [`write_all`].
-pub fn write_branch(branch: &Branch, directory: &Path) -> Result<Vec<PathBuf>, Error> {
+pub fn write_branch(
+    branch: &Branch,
+    directory: &Path,
+    metadata: Option<&str>,
+) -> Result<Vec<PathBuf>, Error> {
     let figure = ("branch.svg", branch::figure(branch));
-    write(std::iter::once(figure), directory)
+    write(std::iter::once(figure), directory, metadata)
 }
 
 /// Writes `limit_curve.svg`, the chart of a limit over a second parameter, into a directory, as
@@ -70,9 +80,13 @@ pub fn write_branch(branch: &Branch, directory: &Path) -> Result<Vec<PathBuf>, E
 ///
 /// # Errors
 /// As [`write_all`].
-pub fn write_limit_curve(curve: &LimitCurve, directory: &Path) -> Result<Vec<PathBuf>, Error> {
+pub fn write_limit_curve(
+    curve: &LimitCurve,
+    directory: &Path,
+    metadata: Option<&str>,
+) -> Result<Vec<PathBuf>, Error> {
     let figure = ("limit_curve.svg", limit_curve::figure(curve));
-    write(std::iter::once(figure), directory)
+    write(std::iter::once(figure), directory, metadata)
 }
 
 /// Writes `modes.svg`, the first axial modes of a flat belt on both pulleys, and `spectrum.svg`, their
@@ -80,13 +94,22 @@ pub fn write_limit_curve(curve: &LimitCurve, directory: &Path) -> Result<Vec<Pat
 ///
 /// # Errors
 /// As [`write_all`].
-pub fn write_stability(stability: &Stability, directory: &Path) -> Result<Vec<PathBuf>, Error> {
-    write(stability::figures(stability).into_iter(), directory)
+pub fn write_stability(
+    stability: &Stability,
+    directory: &Path,
+    metadata: Option<&str>,
+) -> Result<Vec<PathBuf>, Error> {
+    write(
+        stability::figures(stability).into_iter(),
+        directory,
+        metadata,
+    )
 }
 
 fn write(
     figures: impl Iterator<Item = (&'static str, String)>,
     directory: &Path,
+    metadata: Option<&str>,
 ) -> Result<Vec<PathBuf>, Error> {
     fs::create_dir_all(directory).map_err(|source| Error::Directory {
         path: directory.to_owned(),
@@ -95,12 +118,27 @@ fn write(
     figures
         .map(|(name, figure)| {
             let path = directory.join(name);
+            let figure = described(figure, metadata);
             match write_file(&path, &figure) {
                 Ok(()) => Ok(path),
                 Err(source) => Err(Error::Figure { path, source }),
             }
         })
         .collect()
+}
+
+/// A figure with a text in a `metadata` element, which is not drawn.
+fn described(figure: String, metadata: Option<&str>) -> String {
+    match (metadata, figure.split_once('>')) {
+        (Some(metadata), Some((start, rest))) => {
+            let text = metadata
+                .replace('&', "&amp;")
+                .replace('<', "&lt;")
+                .replace('>', "&gt;");
+            format!("{start}>\n<metadata>{text}</metadata>{rest}")
+        }
+        _ => figure,
+    }
 }
 
 #[cfg(test)]
@@ -133,7 +171,7 @@ mod tests {
             ("overhanging", sample::overhanging()),
             ("blank", sample::blank()),
         ] {
-            let files = write_all(&state, &scratch.0.join(name)).unwrap();
+            let files = write_all(&state, &scratch.0.join(name), None).unwrap();
             assert_eq!(files.len(), 6);
             for file in files {
                 let text = fs::read_to_string(&file).unwrap();
@@ -156,7 +194,7 @@ mod tests {
             sample_flat::coulomb(),
             sample_flat::creep(),
         ] {
-            let mut files = write_all(&state, &scratch.0).unwrap();
+            let mut files = write_all(&state, &scratch.0, None).unwrap();
             let names: Vec<_> = files.iter().map(|file| file.file_name().unwrap()).collect();
             let expected = [
                 "drive.svg",
@@ -166,8 +204,8 @@ mod tests {
                 "displacement.svg",
             ];
             assert_eq!(names, expected);
-            files.extend(write_branch(&sample_flat::branch(), &scratch.0).unwrap());
-            files.extend(write_limit_curve(&sample_flat::curve(), &scratch.0).unwrap());
+            files.extend(write_branch(&sample_flat::branch(), &scratch.0, None).unwrap());
+            files.extend(write_limit_curve(&sample_flat::curve(), &scratch.0, None).unwrap());
             for file in files {
                 let text = fs::read_to_string(&file).unwrap();
                 assert!(text.contains("normal force n = (T − G V)/R"));
@@ -182,8 +220,8 @@ mod tests {
     #[test]
     fn branches_and_curves_have_a_figure() {
         let scratch = Scratch::new("branches");
-        let mut files = write_branch(&sample_branch::folded(), &scratch.0).unwrap();
-        files.extend(write_limit_curve(&sample_branch::curve(), &scratch.0).unwrap());
+        let mut files = write_branch(&sample_branch::folded(), &scratch.0, None).unwrap();
+        files.extend(write_limit_curve(&sample_branch::curve(), &scratch.0, None).unwrap());
         let names: Vec<_> = files.iter().map(|file| file.file_name().unwrap()).collect();
         assert_eq!(names, ["branch.svg", "limit_curve.svg"]);
         for file in files {
@@ -197,7 +235,7 @@ mod tests {
     fn a_directory_that_cannot_be_created_is_named() {
         let scratch = Scratch::new("blocked");
         fs::write(&scratch.0, "a file").unwrap();
-        let error = write_all(&sample::loaded(), &scratch.0.join("figures")).unwrap_err();
+        let error = write_all(&sample::loaded(), &scratch.0.join("figures"), None).unwrap_err();
         fs::remove_file(&scratch.0).unwrap();
         assert!(matches!(&error, Error::Directory { path, .. } if path.ends_with("figures")));
         assert!(error.to_string().contains("blocked"));
@@ -207,7 +245,7 @@ mod tests {
     fn a_figure_that_cannot_be_written_is_named() {
         let scratch = Scratch::new("occupied");
         fs::create_dir_all(scratch.0.join("drive.svg")).unwrap();
-        let error = write_all(&sample::loaded(), &scratch.0).unwrap_err();
+        let error = write_all(&sample::loaded(), &scratch.0, None).unwrap_err();
         assert!(matches!(&error, Error::Figure { path, .. } if path.ends_with("drive.svg")));
     }
 }

@@ -1,0 +1,69 @@
+//! Where a file of results comes from, so that it can be traced to its drive.
+
+use serde::Serialize;
+use std::env;
+use std::path::{Path, PathBuf};
+
+/// What a run was started with.
+#[derive(Serialize)]
+pub(super) struct Origin {
+    program: &'static str,
+    version: &'static str,
+    /// The command line, with the overrides of the drive file.
+    command_line: Vec<String>,
+    /// The drive file as it was read, without the overrides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drive_file: Option<DriveFile>,
+}
+
+#[derive(Serialize)]
+struct DriveFile {
+    name: String,
+    text: String,
+}
+
+impl Origin {
+    /// The origin of the files of this run, which has read no drive file.
+    pub(super) fn new() -> Self {
+        let arguments = env::args_os().skip(1);
+        let arguments = arguments.map(|argument| argument.to_string_lossy().into_owned());
+        let program = env!("CARGO_PKG_NAME");
+        Self {
+            program,
+            version: env!("CARGO_PKG_VERSION"),
+            command_line: [program.to_owned()].into_iter().chain(arguments).collect(),
+            drive_file: None,
+        }
+    }
+
+    /// The origin of the files of this run, which has read a drive file.
+    pub(super) fn of_drive(name: String, text: String) -> Self {
+        Self {
+            drive_file: Some(DriveFile { name, text }),
+            ..Self::new()
+        }
+    }
+
+    /// The origin as JSON.
+    pub(super) fn json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("texts")
+    }
+
+    /// A JSON object with the origin as its last key, `origin`. Nothing else in its text changes.
+    pub(super) fn in_json(&self, object: &str) -> String {
+        match object.strip_suffix("\n}") {
+            Some(rest) => {
+                let origin = self.json().replace('\n', "\n  ");
+                format!("{rest},\n  \"origin\": {origin}\n}}")
+            }
+            None => object.to_owned(),
+        }
+    }
+
+    /// The file beside a CSV file that holds its origin: CSV has no place for it.
+    pub(super) fn beside(csv: &Path) -> PathBuf {
+        let mut path = csv.as_os_str().to_owned();
+        path.push(".origin.json");
+        PathBuf::from(path)
+    }
+}
