@@ -101,7 +101,7 @@ fn one_result_goes_to_standard_output() {
     assert_eq!(output.status.code(), Some(2));
     let message = String::from_utf8(output.stderr).unwrap();
     assert!(
-        message.contains("only one of --json, --markdown and --csv"),
+        message.contains("only one of --json and --markdown can go"),
         "{message}"
     );
 }
