@@ -148,10 +148,9 @@ impl Line<'_> {
         let rate = |changes: &[f64], found: &Difference| {
             largest(changes, self.sizes) / found.step.powi(order)
         };
-        let values: Vec<f64> = found.values.iter().map(|value| value.abs()).collect();
         let doubt = rate(&found.misses, &found);
         let mut kink = doubt;
-        if rate(&found.skews, &found) > SKEW * largest(&values, self.sizes) {
+        if rate(&found.skews, &found) > SKEW * largest(&found.values, self.sizes) {
             // A smooth function is less skew over a shorter step, and one with a kink is not.
             let shortest = with_step(SHARES[SHARES.len() - 1] * FINE);
             let jumps = [&shortest.skews, &shortest.misses].map(|each| rate(each, &shortest));

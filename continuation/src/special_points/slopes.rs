@@ -98,10 +98,7 @@ impl Slopes {
 /// The largest doubt of second derivatives, and the largest kink, relative to the largest of them.
 fn relative([a, b, c]: [&Second; 3], sizes: &[f64]) -> [f64; 2] {
     let all = [a, b, c];
-    let size = all.iter().map(|second| {
-        let values: Vec<f64> = second.values.iter().map(|value| value.abs()).collect();
-        largest(&values, sizes)
-    });
+    let size = all.iter().map(|second| largest(&second.values, sizes));
     let size = size.fold(0.0, f64::max);
     let doubt = all.iter().fold(0.0, |m: f64, second| m.max(second.doubt));
     let kink = all.iter().fold(0.0, |m: f64, second| m.max(second.kink));

@@ -189,26 +189,29 @@ impl Difference {
     /// Whether a difference with a much shorter step shows something else: functions may vary on a scale so
     /// small that they look linear on longer ones.
     pub(crate) fn contradicts(&self, shorter: &Self, sizes: &[f64]) -> bool {
-        let gaps = self.values.iter().zip(&shorter.values);
-        let gaps: Vec<f64> = gaps.map(|(a, b)| (a - b).abs()).collect();
-        largest(&gaps, sizes) > CONTRADICTION * largest(&self.terms, sizes) / self.step
+        largest(&self.gaps(shorter), sizes)
+            > CONTRADICTION * largest(&self.terms, sizes) / self.step
     }
 
     /// Whether another difference of the same functions has the same values within what is unresolved of
     /// this one.
     fn agrees(&self, other: &Self, sizes: &[f64]) -> bool {
-        let gaps = self.values.iter().zip(&other.values);
-        let gaps: Vec<f64> = gaps.map(|(a, b)| (a - b).abs()).collect();
         let unresolved = self.unresolved(sizes, ROUNDING);
         let uncertain = unresolved * largest(&self.terms, sizes) / self.step;
-        unresolved >= UNCHANGED || largest(&gaps, sizes) <= UNCERTAIN * uncertain
+        unresolved >= UNCHANGED || largest(&self.gaps(other), sizes) <= UNCERTAIN * uncertain
+    }
+
+    /// By how much the values of another difference of the same functions are less.
+    fn gaps(&self, other: &Self) -> Vec<f64> {
+        let pairs = self.values.iter().zip(&other.values);
+        pairs.map(|(a, b)| a - b).collect()
     }
 }
 
-/// The largest of values relative to their sizes, of which those of vanishing functions do not count.
+/// The largest absolute value relative to its size, of which those of vanishing functions do not count.
 pub(crate) fn largest(values: &[f64], sizes: &[f64]) -> f64 {
     let pairs = values.iter().zip(sizes).filter(|(_, size)| **size > 0.0);
-    pairs.fold(0.0, |m: f64, (value, size)| m.max(value / size))
+    pairs.fold(0.0, |m: f64, (value, size)| m.max(value.abs() / size))
 }
 
 /// The step for an unknown, and how well it resolved the functions when it was chosen.
