@@ -47,6 +47,19 @@ fn names(directory: &Path) -> Vec<String> {
 /// A file size limit of 512 or 1024 bytes stands for a full disk where its signal is ignored, and for a run
 /// that is ended while it writes where it is not.
 #[cfg(unix)]
+/// The status of `solve` with these options where no file may exceed one block, after a shell command.
+fn solve_on_a_full_disk(directory: &Path, before: &str, options: &str) -> Option<i32> {
+    let command = format!(
+        "ulimit -c 0; ulimit -f 1; {before} exec \"$0\" solve drive.toml {options} --quiet"
+    );
+    let output = Command::new("sh")
+        .args(["-c", &command, PROGRAM])
+        .current_dir(directory)
+        .output()
+        .unwrap();
+    output.status.code()
+}
+
 #[test]
 fn a_full_disk_and_an_interrupted_run_leave_the_old_file() {
     for (name, signal, status) in [("full", "trap '' XFSZ;", Some(2)), ("ended", "", None)] {
@@ -54,15 +67,8 @@ fn a_full_disk_and_an_interrupted_run_leave_the_old_file() {
         for option in ["--json", "--csv"] {
             let file = directory.join("out");
             fs::write(&file, "good").unwrap();
-            let command = format!(
-                "ulimit -c 0; ulimit -f 1; {signal} exec \"$0\" solve drive.toml {option} out --quiet"
-            );
-            let output = Command::new("sh")
-                .args(["-c", &command, PROGRAM])
-                .current_dir(&directory)
-                .output()
-                .unwrap();
-            assert_eq!(output.status.code(), status);
+            let found = solve_on_a_full_disk(&directory, signal, &format!("{option} out"));
+            assert_eq!(found, status);
             assert_eq!(
                 fs::read_to_string(&file).unwrap(),
                 "good",
@@ -75,15 +81,8 @@ fn a_full_disk_and_an_interrupted_run_leave_the_old_file() {
         let figures = directory.join("figures");
         fs::create_dir(&figures).unwrap();
         fs::write(figures.join("drive.svg"), "good").unwrap();
-        let command = format!(
-            "ulimit -c 0; ulimit -f 1; {signal} exec \"$0\" solve drive.toml --plot figures --quiet"
-        );
-        let output = Command::new("sh")
-            .args(["-c", &command, PROGRAM])
-            .current_dir(&directory)
-            .output()
-            .unwrap();
-        assert_eq!(output.status.code(), status);
+        let found = solve_on_a_full_disk(&directory, signal, "--plot figures");
+        assert_eq!(found, status);
         assert_eq!(
             fs::read_to_string(figures.join("drive.svg")).unwrap(),
             "good"

@@ -22,12 +22,12 @@ pub(super) fn load_limit(
     problem: &Problem<'_>,
     whole: &Loaded,
 ) -> Result<Option<LoadLimit>, LoopError> {
-    let judged = |loaded: &Loaded, factor: f64| judged(problem, loaded, factor);
-    let at = |factor: f64| {
+    let state_at = |factor: f64| {
         let loaded = problem.loaded(factor, FrictionLaw::Coulomb)?;
-        Ok::<_, LoopError>(excess(judged(&loaded, factor).as_ref()))
+        Ok::<_, LoopError>(judged(problem, &loaded, factor))
     };
-    let formal = judged(whole, 1.0);
+    let at = |factor: f64| state_at(factor).map(|state| excess(state.as_ref()));
+    let formal = judged(problem, whole, 1.0);
     let at_whole = excess(formal.as_ref());
     if at_whole == -1.0 {
         return Ok(None);
@@ -52,10 +52,6 @@ pub(super) fn load_limit(
         what: "load factor limit",
     };
     let factor = bracketed(residual, [low.0, high.0], [low.1, high.1]).ok_or(lost)?;
-    let state_at = |factor: f64| {
-        let loaded = problem.loaded(factor, FrictionLaw::Coulomb)?;
-        Ok::<_, LoopError>(judged(&loaded, factor))
-    };
     let at_limit = state_at(factor).ok().flatten();
     let is_slip = |state: &LoadedState| excess(Some(state)).abs() < AT_SLIP;
     let at_limit = match (at_limit, factor > 1.0) {
