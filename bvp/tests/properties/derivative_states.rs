@@ -1,4 +1,5 @@
-//! States whose derivative is another state in its units or in others are eliminated, which changes nothing but the cost.
+//! States whose derivative is another state, in its units or in others, are eliminated, which changes nothing
+//! but the cost.
 
 use bvp::{
     Constant, Control, Ends, Equations, Family, Options, Scheme, Segment, Shape, Solution, solve,
@@ -6,8 +7,8 @@ use bvp::{
 
 /// Numbers of derivative states: y₀' = c y₁, y₁' = c y₂, …
 const DERIVATIVES: std::ops::RangeInclusive<usize> = 1..=4;
-/// Powers of two: states with other factors are not eliminated.
-const FACTORS: [f64; 3] = [1.0, 0.5, 0.25];
+/// Powers of two, with which states are eliminated, and others.
+const FACTORS: [f64; 5] = [1.0, 0.5, 0.25, 1.25, -0.3];
 
 /// y₀⁽ⁿ⁻¹⁾ = cⁿ⁻¹ (−y₀ + p y₀² / 20 + cos s), n − 2 derivative states, and a last state with the slope y₀ y₁.
 struct Oscillator {
