@@ -14,10 +14,10 @@
 //! belt              V = c (1 + T/EA)        F = T − G V = T D/EA − m c²
 //! torque            (F_i − F_{i−1}) R_i = M_i                    M > 0 where power leaves the belt
 //! friction law      R_i ω_i = c (1 + T_o,i/EA)                   T_o: reference tension of the contact
-//! tensioner         −k (q − q₀) − F_t dL/dq = 0                  F_t: tractive tension of its idler
+//! tensioner         Q(q) − F_t dL/dq = 0                         F_t: tractive tension of its idler
 //! ```
 //!
-//! and the closure. Contacts are those of the two-pulley flat belt with the normal force
+//! with the load Q of the tensioner, −k (q − q₀) of a spring, and the closure. Contacts are those of the two-pulley flat belt with the normal force
 //! n = (T − G V)/R ([`crate::NormalForce::Inertia`]).
 //!
 //! Assumptions: those of the flat belt; no friction in bearings and in the tensioner; the belt at rest has
@@ -45,6 +45,7 @@
 //!     duty,
 //! };
 //! let belt_loop = BeltLoop {
+//!     title: None,
 //!     belt: Belt {
 //!         mass_per_length: 0.15,
 //!         axial_stiffness: 60e3,
@@ -68,7 +69,9 @@
 //! # Ok::<(), beltdrive::belt_loop::LoopError>(())
 //! ```
 
-pub use crate::drive::belt_loop::{BeltLoop, Closure, Duty, Guide, LoopPulley, Mount, Tensioner};
+pub use crate::drive::belt_loop::{
+    BeltLoop, Closure, Duty, Guide, LoopPulley, Mount, Tensioner, TensionerLoad,
+};
 pub use crate::drive::layout::{Layout, LayoutError, PlacedPulley, Sense, Side, Span};
 pub use crate::flat::belt_loop::{
     LoadLimit, LoadedState, LoopError, LoopState, PulleyState, SpanState, TensionerState, solve,

@@ -9,7 +9,7 @@ mod random;
 
 use beltdrive::belt_loop::{
     BeltLoop, Closure, Duty, Guide, Layout, LayoutError, LoopError, LoopPulley, LoopState, Mount,
-    Sense, Side, Tensioner, solve,
+    Sense, Side, Tensioner, TensionerLoad, solve,
 };
 use beltdrive::flat::ClosedForm;
 use beltdrive::{Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, Pulley, SpanTension};
@@ -39,6 +39,7 @@ fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> 
 fn two(law: FrictionLaw, closure: Closure) -> BeltLoop {
     let inside = Side::Inside;
     BeltLoop {
+        title: None,
         belt: belt(),
         law,
         sense: Sense::CounterClockwise,
@@ -62,8 +63,10 @@ fn tensioned(closure: Closure, law: FrictionLaw) -> BeltLoop {
             origin: [0.25, -0.15],
             direction: [0.0, 1.0],
         },
-        stiffness: 2e3,
-        free_coordinate: 0.22,
+        load: TensionerLoad::Spring {
+            stiffness: 2e3,
+            free_coordinate: 0.22,
+        },
         start_coordinate: AT_REST,
         travel: None,
     };
@@ -145,6 +148,9 @@ fn closures_of_the_same_loop_agree() {
         let tension = state.spans[1].tension;
         let tension = Closure::SpanTension { span: 1, tension };
         agree(&solved(&two(law, tension)), &state, 1e-11);
+        let tension = state.spans[1].tractive_tension;
+        let tension = Closure::SpanTractiveTension { span: 1, tension };
+        agree(&solved(&two(law, tension)), &state, 1e-11);
         let state = solved(&tensioned(Closure::RestCoordinate(AT_REST), law));
         let tensioner = state.tensioner.as_ref().unwrap();
         assert!((tensioner.coordinate - tensioner.rest_coordinate).abs() > 1e-4);
@@ -205,6 +211,70 @@ fn same_limit(one: &LoopState, other: &LoopState, within: f64) {
 }
 
 #[test]
+fn a_power_is_the_torque_at_the_speed_of_its_pulley() {
+    for law in LAWS {
+        let mut belt_loop = tensioned(Closure::SetupTension(350.0), law);
+        let state = solved(&belt_loop);
+        belt_loop.pulleys[2].duty = Duty::Power(state.pulleys[2].power);
+        let found = solved(&belt_loop);
+        agree(&found, &state, 1e-12);
+        assert!((found.pulleys[2].power / state.pulleys[2].power - 1.0).abs() < 1e-13);
+        // Creep brings the driven pulley to a standstill before it takes any power.
+        belt_loop.pulleys[2].duty = Duty::Power(1e5);
+        assert!(matches!(
+            solve(&belt_loop),
+            Err(LoopError::GrossSlip { .. })
+        ));
+    }
+}
+
+#[test]
+fn a_weight_is_carried_by_the_belt_whatever_the_speed() {
+    let closure = Closure::RestCoordinate(AT_REST);
+    let mut belt_loop = tensioned(closure, FrictionLaw::Coulomb);
+    let Mount::Tensioner(tensioner) = &mut belt_loop.pulleys[1].mount else {
+        panic!("the second pulley is the idler");
+    };
+    tensioner.load = TensionerLoad::Weight(300.0);
+    for speed in [20.0, 200.0] {
+        belt_loop.pulleys[0].duty = Duty::Driver(speed);
+        let state = solved(&belt_loop);
+        hold(&belt_loop, &state);
+        let [_, up] = state.pulleys[1].hub_load;
+        assert!((up + 300.0).abs() < 1e-9, "{up}");
+    }
+}
+
+#[test]
+fn profiles_end_at_the_tensions_of_the_spans() {
+    for law in LAWS {
+        let belt_loop = tensioned(Closure::SetupTension(350.0), law);
+        let state = solved(&belt_loop);
+        for (index, pulley) in state.pulleys.iter().enumerate() {
+            let profile = state.profile(index);
+            let ends = [(index + 2) % 3, index].map(|span| state.spans[span].tension);
+            let last = profile.tension.len() - 1;
+            close("entry", profile.tension[0], ends[0], 1e-12);
+            close("exit", profile.tension[last], ends[1], 1e-11);
+            close("wrap", profile.angle[last], pulley.wrap, 1e-12);
+            close("zones", pulley.zones.last().unwrap().to, pulley.wrap, 1e-12);
+            assert_eq!(pulley.zones[0].from, 0.0);
+            let steps = profile
+                .arc_length
+                .windows(2)
+                .zip(profile.friction_force.windows(2));
+            let moment = steps.map(|(s, f)| 0.5 * (s[1] - s[0]) * (f[0] + f[1]));
+            let moment = moment.sum::<f64>() * belt_loop.pulleys[index].radius;
+            let scale = pulley.torque.abs().max(1e-9);
+            assert!(
+                (moment - pulley.torque.abs()).abs() < 1e-4 * scale,
+                "{moment}"
+            );
+        }
+    }
+}
+
+#[test]
 fn start_of_the_loop_and_the_mirror_change_nothing() {
     for (_, belt_loop, _) in cases::read() {
         let Ok(state) = solve(&belt_loop) else {
@@ -238,7 +308,12 @@ fn mirrored(belt_loop: &BeltLoop) -> BeltLoop {
             Mount::Tensioner(tensioner) => match &mut tensioner.guide {
                 Guide::Rotary { pivot, .. } => {
                     pivot[1] = -pivot[1];
-                    tensioner.free_coordinate = -tensioner.free_coordinate;
+                    if let TensionerLoad::Spring {
+                        free_coordinate, ..
+                    } = &mut tensioner.load
+                    {
+                        *free_coordinate = -*free_coordinate;
+                    }
                     tensioner.start_coordinate = -tensioner.start_coordinate;
                     tensioner.travel = tensioner.travel.map(|[low, high]| [-high, -low]);
                     if let Closure::RestCoordinate(coordinate) = &mut mirrored.closure {

@@ -6,6 +6,8 @@ use super::{Belt, FrictionLaw};
 /// A belt loop round two or more pulleys: everything that decides its steady state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BeltLoop {
+    /// A name for outputs and figures.
+    pub title: Option<String>,
     /// The belt; a flat one with the convention [`crate::NormalForce::Inertia`].
     pub belt: Belt,
     /// How friction depends on slip: [`FrictionLaw::Coulomb`] or [`FrictionLaw::Epp`].
@@ -54,22 +56,56 @@ pub enum Duty {
     /// This torque in N·m acts between belt and shaft: positive where it takes power out of the belt, 0 on
     /// an idler, negative where it drives as well.
     Torque(f64),
+    /// It takes this power in W out of the belt; negative where it puts power into it.
+    Power(f64),
 }
 
-/// A sprung idler. Its coordinate q is the angle of the arm in rad, counter-clockwise from x, or the
+/// An idler that tightens the belt. Its coordinate q is the angle of the arm in rad, counter-clockwise from x, or the
 /// displacement along its guide in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tensioner {
     /// How it moves.
     pub guide: Guide,
-    /// Stiffness k of the spring, N·m/rad or N/m; positive.
-    pub stiffness: f64,
-    /// Coordinate at which the spring is free: the spring load is −k (q − q₀).
-    pub free_coordinate: f64,
+    /// What pushes it against the belt.
+    pub load: TensionerLoad,
     /// Coordinate from which the equilibrium is sought; of no effect with [`Closure::RestCoordinate`].
     pub start_coordinate: f64,
     /// The stops, smallest and largest coordinate, if there are any.
     pub travel: Option<[f64; 2]>,
+}
+
+/// What pushes a tensioner along its coordinate q.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TensionerLoad {
+    /// A spring: −k (q − q₀).
+    Spring {
+        /// Stiffness k, N·m/rad or N/m; positive.
+        stiffness: f64,
+        /// Coordinate q₀ at which the spring is free, rad or m.
+        free_coordinate: f64,
+    },
+    /// A dead weight W in N, positive. On an arm it hangs at the axis of the idler and pulls downwards, along
+    /// −y: −W a cos q. On a straight guide it pulls with W along the guide.
+    Weight(f64),
+}
+
+impl Tensioner {
+    /// Load along the coordinate q in N·m or N, and its derivative with q.
+    pub(crate) fn load_at(&self, coordinate: f64) -> [f64; 2] {
+        match (self.load, self.guide) {
+            (
+                TensionerLoad::Spring {
+                    stiffness,
+                    free_coordinate,
+                },
+                _,
+            ) => [-stiffness * (coordinate - free_coordinate), -stiffness],
+            (TensionerLoad::Weight(weight), Guide::Rotary { arm_length, .. }) => {
+                [-coordinate.cos(), coordinate.sin()].map(|part| weight * arm_length * part)
+            }
+            (TensionerLoad::Weight(weight), Guide::Translating { .. }) => [weight, 0.0],
+        }
+    }
 }
 
 /// How a tensioner guides its idler.
@@ -127,6 +163,13 @@ pub enum Closure {
         /// Belt tension T there, N.
         tension: f64,
     },
+    /// Tractive tension of a span of the running loop.
+    SpanTractiveTension {
+        /// Index of the span: that of the pulley it leaves.
+        span: usize,
+        /// Tractive tension F = T − G V there, N.
+        tension: f64,
+    },
     /// Coordinate of the tensioner at rest, rad or m.
     RestCoordinate(f64),
 }
@@ -148,6 +191,22 @@ impl BeltLoop {
         };
         let pulleys = self.pulleys.iter().map(placed).collect();
         Layout::new(self.sense, self.turning_number, pulleys)
+    }
+
+    /// The index of the driver.
+    pub(crate) fn driver(&self) -> usize {
+        let mut pulleys = self.pulleys.iter();
+        let driver = pulleys.position(|pulley| matches!(pulley.duty, Duty::Driver(_)));
+        driver.unwrap_or(0)
+    }
+
+    /// Circumferential speed R ω of the driver, m/s.
+    pub(crate) fn rim_speed(&self) -> f64 {
+        let rims = self.pulleys.iter().map(|pulley| match pulley.duty {
+            Duty::Driver(speed) => speed * pulley.radius,
+            Duty::Torque(_) | Duty::Power(_) => 0.0,
+        });
+        rims.sum()
     }
 
     /// The index of the pulley on the tensioner, and the tensioner.

@@ -2,6 +2,7 @@
 
 use super::closed_form::ClosedForm;
 use super::index;
+use super::profile::zones;
 use super::solve::refused;
 use crate::{Drive, Pulley, SolveError, SolveOptions, Zone, solve};
 
@@ -49,15 +50,7 @@ impl ClosedForm {
 
     /// As [`ClosedForm::zones`].
     pub(super) fn zones_on(&self, index: usize) -> Vec<Zone> {
-        let radius = self.radius(index);
-        let zones = self.contact[index].zones.iter();
-        zones
-            .map(|zone| Zone {
-                kind: zone.friction.kind(),
-                from: zone.start.arc_length / radius,
-                to: zone.end / radius,
-            })
-            .collect()
+        zones(&self.contact[index], self.radius(index))
     }
 
     /// Radius of a pulley, m.

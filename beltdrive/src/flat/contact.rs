@@ -10,7 +10,7 @@ use crate::ZoneKind;
 const SHORT: f64 = 0.05;
 
 /// The arc of contact of a pulley, and the traction of the belt at its ends.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Arc {
     /// The moving belt.
     pub(super) belt: Traction,
@@ -62,7 +62,7 @@ impl Arc {
 
 /// The belt at a place on a pulley. Tensions grow along the driven pulley and fall along the driver; the
 /// displacement and the friction force are magnitudes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Place {
     /// Arc length from the entry, m.
     pub(super) arc_length: f64,
@@ -76,7 +76,7 @@ pub(super) struct Place {
 }
 
 /// A flat belt on one pulley: the solution.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Contact {
     /// What was given.
     pub(super) arc: Arc,
@@ -89,7 +89,7 @@ pub(super) struct Contact {
 }
 
 /// A part of the arc with friction of one kind.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ContactZone {
     /// The belt where the zone begins.
     pub(super) start: Place,
@@ -100,7 +100,7 @@ pub(super) struct ContactZone {
 }
 
 /// Friction in a zone.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Friction {
     /// No displacement, no friction.
     Adhesion,

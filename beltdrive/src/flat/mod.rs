@@ -19,6 +19,7 @@ mod epp;
 mod geometry;
 mod limit_curve;
 mod limits;
+mod profile;
 mod quadrature;
 mod range;
 mod root;

@@ -2,17 +2,13 @@
 
 use super::closed_form::ClosedForm;
 use super::contact::{Contact, Place};
+use super::profile::profile;
 use super::{DRIVEN, DRIVER, epp};
 use crate::{
-    BeltKind, Check, Convergence, Drive, Entry, FrictionLaw, NormalForce, Profile, PulleyState,
-    SteadyState, Warning,
+    BeltKind, Check, Convergence, Drive, Entry, FrictionLaw, NormalForce, PulleyState, SteadyState,
+    Warning,
 };
-use std::f64::consts::FRAC_PI_2;
 use web_time::Instant;
-
-/// Points of a profile: at least so many on a pulley, and in a panel of a zone.
-const POINTS: usize = 240;
-const PANEL_POINTS: usize = 4;
 
 /// From this strain on the friction zones of models with small and with finite strains differ visibly.
 const LARGE_STRAIN: f64 = 0.02;
@@ -116,59 +112,8 @@ fn pulley_state(drive: &Drive, solved: &ClosedForm, pulley: usize) -> PulleyStat
                 _ => None,
             },
         }),
-        profile: profile(drive, solved, pulley),
+        profile: profile(contact, drive.belt, radius, solved.speed),
     }
-}
-
-/// The belt along one pulley in SI units.
-fn profile(drive: &Drive, solved: &ClosedForm, pulley: usize) -> Profile {
-    let contact = &solved.contact[pulley];
-    let belt = drive.belt;
-    let radius = [drive.driven_radius, drive.driver_radius][pulley];
-    let flow = belt.mass_per_length * solved.speed;
-    let thesis = BeltKind::Flat {
-        normal_force: NormalForce::Thesis,
-    };
-    let mut profile = Profile::default();
-    let mut push = |place: &Place| {
-        let tension = contact.arc.belt.tension(place.traction);
-        let speed = solved.speed * (1.0 + tension / belt.axial_stiffness);
-        let tractive = tension - flow * speed;
-        let pressing = if belt.kind == thesis {
-            tension
-        } else {
-            tractive
-        };
-        profile.angle.push(place.arc_length / radius);
-        profile.arc_length.push(place.arc_length);
-        profile.tension.push(tension);
-        profile.tractive_tension.push(tractive);
-        profile.inclination.push(0.0);
-        profile.penetration.push(0.0);
-        profile
-            .displacement
-            .push(contact.arc.sense * place.displacement);
-        profile.sliding_angle.push(contact.arc.sense * FRAC_PI_2);
-        profile.normal_force.push(pressing / radius);
-        profile.friction_force.push(place.friction);
-    };
-    let panels: Vec<_> = contact
-        .zones
-        .iter()
-        .map(|zone| contact.panels(zone))
-        .collect();
-    let count: usize = panels.iter().map(|panels| panels.len() - 1).sum();
-    let points = POINTS.div_ceil(count).max(PANEL_POINTS);
-    for (zone, panels) in contact.zones.iter().zip(&panels) {
-        push(&contact.at(zone, 0.0));
-        for panel in panels.windows(2) {
-            for point in 1..=points {
-                let share = point as f64 / points as f64;
-                push(&contact.at(zone, panel[0] + share * (panel[1] - panel[0])));
-            }
-        }
-    }
-    profile
 }
 
 /// The invariants, from the friction law along the profile and not from the equations that were solved.

@@ -23,7 +23,7 @@ use crate::NormalForce;
 ///
 /// with `V_L` the speed of the slack span. Source: Kim (2009), equations 3, 52-58 (thesis); the balance of
 /// momentum of an element, Bechtel, Vohra, Jacob and Carlson (2000), for the others.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Traction {
     /// Dynamic stiffness D = EA − m v², N; positive.
     pub(super) stiffness: f64,

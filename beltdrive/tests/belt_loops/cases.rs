@@ -3,7 +3,7 @@
 use super::invariants::{close, hold};
 use beltdrive::belt_loop::{
     BeltLoop, Closure, Duty, Guide, LoadedState, LoopError, LoopPulley, Mount, Sense, Side,
-    Tensioner, solve,
+    Tensioner, TensionerLoad, solve,
 };
 use beltdrive::{Belt, BeltKind, FrictionLaw, NormalForce};
 use serde_json::Value;
@@ -53,6 +53,7 @@ fn belt_loop(input: &Value) -> BeltLoop {
     };
     let closure = &input["closure"];
     BeltLoop {
+        title: None,
         belt: Belt {
             mass_per_length: number(&input["belt"]["mass_per_length_kg_per_m"]),
             axial_stiffness: number(&input["belt"]["axial_stiffness_N"]),
@@ -94,8 +95,10 @@ fn tensioner(stated: &Value) -> Tensioner {
             pivot: numbers(&stated["pivot_m"]),
             arm_length: number(&stated["arm_length_m"]),
         },
-        stiffness: number(&stated["stiffness_N_m_per_rad"]),
-        free_coordinate: number(&stated["free_angle_rad"]),
+        load: TensionerLoad::Spring {
+            stiffness: number(&stated["stiffness_N_m_per_rad"]),
+            free_coordinate: number(&stated["free_angle_rad"]),
+        },
         start_coordinate: number(&stated["start_angle_rad"]),
         travel: Some(numbers(&stated["range_rad"])),
     }
@@ -207,7 +210,7 @@ fn solved_loops_have_every_number() {
                 &[
                     ("angle_rad", found.coordinate),
                     ("rest_angle_rad", found.rest_coordinate),
-                    ("spring_load", found.spring_load),
+                    ("spring_load", found.load),
                     ("dlength_dcoordinate", found.length_derivatives[0]),
                     ("d2length_dcoordinate2", found.length_derivatives[1]),
                     ("tensioner_constant", found.constant),

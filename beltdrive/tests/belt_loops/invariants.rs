@@ -1,7 +1,7 @@
 //! What holds in every steady state of a belt loop.
 
 use beltdrive::FrictionLaw;
-use beltdrive::belt_loop::{BeltLoop, Closure, Duty, LoopState, Mount};
+use beltdrive::belt_loop::{BeltLoop, Closure, Duty, Guide, LoopState, Mount, TensionerLoad};
 use std::f64::consts::TAU;
 
 /// Whether two numbers agree, relative.
@@ -56,6 +56,9 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
             span.tension - flow * span.speed,
             1e-9,
         );
+        if let Duty::Power(power) = stated.duty {
+            close("P", pulley.power, power, 1e-12);
+        }
         if let Duty::Torque(torque) = stated.duty {
             close("M", pulley.torque, torque, 1e-13);
         }
@@ -131,6 +134,9 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
         Closure::SpanTension { span, tension } => {
             close("T", state.spans[span].tension, tension, 1e-11);
         }
+        Closure::SpanTractiveTension { span, tension } => {
+            close("F", state.spans[span].tractive_tension, tension, 1e-11);
+        }
         Closure::RestCoordinate(coordinate) => {
             let found = state
                 .tensioner
@@ -155,10 +161,25 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
             let [Ok(low), Ok(high)] = [coordinate - step, coordinate + step].map(centre) else {
                 return;
             };
-            let work = [0, 1].map(|part| hub[part] * (high[part] - low[part]) / (2.0 * step));
-            let spring = -tensioner.stiffness * (coordinate - tensioner.free_coordinate);
+            let way = [0, 1].map(|part| (high[part] - low[part]) / (2.0 * step));
+            let work = [0, 1].map(|part| hub[part] * way[part]);
+            let spring = match (tensioner.load, tensioner.guide) {
+                (
+                    TensionerLoad::Spring {
+                        stiffness,
+                        free_coordinate,
+                    },
+                    _,
+                ) => -stiffness * (coordinate - free_coordinate),
+                (TensionerLoad::Weight(weight), Guide::Translating { .. }) => weight,
+                // Its moment about the pivot.
+                (TensionerLoad::Weight(weight), Guide::Rotary { arm_length, .. }) => {
+                    -weight * arm_length * coordinate.cos()
+                }
+            };
             let off = spring + work[0] + work[1];
-            let scale = spring.abs() + work[0].abs() + work[1].abs();
+            // The rounding of the differences grows with the force, also with one across the way.
+            let scale = spring.abs() + hub[0].hypot(hub[1]) * way[0].hypot(way[1]);
             assert!(off.abs() < 1e-8 * scale, "{off} of {scale}");
         };
         at(found.coordinate, state.pulleys[index].hub_load);

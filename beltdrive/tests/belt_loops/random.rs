@@ -3,7 +3,7 @@
 use super::invariants::hold;
 use super::{belt, pulley};
 use beltdrive::belt_loop::{
-    BeltLoop, Closure, Duty, Guide, LoopError, Mount, Sense, Side, Tensioner, solve,
+    BeltLoop, Closure, Duty, Guide, LoopError, Mount, Sense, Side, Tensioner, TensionerLoad, solve,
 };
 use beltdrive::{Belt, FrictionLaw};
 use std::collections::BTreeMap;
@@ -53,6 +53,7 @@ fn random_loop(random: &mut Random) -> BeltLoop {
         let centre = [0.5 * distance * angle.cos(), 0.5 * distance * angle.sin()];
         let duty = match index == driver {
             true => Duty::Driver(random.between(10.0, 250.0)),
+            false if random.between(0.0, 1.0) < 0.2 => Duty::Power(100.0 * load),
             false => Duty::Torque(load),
         };
         let side = if is_outside {
@@ -80,8 +81,10 @@ fn random_loop(random: &mut Random) -> BeltLoop {
                         pivot: [centre[0] - 0.1 * way[0], centre[1] - 0.1 * way[1]],
                         arm_length: 0.1,
                     },
-                    stiffness,
-                    free_coordinate: angle + random.between(-1.5, 1.5),
+                    load: TensionerLoad::Spring {
+                        stiffness,
+                        free_coordinate: angle + random.between(-1.5, 1.5),
+                    },
                     start_coordinate: angle,
                     travel,
                 },
@@ -90,8 +93,13 @@ fn random_loop(random: &mut Random) -> BeltLoop {
                         origin: centre,
                         direction: way,
                     },
-                    stiffness: 100.0 * stiffness,
-                    free_coordinate: random.between(-0.2, 0.2),
+                    load: match random.between(0.0, 1.0) < 0.8 {
+                        true => TensionerLoad::Spring {
+                            stiffness: 100.0 * stiffness,
+                            free_coordinate: random.between(-0.2, 0.2),
+                        },
+                        false => TensionerLoad::Weight(10.0 * stiffness),
+                    },
                     start_coordinate: 0.0,
                     travel,
                 },
@@ -106,6 +114,7 @@ fn random_loop(random: &mut Random) -> BeltLoop {
         pulleys[1].side = Side::Outside;
     }
     BeltLoop {
+        title: None,
         belt: Belt {
             mass_per_length: random.between(0.02, 0.3),
             axial_stiffness: random.between(9.0, 14.0).exp(),
@@ -210,7 +219,9 @@ fn absurd_loops_have_finite_answers_or_a_reason() {
             choice if choice < 3.0 => pulley.friction_coefficient *= factor,
             choice if choice < 4.0 => pulley.radius *= factor.min(1.0),
             choice if choice < 5.0 => match &mut pulley.duty {
-                Duty::Driver(number) | Duty::Torque(number) => *number *= factor,
+                Duty::Driver(number) | Duty::Torque(number) | Duty::Power(number) => {
+                    *number *= factor;
+                }
             },
             choice if choice < 6.0 => match &mut belt_loop.law {
                 FrictionLaw::Epp { stiffness } => *stiffness *= factor,
@@ -221,6 +232,9 @@ fn absurd_loops_have_finite_answers_or_a_reason() {
                 | Closure::UnstretchedLength(number)
                 | Closure::RestCoordinate(number)
                 | Closure::SpanTension {
+                    tension: number, ..
+                }
+                | Closure::SpanTractiveTension {
                     tension: number, ..
                 } => *number *= factor,
             },
@@ -258,6 +272,12 @@ fn gross_slip_begins_at_the_load_limit() {
         let Ok(state) = solve(&belt_loop) else {
             continue;
         };
+        // The limit is that of the torques.
+        for (pulley, found) in belt_loop.pulleys.iter_mut().zip(&state.pulleys) {
+            if let Duty::Power(_) = pulley.duty {
+                pulley.duty = Duty::Torque(found.torque);
+            }
+        }
         let Some(limit) = state.load_limit else {
             continue;
         };

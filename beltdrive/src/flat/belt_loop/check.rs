@@ -1,7 +1,7 @@
 //! What the statement of a belt loop has to be.
 
 use super::error::LoopError;
-use crate::drive::belt_loop::{BeltLoop, Closure, Duty, Guide, Mount, Tensioner};
+use crate::drive::belt_loop::{BeltLoop, Closure, Duty, Guide, Mount, Tensioner, TensionerLoad};
 use crate::{BeltKind, FrictionLaw, NormalForce};
 
 /// Largest magnitude of a number, SI: squares and products of three are far from overflow.
@@ -61,7 +61,9 @@ pub(super) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
             Duty::Driver(speed) if positive(speed) => drivers += 1,
             Duty::Driver(_) => return refuse(&pulley.name, "the driver's speed must be positive"),
             Duty::Torque(torque) if finite(torque) => {}
+            Duty::Power(power) if finite(power) => {}
             Duty::Torque(_) => return refuse(&pulley.name, "the torque must be a finite number"),
+            Duty::Power(_) => return refuse(&pulley.name, "the power must be a finite number"),
         }
         match pulley.mount {
             Mount::Fixed(centre) if centre.iter().all(|&part| finite(part)) => {}
@@ -71,7 +73,7 @@ pub(super) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
                 if !is_tensioner(&tensioner) {
                     return refuse(
                         &pulley.name,
-                        "the tensioner needs finite places, a positive stiffness, an arm or a direction of \
+                        "the tensioner needs finite places, a positive stiffness or weight, an arm or a direction of \
                          length 1, and stops in ascending order",
                     );
                 }
@@ -90,7 +92,7 @@ pub(super) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
     let is_closed = match belt_loop.closure {
         Closure::UnstretchedLength(length) => positive(length),
         Closure::SetupTension(tension) => positive(tension),
-        Closure::SpanTension { span, tension } => {
+        Closure::SpanTension { span, tension } | Closure::SpanTractiveTension { span, tension } => {
             positive(tension) && span < belt_loop.pulleys.len()
         }
         Closure::RestCoordinate(coordinate) => finite(coordinate) && tensioners == 1,
@@ -115,10 +117,16 @@ fn is_tensioner(tensioner: &Tensioner) -> bool {
         } => (origin, (x.hypot(y) - 1.0).abs() < ROUNDED),
     };
     let [low, high] = tensioner.travel.unwrap_or([0.0, 1.0]);
-    let [free, start] = [tensioner.free_coordinate, tensioner.start_coordinate];
-    let numbers = [place[0], place[1], free, start, low, high];
+    let is_loaded = match tensioner.load {
+        TensionerLoad::Spring {
+            stiffness,
+            free_coordinate,
+        } => positive(stiffness) && finite(free_coordinate),
+        TensionerLoad::Weight(weight) => positive(weight),
+    };
+    let numbers = [place[0], place[1], tensioner.start_coordinate, low, high];
     let is_finite = numbers.iter().all(|&number| finite(number));
-    is_finite && is_guided && positive(tensioner.stiffness) && low < high
+    is_finite && is_guided && is_loaded && low < high
 }
 
 /// Whether a number is one, and not too large.

@@ -85,16 +85,13 @@ pub(super) fn most_used(problem: &Problem<'_>, loaded: &Loaded) -> usize {
 
 /// A loaded loop against the friction of its pulleys, if it presses on all of them.
 fn judged(problem: &Problem<'_>, loaded: &Loaded, factor: f64) -> Option<LoadedState> {
-    let Problem {
-        belt_loop, target, ..
-    } = problem;
     let Loaded {
         layout,
         coordinate,
         belt,
     } = loaded;
-    let running = Running::new(belt_loop, layout, *target, FrictionLaw::Coulomb, factor);
-    let coordinate = belt_loop.tensioner().map(|_| *coordinate);
+    let running = Running::new(problem, layout, FrictionLaw::Coulomb, factor);
+    let coordinate = problem.belt_loop.tensioner().map(|_| *coordinate);
     belt.as_ref().map(|belt| running.loaded(belt, coordinate))
 }
 

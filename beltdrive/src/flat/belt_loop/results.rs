@@ -1,11 +1,12 @@
 //! Everything that follows from the speed and the tensions of a loop.
 
 use super::super::contact::Friction;
+use super::super::profile::zones;
 use super::error::LoopError;
 use super::running::RunningBelt;
 use super::solve::Rest;
 use super::state::{LoadLimit, LoopState, PulleyState, SpanState, TensionerState};
-use super::tensioner::{Held, spring_load};
+use super::tensioner::Held;
 use crate::drive::belt_loop::{BeltLoop, Duty};
 use crate::drive::layout::Layout;
 
@@ -107,7 +108,7 @@ impl Found<'_> {
         let driving = axial + contacts[driver].reference();
         let angular_speed = match stated.duty {
             Duty::Driver(angular_speed) => angular_speed,
-            Duty::Torque(_) => speed * (1.0 + belt.strain(reference)) / radius,
+            Duty::Torque(_) | Duty::Power(_) => speed * (1.0 + belt.strain(reference)) / radius,
         };
         let arc_of = |slips: bool| {
             let zones = contact.zones.iter();
@@ -140,6 +141,7 @@ impl Found<'_> {
             rest_wrap: self.rest.layout.wraps()[index],
             no_slip_arc: arc_of(false),
             slip_arc: arc_of(true),
+            zones: zones(contact, radius),
             entry_strain,
             reference_tension: belt.tension(reference),
             hub_load: hub_load(&self.layout, ends),
@@ -166,7 +168,7 @@ impl Found<'_> {
             pulley,
             coordinate: self.coordinate,
             rest_coordinate: self.rest.coordinate,
-            spring_load: spring_load(tensioner, self.coordinate),
+            load: tensioner.load_at(self.coordinate)[0],
             length_derivatives: running.length_derivatives,
             stiffness: running.stiffness,
             rest_stiffness: rest.stiffness,
@@ -178,10 +180,7 @@ impl Found<'_> {
 
 /// The answer.
 pub(super) fn state(found: Found<'_>) -> LoopState {
-    let duties = found.belt_loop.pulleys.iter().map(|pulley| pulley.duty);
-    let mut duties = duties.enumerate();
-    let driver = duties.find(|(_, duty)| matches!(duty, Duty::Driver(_)));
-    let driver = driver.map_or(0, |(index, _)| index);
+    let driver = found.belt_loop.driver();
     let count = found.belt_loop.pulleys.len();
     let pulleys: Vec<_> = (0..count)
         .map(|index| found.pulley(index, driver))
@@ -206,5 +205,7 @@ pub(super) fn state(found: Found<'_>) -> LoopState {
         load_limit: found.limit,
         rest_layout: found.rest.layout,
         layout: found.layout,
+        belt: found.belt_loop.belt,
+        contacts: found.belt.contacts,
     }
 }

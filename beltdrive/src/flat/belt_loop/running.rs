@@ -5,7 +5,8 @@ use super::super::root::bracketed;
 use super::super::traction::Traction;
 use super::super::{coulomb, epp};
 use super::error::LoadedState;
-use crate::drive::belt_loop::{BeltLoop, Duty};
+use super::solve::Problem;
+use crate::drive::belt_loop::BeltLoop;
 use crate::drive::layout::Layout;
 use crate::{FrictionLaw, NormalForce};
 
@@ -30,6 +31,8 @@ pub(super) enum Target {
     Unstretched { length: f64, elongation: f64 },
     /// Belt tension of a span, N.
     Tension { span: usize, tension: f64 },
+    /// Tractive tension of a span, N.
+    TractiveTension { span: usize, tension: f64 },
 }
 
 /// Pulleys at fixed places, their loads, a closure and a friction law.
@@ -68,25 +71,24 @@ impl<'l> Running<'l> {
     /// All torques are multiplied by `factor`. With [`FrictionLaw::Coulomb`] friction is raised where it
     /// does not carry the load.
     pub(super) fn new(
-        belt_loop: &'l BeltLoop,
+        problem: &Problem<'l>,
         layout: &'l Layout,
-        target: Target,
         law: FrictionLaw,
         factor: f64,
     ) -> Self {
+        let &Problem {
+            belt_loop,
+            torques,
+            target,
+            ..
+        } = problem;
         let pulleys = &belt_loop.pulleys;
-        let mut driver = (0, 0.0);
-        let mut changes = Vec::with_capacity(pulleys.len());
-        for (index, pulley) in pulleys.iter().enumerate() {
-            changes.push(match pulley.duty {
-                Duty::Driver(speed) => {
-                    driver = (index, speed * pulley.radius);
-                    0.0
-                }
-                Duty::Torque(torque) => factor * torque / pulley.radius,
-            });
-        }
-        let (driver, rim) = driver;
+        let driver = belt_loop.driver();
+        let loads = pulleys.iter().zip(torques);
+        let mut changes: Vec<_> = loads
+            .map(|(pulley, torque)| factor * torque / pulley.radius)
+            .collect();
+        changes[driver] = 0.0;
         changes[driver] = 0.0 - changes.iter().sum::<f64>();
         let mut offsets = vec![0.0; pulleys.len()];
         for step in 1..pulleys.len() {
@@ -102,7 +104,7 @@ impl<'l> Running<'l> {
             target,
             law,
             driver,
-            rim,
+            rim: belt_loop.rim_speed(),
             changes,
             offsets,
         }
@@ -222,6 +224,7 @@ impl<'l> Running<'l> {
             Target::Tension { span, tension } => {
                 found.belt.tension(found.tractive[span]) / tension - 1.0
             }
+            Target::TractiveTension { span, tension } => found.tractive[span] / tension - 1.0,
         }
     }
 

@@ -6,16 +6,21 @@ use super::limit::{load_limit, most_used};
 use super::results::{Found, state};
 use super::running::{Running, RunningBelt, Target};
 use super::state::LoopState;
-use super::tensioner::{
-    Held, Towards, equilibrium, length_derivatives, spring_load, within_travel,
-};
+use super::tensioner::{Held, Towards, equilibrium, length_derivatives, within_travel};
 use crate::FrictionLaw;
-use crate::drive::belt_loop::{BeltLoop, Closure, Duty};
+use crate::drive::belt_loop::{BeltLoop, Closure, Duty, LoopPulley};
 use crate::drive::layout::Layout;
 
 /// Largest strain of the belt: at twice its length no belt is linear elastic, and far beyond it the length
 /// of the unstretched belt is lost in rounding.
 const LARGEST_STRAIN: f64 = 1.0;
+
+/// A given power is met to this, relative: rounding errors of the torques.
+const POWER: f64 = 1e-14;
+
+/// Most iterations for the torques of given powers. Each divides the error by about EA over the change of
+/// tension, at least 10 for any belt; 30 leave room for one about to stall.
+const POWERS: usize = 30;
 
 /// The belt at rest: uniform tension, no friction.
 #[derive(Clone, Debug)]
@@ -38,9 +43,11 @@ pub(super) struct Loaded {
     pub(super) belt: Option<RunningBelt>,
 }
 
-/// A loop with what its closure asks of the running belt.
+/// A loop with its torques and what its closure asks of the running belt.
 pub(super) struct Problem<'l> {
     pub(super) belt_loop: &'l BeltLoop,
+    /// Torque of each pulley, N·m; that of the driver means nothing.
+    pub(super) torques: &'l [f64],
     pub(super) target: Target,
     /// Where the equilibrium of the tensioner is sought from.
     start: f64,
@@ -56,6 +63,34 @@ pub(super) struct Problem<'l> {
 /// Those of [`LoopError`], in the order given there.
 pub fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
     check(belt_loop)?;
+    let rim = belt_loop.rim_speed();
+    let torque = |pulley: &LoopPulley| match pulley.duty {
+        Duty::Driver(_) => 0.0,
+        Duty::Torque(torque) => torque,
+        Duty::Power(power) => power * pulley.radius / rim,
+    };
+    let mut torques: Vec<_> = belt_loop.pulleys.iter().map(torque).collect();
+    for _ in 0..POWERS {
+        let state = with_torques(belt_loop, &torques)?;
+        let mut change = 0.0;
+        for (index, pulley) in belt_loop.pulleys.iter().enumerate() {
+            if let Duty::Power(power) = pulley.duty {
+                let torque = power / state.pulleys[index].angular_speed;
+                change = f64::max(change, ((torque - torques[index]) / torque).abs());
+                torques[index] = torque;
+            }
+        }
+        if change.is_nan() || change < POWER {
+            return Ok(state);
+        }
+    }
+    Err(LoopError::NotFound {
+        what: "torque of a given power",
+    })
+}
+
+/// The steady state of a belt loop with given torques.
+fn with_torques(belt_loop: &BeltLoop, torques: &[f64]) -> Result<LoopState, LoopError> {
     let start = match (belt_loop.closure, belt_loop.tensioner()) {
         (Closure::RestCoordinate(coordinate), _) => coordinate,
         (_, Some((_, tensioner))) => tensioner.start_coordinate,
@@ -64,6 +99,9 @@ pub fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
     belt_loop.layout(start)?;
     let (rest, target) = match belt_loop.closure {
         Closure::SpanTension { span, tension } => (None, Target::Tension { span, tension }),
+        Closure::SpanTractiveTension { span, tension } => {
+            (None, Target::TractiveTension { span, tension })
+        }
         _ => {
             let rest = rest_of_closure(belt_loop, start)?;
             let length = rest.layout.length();
@@ -74,6 +112,7 @@ pub fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
     };
     let mut problem = Problem {
         belt_loop,
+        torques,
         target,
         start: rest.as_ref().map_or(start, |rest| rest.coordinate),
         towards: match rest {
@@ -102,7 +141,9 @@ pub fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
         _ => rigid,
     };
     let rest = match belt_loop.closure {
-        Closure::SpanTension { .. } => problem.rest_of(&loaded)?,
+        Closure::SpanTension { .. } | Closure::SpanTractiveTension { .. } => {
+            problem.rest_of(&loaded)?
+        }
         _ => rest,
     };
     let stalls = |pulley: usize| LoopError::Stalls {
@@ -156,13 +197,15 @@ fn rest_of_closure(belt_loop: &BeltLoop, start: f64) -> Result<Rest, LoopError> 
                 Ok(tension)
             })?
         }
-        Closure::RestCoordinate(_) | Closure::SpanTension { .. } => start,
+        Closure::RestCoordinate(_)
+        | Closure::SpanTension { .. }
+        | Closure::SpanTractiveTension { .. } => start,
     };
     let layout = belt_loop.layout(coordinate)?;
     let tension = match (belt_loop.closure, belt_loop.tensioner()) {
         (Closure::RestCoordinate(_), Some((pulley, tensioner))) => {
             let [slope, _] = length_derivatives(&layout, pulley, &tensioner.guide, coordinate);
-            spring_load(tensioner, coordinate) / slope
+            tensioner.load_at(coordinate)[0] / slope
         }
         (Closure::SetupTension(tension), _) => tension,
         _ => f64::NAN,
@@ -244,15 +287,7 @@ impl Problem<'_> {
     /// if the belt lifts off.
     fn unloaded(&self) -> Result<f64, LoopError> {
         let belt = self.belt_loop.belt;
-        let rims = self
-            .belt_loop
-            .pulleys
-            .iter()
-            .map(|pulley| match pulley.duty {
-                Duty::Driver(speed) => speed * pulley.radius,
-                Duty::Torque(_) => 0.0,
-            });
-        let rim: f64 = rims.sum();
+        let rim = self.belt_loop.rim_speed();
         let tractive = |layout: &Layout| {
             let strain = match self.target {
                 Target::Unstretched { length, elongation } => {
@@ -260,6 +295,7 @@ impl Problem<'_> {
                     elongation / (layout.length() - elongation)
                 }
                 Target::Tension { tension, .. } => tension / belt.axial_stiffness,
+                Target::TractiveTension { tension, .. } => return tension,
             };
             let flow = belt.mass_per_length * rim / (1.0 + strain);
             belt.axial_stiffness * strain - flow * rim
@@ -296,7 +332,7 @@ impl Problem<'_> {
         // The belt, and the tractive tension of the idler: a belt that does not press has the slackest
         // tension 0.
         let closed = |layout: &Layout| {
-            let running = Running::new(self.belt_loop, layout, self.target, law, factor);
+            let running = Running::new(self, layout, law, factor);
             let belt = running.closed().map_err(|()| lost.clone())?;
             let none = running.offset(pulley);
             let tractive = belt.as_ref().map_or(none, |belt| belt.tractive[pulley]);

@@ -1,6 +1,9 @@
 //! The steady state of a belt loop, as it is answered.
 
+use super::super::contact::Contact;
+use super::super::profile::profile;
 use crate::drive::layout::Layout;
+use crate::{Belt, Profile, Zone};
 
 /// The steady state of a belt loop; lists are in belt order.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +40,25 @@ pub struct LoopState {
     /// How far all torques can be raised with Coulomb friction; `None` without torques, or if the tensioner
     /// has no equilibrium up to there.
     pub load_limit: Option<LoadLimit>,
+    /// The belt on the pulleys.
+    pub(super) contacts: Vec<Contact>,
+    pub(super) belt: Belt,
+}
+
+impl LoopState {
+    /// The belt along the contact with a pulley, by its index in belt order; computed when it is asked for.
+    ///
+    /// # Panics
+    /// If there is no such pulley.
+    pub fn profile(&self, pulley: usize) -> Profile {
+        let radius = self.layout.pulleys()[pulley].radius;
+        profile(
+            &self.contacts[pulley],
+            self.belt,
+            radius,
+            self.unstretched_speed,
+        )
+    }
 }
 
 /// A free span.
@@ -90,6 +112,8 @@ pub struct PulleyState {
     pub no_slip_arc: f64,
     /// Arc on which the belt slips, rad.
     pub slip_arc: f64,
+    /// The zones of friction, in the order in which the belt passes them.
+    pub zones: Vec<Zone>,
     /// Strain u′(0) of the belt against the rim where it enters: positive where the tension grows, 0 with
     /// Coulomb friction.
     pub entry_strain: f64,
@@ -122,12 +146,12 @@ pub struct TensionerState {
     pub coordinate: f64,
     /// Coordinate at rest, rad or m.
     pub rest_coordinate: f64,
-    /// Load −k (q − q₀) of the spring along the coordinate, N·m or N.
-    pub spring_load: f64,
+    /// Load of its spring or weight along the coordinate, N·m or N.
+    pub load: f64,
     /// First and second derivative of the length of the loop with the coordinate.
     pub length_derivatives: [f64; 2],
     /// Stiffness k + `F_t` d²L/dq² + (EA/`L_0`) (dL/dq)² against a slow displacement, N·m/rad or N/m; with
-    /// uniform tension.
+    /// uniform tension; k is that of the spring, or less the derivative of the load of a weight.
     pub stiffness: f64,
     /// The same at rest.
     pub rest_stiffness: f64,

@@ -49,8 +49,9 @@ pub(super) fn length_derivatives(
     ]
 }
 
-/// The coordinate nearest to `start`, in the direction in which the idler goes from there, at which spring
-/// and belt are in equilibrium: −k (q − q₀) − `F_t` dL/dq = 0. `tractive` gives `F_t` in N.
+/// The coordinate nearest to `start`, in the direction in which the idler goes from there, at which the
+/// load Q(q) of the tensioner and the belt are in equilibrium: Q − `F_t` dL/dq = 0. `tractive` gives `F_t`
+/// in N.
 pub(super) fn equilibrium(
     belt_loop: &BeltLoop,
     start: f64,
@@ -68,10 +69,8 @@ pub(super) fn equilibrium(
         let layout = belt_loop.layout(coordinate)?;
         let [slope, curvature] = length_derivatives(&layout, pulley, guide, coordinate);
         let tension = tractive(&layout)?;
-        Ok([
-            spring_load(tensioner, coordinate) - tension * slope,
-            -tensioner.stiffness - tension * curvature,
-        ])
+        let [load, load_slope] = tensioner.load_at(coordinate);
+        Ok([load - tension * slope, load_slope - tension * curvature])
     };
     let radius = belt_loop.pulleys[pulley].radius;
     let (largest, longest) = match guide {
@@ -99,10 +98,16 @@ pub(super) fn equilibrium(
             }
             Ok([at_next, _]) if (at_next > 0.0) != (at_start > 0.0) => {
                 let at = |coordinate| force(coordinate).map_or(f64::NAN, |[force, _]| force);
-                let found = bracketed(at, [here.0, next], [here.1, at_next]);
-                return found.ok_or(LoopError::NotFound {
-                    what: "coordinate of the tensioner",
-                });
+                if let Some(found) = bracketed(at, [here.0, next], [here.1, at_next]) {
+                    return Ok(found);
+                }
+                // Between the two the belt cannot be laid round the pulleys.
+                step *= 0.5;
+                if step < SMALLEST_STEP * largest {
+                    return Err(LoopError::NotFound {
+                        what: "coordinate of the tensioner",
+                    });
+                }
             }
             Ok([at_next, _]) => {
                 here = (next, at_next);
@@ -118,11 +123,6 @@ pub(super) fn equilibrium(
         pulley: name(),
         which,
     })
-}
-
-/// Load of the spring along the coordinate, N·m or N.
-pub(super) fn spring_load(tensioner: &Tensioner, coordinate: f64) -> f64 {
-    -tensioner.stiffness * (coordinate - tensioner.free_coordinate)
 }
 
 /// Whether the tensioner is between its stops.
@@ -150,7 +150,8 @@ pub(super) fn within_travel(belt_loop: &BeltLoop, coordinate: f64) -> Result<(),
 pub(super) struct Held {
     /// dL/dq and d²L/dq².
     pub(super) length_derivatives: [f64; 2],
-    /// K = k + `F_t` d²L/dq² + (EA/`L_0`) (dL/dq)², against a slow displacement; N·m/rad or N/m.
+    /// K = k + `F_t` d²L/dq² + (EA/`L_0`) (dL/dq)², against a slow displacement, with k = −dQ/dq of the load
+    /// Q of the tensioner; N·m/rad or N/m.
     pub(super) stiffness: f64,
     /// η = 1/(1 + (k + `F_t` d²L/dq²) `L_0`/(EA (dL/dq)²)) (Beikmann, Perkins and Ulsoy 1996).
     pub(super) constant: f64,
@@ -168,7 +169,8 @@ impl Held {
     ) -> Self {
         let derivatives = length_derivatives(layout, pulley, &tensioner.guide, coordinate);
         let [slope, curvature] = derivatives;
-        let by_spring = tensioner.stiffness + tractive * curvature;
+        let [_, load_slope] = tensioner.load_at(coordinate);
+        let by_spring = tractive * curvature - load_slope;
         let by_belt = belt_loop.belt.axial_stiffness / unstretched * slope * slope;
         Self {
             length_derivatives: derivatives,
