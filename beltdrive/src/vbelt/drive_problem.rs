@@ -63,26 +63,26 @@ impl DriveProblem {
     /// direction normalised by `epsilon` (which bristles do not use). EPP friction is not blended.
     pub(crate) fn new(drive: &Drive, scales: Scales, epsilon: f64) -> Self {
         let (sin_beta, cos_beta) = drive.belt.v().half_angle.sin_cos();
-        let radial = scales.radial_stiffness(drive.belt.v().radial_stiffness);
-        let grooves = [DRIVEN, DRIVER].map(|pulley| {
+        let units = scales.units;
+        let grooves = scales.radius.map(|radius| {
             let law = match drive.law {
                 FrictionLaw::Coulomb => Law::Coulomb,
                 FrictionLaw::Epp { stiffness } => Law::Epp {
-                    stiffness: scales.friction_stiffness(stiffness)[pulley],
-                    unstretched: drive.load.slack.value() / scales.force,
+                    stiffness: units.friction_stiffness(stiffness, radius),
+                    unstretched: drive.load.slack.value() / units.force,
                     weight: 1.0,
                 },
                 FrictionLaw::Bristle { stiffness } => Law::Bristle {
-                    stiffness: stiffness * scales.radius[pulley],
+                    stiffness: stiffness * radius,
                 },
                 FrictionLaw::CreepRate { .. } => panic!("a law for V-belts was expected"),
             };
             Groove {
-                strand: scales.strand(),
+                strand: units.strand(),
                 sin_beta,
                 cos_beta,
                 friction_coefficient: drive.friction_coefficient,
-                radial_stiffness: radial[pulley],
+                radial_stiffness: units.radial_stiffness(drive.belt.v().radial_stiffness, radius),
                 law,
                 epsilon,
             }
@@ -94,8 +94,8 @@ impl DriveProblem {
                 centre_distance: drive.centre_distance,
             },
             grooves,
-            slack: scaled(drive.load.slack, scales.force),
-            tight: scaled(drive.load.tight, scales.force),
+            slack: scaled(drive.load.slack, units.force),
+            tight: scaled(drive.load.tight, units.force),
             instead: None,
             regimes: Vec::new(),
             segments: Vec::new(),

@@ -58,7 +58,7 @@ impl DriveFamily {
         Self {
             drive: drive.clone(),
             entries,
-            force: problem.scales().force,
+            force: problem.scales().units.force,
             epsilon: problem.epsilon(),
             regimes: [DRIVEN, DRIVER].map(|pulley| problem.regimes(pulley).to_vec()),
             segments: Problem::segments(problem).to_vec(),

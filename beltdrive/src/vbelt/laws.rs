@@ -69,7 +69,7 @@ impl Path<'_> {
     /// The steady state of the drive from that of a neighbouring drive with a law of the same kind,
     /// at the same ε and with the same zones.
     pub(super) fn neighbour(&mut self, solved: &Solved) -> Result<Solved, bvp::Error> {
-        self.scales = Scales::with_force(self.drive, solved.problem.scales().force);
+        self.scales = Scales::with_force(self.drive, solved.problem.scales().units.force);
         let [driven, driver] = [DRIVEN, DRIVER].map(|pulley| solved.problem.regimes(pulley));
         let problem = DriveProblem::new(self.drive, self.scales, solved.problem.epsilon())
             .with_zones(driven, driver);

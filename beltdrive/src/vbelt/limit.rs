@@ -62,7 +62,7 @@ impl Path<'_> {
             // The effect of ε belongs to the state.
             beyond_or_stuck => beyond_or_stuck.map(|solved| (solved, self.epsilon_effect)),
         };
-        let slack = self.drive.load.slack.value() / self.scales.force;
+        let slack = self.drive.load.slack.value() / self.scales.units.force;
         let ratio = target / slack;
         let smaller = SMALLER_LOADS.map(|share| slack * ratio.powf(share));
         let larger = LARGER_LOADS.map(|factor| target * factor);

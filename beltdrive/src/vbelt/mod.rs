@@ -24,6 +24,7 @@ mod laws;
 mod limit;
 mod limit_curve;
 mod limits;
+mod on_pulley;
 mod path;
 mod piece;
 mod scaling;
@@ -40,7 +41,7 @@ pub(crate) use drive_problem::{DriveProblem, Instead};
 pub(crate) use groove::{Groove, Law, Regime};
 pub(crate) use guess::Guess;
 pub(crate) use path::Solved;
-pub(crate) use scaling::{Scales, Strand};
+pub(crate) use scaling::{Scales, Strand, Units};
 
 use groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 

@@ -1,64 +1,54 @@
 //! The units in which the equations of a drive are pure numbers of order one.
 
-use super::{DRIVEN, DRIVER};
-use crate::Drive;
+use crate::{Belt, Drive};
 use bvp::Real;
 
-/// The units of a drive. A scaled quantity times its unit is the quantity in SI.
+/// The units of a drive or a loop. A scaled quantity times its unit is the quantity in SI.
 ///
 /// ```text
 /// forces F, T          F_ref           lengths s, x on pulley i    Rᵢ
-/// mass flow G          m ω₂ R₂         line loads p, f             F_ref/Rᵢ
-/// belt speed V         ω₂ R₂           displacement u              F_ref Rᵢ/EA
-/// driven speed ω₁      ω₂ R₂/R₁        torque                      F_ref Rᵢ
+/// mass flow G          m ω_d R_d       line loads p, f             F_ref/Rᵢ
+/// belt speed V         ω_d R_d         displacement u              F_ref Rᵢ/EA
+/// angular speed ωᵢ     ω_d R_d/Rᵢ      torque                      F_ref Rᵢ
 /// ```
 ///
-/// The driver turns at 1, and the driven pulley at 1 where nothing slips or stretches.
+/// The driver d turns at 1, and every other pulley at 1 where nothing slips or stretches.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Scales {
+pub(crate) struct Units {
     /// Reference force `F_ref`, N; positive.
     pub(crate) force: f64,
-    /// Circumferential speed ω₂ R₂ of the driver, m/s.
+    /// Circumferential speed `ω_d R_d` of the driver, m/s.
     pub(crate) speed: f64,
-    /// Pitch radii of the driven pulley and of the driver, m.
-    pub(crate) radius: [f64; 2],
     /// Mass per unstretched length, kg/m.
     mass_per_length: f64,
     /// Axial stiffness EA, N.
     axial_stiffness: f64,
 }
 
-impl Scales {
-    /// Units by the largest prescribed tension: tensions are then of order one at every load.
-    pub(crate) fn new(drive: &Drive) -> Self {
-        let force = drive.load.tight.value().max(drive.load.slack.value());
-        Self::with_force(drive, force)
-    }
-
-    /// Units with a given reference force in N, to compare states of different loads.
-    pub(crate) fn with_force(drive: &Drive, force: f64) -> Self {
+impl Units {
+    /// Of a belt and its driver's circumferential speed in m/s, with a reference force in N.
+    pub(crate) fn new(belt: &Belt, speed: f64, force: f64) -> Self {
         Self {
             force,
-            speed: drive.driver_speed * drive.driver_radius,
-            radius: [drive.driven_radius, drive.driver_radius],
-            mass_per_length: drive.belt.mass_per_length,
-            axial_stiffness: drive.belt.axial_stiffness,
+            speed,
+            mass_per_length: belt.mass_per_length,
+            axial_stiffness: belt.axial_stiffness,
         }
     }
 
-    /// Unit of line loads on `pulley`, N/m.
-    pub(crate) fn line_load(&self, pulley: usize) -> f64 {
-        self.force / self.radius[pulley]
+    /// Unit of line loads on a pulley of a radius in m, N/m.
+    pub(crate) fn line_load(&self, radius: f64) -> f64 {
+        self.force / radius
     }
 
-    /// Unit of the displacement on `pulley`, m: the stretch of a length R under `F_ref`.
-    pub(crate) fn displacement(&self, pulley: usize) -> f64 {
-        self.force * self.radius[pulley] / self.axial_stiffness
+    /// Unit of the displacement on a pulley, m: the stretch of a length R under `F_ref`.
+    pub(crate) fn displacement(&self, radius: f64) -> f64 {
+        self.force * radius / self.axial_stiffness
     }
 
-    /// Unit of torque on `pulley`, N·m.
-    pub(crate) fn torque(&self, pulley: usize) -> f64 {
-        self.force * self.radius[pulley]
+    /// Unit of torque on a pulley, N·m.
+    pub(crate) fn torque(&self, radius: f64) -> f64 {
+        self.force * radius
     }
 
     /// Unit of power, W.
@@ -71,9 +61,9 @@ impl Scales {
         self.mass_per_length * self.speed
     }
 
-    /// Unit of the angular speed of `pulley`, rad/s.
-    pub(crate) fn angular_speed(&self, pulley: usize) -> f64 {
-        self.speed / self.radius[pulley]
+    /// Unit of the angular speed of a pulley, rad/s.
+    pub(crate) fn angular_speed(&self, radius: f64) -> f64 {
+        self.speed / radius
     }
 
     /// The belt as a moving string, in these units.
@@ -84,15 +74,40 @@ impl Scales {
         }
     }
 
-    /// Scaled radial stiffness k R²/`F_ref` of both pulleys, from k in N/m².
-    pub(crate) fn radial_stiffness(&self, stiffness: f64) -> [f64; 2] {
-        [DRIVEN, DRIVER].map(|pulley| stiffness * self.radius[pulley] / self.line_load(pulley))
+    /// Scaled radial stiffness k R²/`F_ref` on a pulley, from k in N/m².
+    pub(crate) fn radial_stiffness(&self, stiffness: f64, radius: f64) -> f64 {
+        stiffness * radius / self.line_load(radius)
     }
 
-    /// Scaled friction stiffness `k_f` R²/EA of both pulleys, from `k_f` in N/m².
-    pub(crate) fn friction_stiffness(&self, stiffness: f64) -> [f64; 2] {
-        [DRIVEN, DRIVER]
-            .map(|pulley| stiffness * self.displacement(pulley) / self.line_load(pulley))
+    /// Scaled friction stiffness `k_f` R²/EA on a pulley, from `k_f` in N/m².
+    pub(crate) fn friction_stiffness(&self, stiffness: f64, radius: f64) -> f64 {
+        stiffness * self.displacement(radius) / self.line_load(radius)
+    }
+}
+
+/// The units of a drive with two pulleys.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scales {
+    /// Those that both pulleys share.
+    pub(crate) units: Units,
+    /// Pitch radii of the driven pulley and of the driver, m.
+    pub(crate) radius: [f64; 2],
+}
+
+impl Scales {
+    /// Units by the largest prescribed tension: tensions are then of order one at every load.
+    pub(crate) fn new(drive: &Drive) -> Self {
+        let force = drive.load.tight.value().max(drive.load.slack.value());
+        Self::with_force(drive, force)
+    }
+
+    /// Units with a given reference force in N, to compare states of different loads.
+    pub(crate) fn with_force(drive: &Drive, force: f64) -> Self {
+        let speed = drive.driver_speed * drive.driver_radius;
+        Self {
+            units: Units::new(&drive.belt, speed, force),
+            radius: [drive.driven_radius, drive.driver_radius],
+        }
     }
 }
 
@@ -100,7 +115,7 @@ impl Scales {
 ///
 /// ```text
 /// F = T − G V,  V = (G/m)(1 + T/EA)   ⇔   T = (F + c G²)/(1 − c e G²),  V = G (1 + e T)
-/// c = m (ω₂R₂)²/F_ref,  e = F_ref/EA
+/// c = m (ω_d R_d)²/F_ref,  e = F_ref/EA
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Strand {
@@ -136,7 +151,7 @@ impl Strand {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::{Belt, BeltKind, FrictionLaw, Load, SpanTension, VBelt};
+    use crate::{BeltKind, FrictionLaw, Load, SpanTension, VBelt};
 
     /// The drive of Kim (2009), table 3, with unequal radii if asked for.
     pub(in crate::vbelt) fn kim(law: FrictionLaw, driven_radius: f64) -> Drive {
@@ -166,7 +181,7 @@ pub(super) mod tests {
 
     #[test]
     fn tension_and_tractive_tension_are_inverse() {
-        let strand = Scales::new(&kim(FrictionLaw::Coulomb, 0.2)).strand();
+        let strand = Scales::new(&kim(FrictionLaw::Coulomb, 0.2)).units.strand();
         for (tractive, flow) in [(0.1, 0.97), (1.0, 0.93), (0.0, 1.02)] {
             let tension = strand.tension(tractive, flow);
             assert!((strand.tractive(tension, flow) - tractive).abs() < 1e-15);
@@ -176,7 +191,7 @@ pub(super) mod tests {
     #[test]
     fn units_turn_scaled_tensions_into_newtons() {
         let drive = kim(FrictionLaw::Coulomb, 0.2);
-        let scales = Scales::new(&drive);
+        let scales = Scales::new(&drive).units;
         let (m, stiffness) = (drive.belt.mass_per_length, drive.belt.axial_stiffness);
         let (force, flow) = (433.0, 2.7);
         let expected = (force + flow * flow / m) / (1.0 - flow * flow / (m * stiffness));

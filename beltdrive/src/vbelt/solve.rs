@@ -17,7 +17,7 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
 /// Searches the state of a drive at its load.
 pub(super) fn find(drive: &Drive, tolerance: f64) -> (Path<'_>, Result<Found, Stuck>) {
     let mut path = Path::new(drive, tolerance);
-    let found = path.find(drive.load.tight.value() / path.scales.force);
+    let found = path.find(drive.load.tight.value() / path.scales.units.force);
     (path, found)
 }
 
@@ -85,7 +85,7 @@ pub(super) fn is_crossed(drive: &Drive) -> bool {
 pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<Solved, SolveError> {
     let (drive, scales) = (path.drive, path.scales);
     let found = found.map_err(|Stuck { last, cause }| SolveError::NotConverged {
-        tight: last.map(|last| last.tight_tension() * scales.force),
+        tight: last.map(|last| last.tight_tension() * scales.units.force),
         cause: Box::new(cause),
     })?;
     match found {
@@ -98,9 +98,10 @@ pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<So
                     _ => "tight tension",
                 },
                 asked: drive.load.tight.value(),
-                limit: state.tight_tension() * scales.force,
+                limit: state.tight_tension() * scales.units.force,
                 reason: limit.reason,
-                driven_speed: state.driven_speed() * scales.angular_speed(super::DRIVEN),
+                driven_speed: state.driven_speed()
+                    * scales.units.angular_speed(scales.radius[super::DRIVEN]),
                 exit_inclination: state.exit(super::DRIVER)[super::INCLINATION],
             })
         }

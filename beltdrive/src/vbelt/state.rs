@@ -1,35 +1,14 @@
 //! From a solution to the steady state in SI units, with its checks.
 
+use super::on_pulley::{Integrals, OnPulley, Stretch, extend};
 use super::path::{Path, Solved};
-use super::{DRIVEN, DRIVER, DriveProblem, EndAngles, INCLINATION, LAW, Law, MAX_STATES, Regime};
+use super::{DRIVEN, DRIVER, DriveProblem, EndAngles, Law, Regime};
 use crate::steady_state::{
-    Check, Convergence, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind,
+    Check, Convergence, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind,
 };
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 use web_time::Instant;
-
-/// Gauss rule with four points on \[0, 1\] for integrals over a mesh interval (abscissae ±x₁, ±x₂
-/// and weights of the rule on \[−1, 1\], Abramowitz & Stegun table 25.4).
-const GAUSS: [(f64, f64); 4] = [
-    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
-    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
-    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
-    (0.930_568_155_797_026_2, 0.173_927_422_568_726_93),
-];
-/// Profiles have at least so many points per pulley.
-const PROFILE_POINTS: usize = 240;
-/// Bristles deflected to this share of their limit count as slipping.
-const SLIPPING_BRISTLES: f64 = 0.99;
-
-/// Integrals over the contact with one pulley, scaled.
-#[derive(Clone, Copy, Debug, Default)]
-struct Integrals {
-    torque: f64,
-    friction: f64,
-    stored: f64,
-    unstretched: f64,
-}
 
 /// The steady state of a solved drive.
 pub(super) fn steady_state(path: &Path<'_>, solved: Solved, start: Instant) -> SteadyState {
@@ -46,8 +25,9 @@ pub(super) fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
     let p = solved.solution.parameters();
     let flow = DriveProblem::flow(p);
     let strand = problem.groove(DRIVER).strand;
-    let integrals = [DRIVEN, DRIVER].map(|pulley| integrate(solved, pulley));
-    let ends = [DRIVEN, DRIVER].map(|pulley| end_angles(solved, pulley));
+    let on = [DRIVEN, DRIVER].map(|pulley| on_pulley(solved, pulley));
+    let integrals = on.each_ref().map(OnPulley::integrate);
+    let ends = on.each_ref().map(OnPulley::ends);
     let spans = [DRIVEN, DRIVER].map(|from| problem.layout().span(from, ends));
 
     let [tight, slack] = [solved.entry(DRIVER), solved.exit(DRIVER)].map(|y| y[super::TENSION]);
@@ -73,10 +53,10 @@ pub(super) fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
             })
         })
         .collect();
-    let force = |scaled: f64| scaled * scales.force;
+    let force = |scaled: f64| scaled * scales.units.force;
     SteadyState {
         drive: path.drive.clone(),
-        mass_flow: flow * scales.mass_flow(),
+        mass_flow: flow * scales.units.mass_flow(),
         belt_length: contact_length(DRIVEN)
             + contact_length(DRIVER)
             + unstretched_span(spans[DRIVEN], tight)
@@ -92,7 +72,7 @@ pub(super) fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
         } else {
             0.0
         },
-        friction_loss: friction * scales.power(),
+        friction_loss: friction * scales.units.power(),
         driver,
         driven,
         warnings,
@@ -120,45 +100,24 @@ pub(super) fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
     }
 }
 
-/// The inclination at entry and exit of a pulley.
-fn end_angles(solved: &Solved, pulley: usize) -> EndAngles<f64> {
-    EndAngles {
-        entry: solved.entry(pulley)[INCLINATION],
-        exit: solved.exit(pulley)[INCLINATION],
-    }
-}
-
-/// Calls `visit(segment, s, weight, y)` at the points of a rule that integrates over the scaled
-/// arc length of a pulley.
-fn for_each_point(solved: &Solved, pulley: usize, mut visit: impl FnMut(usize, f64, f64, &[f64])) {
+/// The belt on one pulley of a solved drive.
+fn on_pulley(solved: &Solved, pulley: usize) -> OnPulley<'_> {
+    let problem = &solved.problem;
     let p = solved.solution.parameters();
-    for segment in solved.problem.zones(pulley) {
-        let length = p[DriveProblem::length_index(segment)];
-        let mut y = [0.0; MAX_STATES];
-        let y = &mut y[..solved.solution.segments()[segment].states];
-        for pair in solved.solution.mesh(segment).windows(2) {
-            let h = pair[1] - pair[0];
-            for (point, weight) in GAUSS {
-                let s = pair[0] + point * h;
-                solved.solution.state(segment, s, y);
-                visit(segment, s, weight * h * length, y);
-            }
-        }
-    }
-}
-
-fn integrate(solved: &Solved, pulley: usize) -> Integrals {
-    let p = solved.solution.parameters();
-    let groove = solved.problem.groove(pulley);
-    let mut sum = Integrals::default();
-    for_each_point(solved, pulley, |segment, _, weight, y| {
-        let contact = solved.problem.contact(segment, y, p);
-        sum.torque += weight * contact.torque_density();
-        sum.friction += weight * contact.friction_power_density();
-        sum.stored += weight * contact.transverse_power_density(groove);
-        sum.unstretched += weight * contact.unstretched_rate(&groove.strand);
+    let stretches = problem.zones(pulley).map(|segment| Stretch {
+        segment,
+        regime: problem.regime(segment),
+        length: p[DriveProblem::length_index(segment)],
     });
-    sum
+    OnPulley {
+        solution: &solved.solution,
+        groove: problem.groove(pulley),
+        stretches: stretches.collect(),
+        omega: DriveProblem::speed(pulley, p),
+        flow: DriveProblem::flow(p),
+        radius: problem.scales().radius[pulley],
+        units: problem.scales().units,
+    }
 }
 
 /// The invariants of a steady state, recomputed from the profiles.
@@ -177,9 +136,7 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
     let limit = 10.0 * path.tolerance;
     let tight = solved.tight_tension().abs();
     let moment = |pulley: usize| {
-        let arm =
-            |y: &[f64]| y[super::TENSION] * (1.0 - y[super::PENETRATION]) * y[INCLINATION].cos();
-        let change = arm(solved.exit(pulley)) - arm(solved.entry(pulley));
+        let change = on_pulley(solved, pulley).change_of_moment();
         (integrals[pulley].torque - change).abs() / tight
     };
     let friction = integrals[DRIVEN].friction + integrals[DRIVER].friction;
@@ -187,25 +144,21 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
     let taken = integrals[DRIVEN].torque * DriveProblem::speed(DRIVEN, p);
     let stored = integrals[DRIVEN].stored + integrals[DRIVER].stored;
 
-    let ends = [DRIVEN, DRIVER].map(|pulley| end_angles(solved, pulley));
+    let on = [DRIVEN, DRIVER].map(|pulley| on_pulley(solved, pulley));
+    let ends = on.each_ref().map(OnPulley::ends);
     let swept = [DRIVEN, DRIVER].map(|pulley| solved.exit(pulley)[super::ANGLE]);
     let misfit = problem.layout().plan(ends, swept).misfit(problem.layout());
     let [gap, kink, distance] = misfit.map(f64::abs);
     let centre_distance = problem.layout().centre_distance;
 
     let (mut lowest, mut highest, mut wrong) = (0.0f64, 0.0f64, 0.0f64);
-    for pulley in [DRIVEN, DRIVER] {
-        for_each_point(solved, pulley, |segment, _, _, y| {
-            let pressure = problem.contact(segment, y, p).pressure;
+    for on in &on {
+        on.for_each_point(|stretch, _, _, y| {
+            let pressure = on.contact(stretch.regime, y).pressure;
             lowest = lowest.min(pressure);
             highest = highest.max(pressure);
-            let excess = super::limit_excess(
-                problem.groove(pulley),
-                y,
-                DriveProblem::speed(pulley, p),
-                DriveProblem::flow(p),
-            );
-            wrong = wrong.max(match problem.regime(segment) {
+            let excess = super::limit_excess(on.groove, y, on.omega, on.flow);
+            wrong = wrong.max(match stretch.regime {
                 Regime::Elastic => excess,
                 Regime::Slip => -excess,
                 Regime::Either => 0.0,
@@ -257,13 +210,15 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
 fn pulley_state(solved: &Solved, pulley: usize, integrals: Integrals) -> PulleyState {
     let problem = &solved.problem;
     let (scales, p) = (problem.scales(), solved.solution.parameters());
-    let EndAngles { entry, exit } = end_angles(solved, pulley);
-    let profile = profile(solved, pulley);
+    let radius = scales.radius[pulley];
+    let on = on_pulley(solved, pulley);
+    let EndAngles { entry, exit } = on.ends();
+    let profile = on.profile();
     let sense = if pulley == DRIVEN { 1.0 } else { -1.0 };
     let deepest = profile.penetration.iter().copied().fold(0.0, f64::max);
     PulleyState {
-        angular_speed: DriveProblem::speed(pulley, p) * scales.angular_speed(pulley),
-        torque: sense * integrals.torque * scales.torque(pulley),
+        angular_speed: DriveProblem::speed(pulley, p) * scales.units.angular_speed(radius),
+        torque: sense * integrals.torque * scales.units.torque(radius),
         wrap_angle: solved.exit(pulley)[super::ANGLE],
         max_penetration: deepest,
         inclination: [entry, exit],
@@ -273,122 +228,19 @@ fn pulley_state(solved: &Solved, pulley: usize, integrals: Integrals) -> PulleyS
     }
 }
 
-/// The belt along one pulley in SI units.
-fn profile(solved: &Solved, pulley: usize) -> Profile {
-    let problem = &solved.problem;
-    let (scales, p) = (problem.scales(), solved.solution.parameters());
-    let radius = scales.radius[pulley];
-    let intervals: usize = problem
-        .zones(pulley)
-        .map(|i| solved.solution.mesh(i).len() - 1)
-        .sum();
-    let parts = PROFILE_POINTS.div_ceil(intervals);
-    let mut profile = Profile::default();
-    let (mut before, mut stretched) = (0.0, 0.0);
-    // Entry tension, at which the belt of a law without elastic displacement has none.
-    let mut reference = None;
-    let mut last: Option<(f64, f64)> = None;
-    for segment in problem.zones(pulley) {
-        let length = p[DriveProblem::length_index(segment)];
-        let mesh = solved.solution.mesh(segment);
-        let mut y = [0.0; MAX_STATES];
-        let y = &mut y[..solved.solution.segments()[segment].states];
-        let mut add = |s: f64, y: &mut [f64]| {
-            solved.solution.state(segment, s, y);
-            let contact = problem.contact(segment, y, p);
-            let place = before + s * length;
-            let reference = *reference.get_or_insert(contact.tension);
-            let rate = contact.displacement_rate(reference);
-            if let Some((at, rate_before)) = last {
-                stretched += 0.5 * (place - at) * (rate + rate_before);
-            }
-            last = Some((place, rate));
-            let displacement = match problem.groove(pulley).law {
-                Law::Epp { .. } => y[LAW],
-                Law::Coulomb | Law::Bristle { .. } => stretched,
-            };
-            profile.angle.push(y[super::ANGLE]);
-            profile.arc_length.push(place * radius);
-            profile.tension.push(contact.tension * scales.force);
-            profile
-                .tractive_tension
-                .push(contact.tractive * scales.force);
-            profile.inclination.push(y[INCLINATION]);
-            profile.penetration.push(y[super::PENETRATION] * radius);
-            profile
-                .displacement
-                .push(displacement * scales.displacement(pulley));
-            profile.sliding_angle.push(contact.sliding_angle());
-            profile
-                .normal_force
-                .push(contact.pressure * scales.line_load(pulley));
-            profile
-                .friction_force
-                .push(contact.friction() * scales.line_load(pulley));
-        };
-        for pair in mesh.windows(2) {
-            for part in 0..parts {
-                add(
-                    pair[0] + (pair[1] - pair[0]) * part as f64 / parts as f64,
-                    y,
-                );
-            }
-        }
-        add(1.0, y);
-        before += length;
-    }
-    profile
-}
-
 /// The zones of friction on one pulley, by swept angle.
 fn friction_zones(solved: &Solved, pulley: usize) -> Vec<Zone> {
     let problem = &solved.problem;
-    let mut zones: Vec<Zone> = Vec::new();
-    let mut extend = |kind: ZoneKind, from: f64, to: f64| match zones.last_mut() {
-        Some(zone) if zone.kind == kind => zone.to = to,
-        _ => zones.push(Zone { kind, from, to }),
-    };
-    if problem.has_zones() && !problem.is_split() {
-        for (regime, [from, to]) in super::zones::angles(solved, pulley) {
-            let kind = match regime {
-                Regime::Elastic => ZoneKind::Elastic,
-                Regime::Slip | Regime::Either => ZoneKind::Slip,
-            };
-            extend(kind, from, to);
-        }
-        return zones;
+    if !problem.has_zones() || problem.is_split() {
+        return on_pulley(solved, pulley).friction_zones();
     }
-    for segment in problem.zones(pulley) {
-        let angle = |y: &[f64]| y[super::ANGLE];
-        let ends = [solved.solution.start(segment), solved.solution.end(segment)].map(angle);
-        match (problem.groove(pulley).law, problem.regime(segment)) {
-            (Law::Epp { .. }, Regime::Elastic) => extend(ZoneKind::Elastic, ends[0], ends[1]),
-            (Law::Coulomb | Law::Epp { .. }, _) => extend(ZoneKind::Slip, ends[0], ends[1]),
-            (Law::Bristle { .. }, _) => {
-                let limit = SLIPPING_BRISTLES * problem.groove(pulley).friction_coefficient;
-                let mut y = [0.0; MAX_STATES];
-                let y = &mut y[..solved.solution.segments()[segment].states];
-                let mut from = ends[0];
-                for pair in solved.solution.mesh(segment).windows(2) {
-                    for part in 1..=4 {
-                        let s = pair[0] + (pair[1] - pair[0]) * f64::from(part) / 4.0;
-                        solved.solution.state(segment, s, y);
-                        let deflection = y[LAW].hypot(y[LAW + 1]);
-                        let kind = if deflection < limit {
-                            ZoneKind::Elastic
-                        } else {
-                            ZoneKind::Slip
-                        };
-                        extend(kind, from, angle(y));
-                        from = angle(y);
-                    }
-                }
-            }
-        }
-    }
-    // The entry is where the angle begins; its solved value is rounding.
-    if let Some(first) = zones.first_mut() {
-        first.from = 0.0;
+    let mut zones = Vec::new();
+    for (regime, [from, to]) in super::zones::angles(solved, pulley) {
+        let kind = match regime {
+            Regime::Elastic => ZoneKind::Elastic,
+            Regime::Slip | Regime::Either => ZoneKind::Slip,
+        };
+        extend(&mut zones, kind, from, to);
     }
     zones
 }

@@ -51,14 +51,16 @@ fn belt_and_tractive_tension_state_the_same_load() {
     let scales = Scales::new(&tractive);
     let flow = 0.95;
     let mut belt = tractive.clone();
-    let strand = scales.strand();
+    let strand = scales.units.strand();
     let tension = |span: SpanTension| {
-        SpanTension::Belt(strand.tension(span.value() / scales.force, flow) * scales.force)
+        SpanTension::Belt(
+            strand.tension(span.value() / scales.units.force, flow) * scales.units.force,
+        )
     };
     belt.load.slack = tension(belt.load.slack);
     belt.load.tight = tension(belt.load.tight);
     let p = [0.98, flow, 3.2, 3.5];
-    let slack = tractive.load.slack.value() / scales.force;
+    let slack = tractive.load.slack.value() / scales.units.force;
     for drive in [tractive, belt] {
         let problem = DriveProblem::new(&drive, scales, 0.0);
         for (pulley, tight, force) in [(DRIVEN, false, slack), (DRIVER, true, 1.0)] {

@@ -1,0 +1,237 @@
+//! A V-belt on one pulley of a solution: integrals, profile and friction zones.
+
+use super::groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
+use super::{Contact, EndAngles, Groove, Law, Regime, Units};
+use crate::{Profile, Zone, ZoneKind};
+use bvp::Solution;
+
+/// Gauss rule with four points on \[0, 1\] for integrals over a mesh interval (abscissae ±x₁, ±x₂
+/// and weights of the rule on \[−1, 1\], Abramowitz & Stegun table 25.4).
+const GAUSS: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
+    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
+    (0.930_568_155_797_026_2, 0.173_927_422_568_726_93),
+];
+/// Profiles have at least so many points per pulley.
+const PROFILE_POINTS: usize = 240;
+/// Bristles deflected to this share of their limit count as slipping.
+const SLIPPING_BRISTLES: f64 = 0.99;
+
+/// Integrals over the contact with one pulley, scaled.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Integrals {
+    /// Torque of the belt on the pulley, ∫ t r ds.
+    pub(super) torque: f64,
+    /// Power against friction.
+    pub(super) friction: f64,
+    /// Power into the transverse compression of the belt.
+    pub(super) stored: f64,
+    /// Length of the unstretched belt.
+    pub(super) unstretched: f64,
+}
+
+/// A segment of a contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch {
+    /// Its index in the solution.
+    pub(super) segment: usize,
+    /// What is known about its friction.
+    pub(super) regime: Regime,
+    /// Its scaled arc length.
+    pub(super) length: f64,
+}
+
+/// The belt in the groove of one pulley.
+pub(super) struct OnPulley<'a> {
+    pub(super) solution: &'a Solution,
+    pub(super) groove: &'a Groove,
+    /// The segments of the contact, from entry to exit.
+    pub(super) stretches: Vec<Stretch>,
+    /// Scaled angular speed of the pulley.
+    pub(super) omega: f64,
+    /// Scaled mass flow.
+    pub(super) flow: f64,
+    /// Pitch radius, m.
+    pub(super) radius: f64,
+    pub(super) units: Units,
+}
+
+impl OnPulley<'_> {
+    /// States where the belt enters.
+    pub(super) fn entry(&self) -> &[f64] {
+        self.solution.start(self.stretches[0].segment)
+    }
+
+    /// States where the belt leaves.
+    pub(super) fn exit(&self) -> &[f64] {
+        self.solution
+            .end(self.stretches[self.stretches.len() - 1].segment)
+    }
+
+    /// The inclination at entry and exit.
+    pub(super) fn ends(&self) -> EndAngles<f64> {
+        EndAngles {
+            entry: self.entry()[INCLINATION],
+            exit: self.exit()[INCLINATION],
+        }
+    }
+
+    /// \[F r cos θ\] between the ends, which is the torque of the belt on the pulley; scaled.
+    pub(super) fn change_of_moment(&self) -> f64 {
+        let arm = |y: &[f64]| y[TENSION] * (1.0 - y[PENETRATION]) * y[INCLINATION].cos();
+        arm(self.exit()) - arm(self.entry())
+    }
+
+    /// All local quantities at a point.
+    pub(super) fn contact(&self, regime: Regime, y: &[f64]) -> Contact<f64> {
+        Contact::new(self.groove, regime, y, self.omega, self.flow)
+    }
+
+    /// Calls `visit(stretch, s, weight, y)` at the points of a rule that integrates over the scaled
+    /// arc length.
+    pub(super) fn for_each_point(&self, mut visit: impl FnMut(Stretch, f64, f64, &[f64])) {
+        for &stretch in &self.stretches {
+            let mut y = [0.0; MAX_STATES];
+            let y = &mut y[..self.solution.segments()[stretch.segment].states];
+            for pair in self.solution.mesh(stretch.segment).windows(2) {
+                let h = pair[1] - pair[0];
+                for (point, weight) in GAUSS {
+                    let s = pair[0] + point * h;
+                    self.solution.state(stretch.segment, s, y);
+                    visit(stretch, s, weight * h * stretch.length, y);
+                }
+            }
+        }
+    }
+
+    /// The integrals over the contact.
+    pub(super) fn integrate(&self) -> Integrals {
+        let mut sum = Integrals::default();
+        self.for_each_point(|stretch, _, weight, y| {
+            let contact = self.contact(stretch.regime, y);
+            sum.torque += weight * contact.torque_density();
+            sum.friction += weight * contact.friction_power_density();
+            sum.stored += weight * contact.transverse_power_density(self.groove);
+            sum.unstretched += weight * contact.unstretched_rate(&self.groove.strand);
+        });
+        sum
+    }
+
+    /// The belt along the contact in SI units.
+    pub(super) fn profile(&self) -> Profile {
+        let (units, radius) = (self.units, self.radius);
+        let meshes = self
+            .stretches
+            .iter()
+            .map(|stretch| self.solution.mesh(stretch.segment));
+        let intervals: usize = meshes.map(|mesh| mesh.len() - 1).sum();
+        let parts = PROFILE_POINTS.div_ceil(intervals);
+        let mut profile = Profile::default();
+        let (mut before, mut stretched) = (0.0, 0.0);
+        // Entry tension, at which the belt of a law without elastic displacement has none.
+        let mut reference = None;
+        let mut last: Option<(f64, f64)> = None;
+        for stretch in &self.stretches {
+            let mesh = self.solution.mesh(stretch.segment);
+            let mut y = [0.0; MAX_STATES];
+            let y = &mut y[..self.solution.segments()[stretch.segment].states];
+            let mut add = |s: f64, y: &mut [f64]| {
+                self.solution.state(stretch.segment, s, y);
+                let contact = self.contact(stretch.regime, y);
+                let place = before + s * stretch.length;
+                let reference = *reference.get_or_insert(contact.tension);
+                let rate = contact.displacement_rate(reference);
+                if let Some((at, rate_before)) = last {
+                    stretched += 0.5 * (place - at) * (rate + rate_before);
+                }
+                last = Some((place, rate));
+                let displacement = match self.groove.law {
+                    Law::Epp { .. } => y[LAW],
+                    Law::Coulomb | Law::Bristle { .. } => stretched,
+                };
+                profile.angle.push(y[ANGLE]);
+                profile.arc_length.push(place * radius);
+                profile.tension.push(contact.tension * units.force);
+                profile
+                    .tractive_tension
+                    .push(contact.tractive * units.force);
+                profile.inclination.push(y[INCLINATION]);
+                profile.penetration.push(y[PENETRATION] * radius);
+                profile
+                    .displacement
+                    .push(displacement * units.displacement(radius));
+                profile.sliding_angle.push(contact.sliding_angle());
+                profile
+                    .normal_force
+                    .push(contact.pressure * units.line_load(radius));
+                profile
+                    .friction_force
+                    .push(contact.friction() * units.line_load(radius));
+            };
+            for pair in mesh.windows(2) {
+                for part in 0..parts {
+                    add(
+                        pair[0] + (pair[1] - pair[0]) * part as f64 / parts as f64,
+                        y,
+                    );
+                }
+            }
+            add(1.0, y);
+            before += stretch.length;
+        }
+        profile
+    }
+
+    /// The zones of friction by swept angle, where each segment is of one kind.
+    pub(super) fn friction_zones(&self) -> Vec<Zone> {
+        let mut zones = Vec::new();
+        let angle = |y: &[f64]| y[ANGLE];
+        for stretch in &self.stretches {
+            let segment = stretch.segment;
+            let ends = [self.solution.start(segment), self.solution.end(segment)].map(angle);
+            let kind = match (self.groove.law, stretch.regime) {
+                (Law::Epp { .. }, Regime::Elastic) => ZoneKind::Elastic,
+                (Law::Coulomb | Law::Epp { .. }, _) => ZoneKind::Slip,
+                (Law::Bristle { .. }, _) => {
+                    self.bristle_zones(segment, &mut zones);
+                    continue;
+                }
+            };
+            extend(&mut zones, kind, ends[0], ends[1]);
+        }
+        // The entry is where the angle begins; its solved value is rounding.
+        if let Some(first) = zones.first_mut() {
+            first.from = 0.0;
+        }
+        zones
+    }
+
+    /// Adds the zones of a segment with bristle friction.
+    fn bristle_zones(&self, segment: usize, zones: &mut Vec<Zone>) {
+        let limit = SLIPPING_BRISTLES * self.groove.friction_coefficient;
+        let mut y = [0.0; MAX_STATES];
+        let y = &mut y[..self.solution.segments()[segment].states];
+        let mut from = self.solution.start(segment)[ANGLE];
+        for pair in self.solution.mesh(segment).windows(2) {
+            for part in 1..=4 {
+                let s = pair[0] + (pair[1] - pair[0]) * f64::from(part) / 4.0;
+                self.solution.state(segment, s, y);
+                let kind = match y[LAW].hypot(y[LAW + 1]) < limit {
+                    true => ZoneKind::Elastic,
+                    false => ZoneKind::Slip,
+                };
+                extend(zones, kind, from, y[ANGLE]);
+                from = y[ANGLE];
+            }
+        }
+    }
+}
+
+/// Makes the last zone longer, or adds one of another kind.
+pub(super) fn extend(zones: &mut Vec<Zone>, kind: ZoneKind, from: f64, to: f64) {
+    match zones.last_mut() {
+        Some(zone) if zone.kind == kind => zone.to = to,
+        _ => zones.push(Zone { kind, from, to }),
+    }
+}
