@@ -1,4 +1,4 @@
-//! Flat belts round any number of pulleys: layout, loads, tensioner, and the steady state.
+//! Belts round any number of pulleys: layout, loads, tensioner, and the steady state.
 //!
 //! A module of the library only: drive files and the command line state drives with two pulleys.
 //!
@@ -42,6 +42,7 @@
 //!     radius,
 //!     side,
 //!     friction_coefficient: 0.7,
+//!     half_angle: None,
 //!     duty,
 //! };
 //! let belt_loop = BeltLoop {
@@ -74,5 +75,32 @@ pub use crate::drive::belt_loop::{
 };
 pub use crate::drive::layout::{Layout, LayoutError, PlacedPulley, Sense, Side, Span};
 pub use crate::flat::belt_loop::{
-    LoadLimit, LoadedState, LoopError, LoopState, PulleyState, SpanState, TensionerState, solve,
+    GrooveState, LoadLimit, LoadedState, LoopConvergence, LoopError, LoopState, PulleyState,
+    SpanState, TensionerState,
 };
+
+use crate::{SolveOptions, flat};
+
+/// The steady state of a belt loop, to the relative tolerance 1e-6 where it is a V-belt.
+///
+/// A loop with a flat belt is judged with Coulomb friction first: it slips grossly if it does with Coulomb
+/// friction at the same closure, whatever its friction law.
+///
+/// # Errors
+/// Those of [`LoopError`]; of several reasons the first in the order given there.
+pub fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
+    solve_to(belt_loop, &SolveOptions::default())
+}
+
+/// The steady state of a belt loop to a tolerance. Flat belts are solved in closed form, to rounding: on
+/// them the tolerance has no effect.
+///
+/// # Errors
+/// As [`solve`], and [`LoopError::Tolerance`].
+pub fn solve_to(belt_loop: &BeltLoop, options: &SolveOptions) -> Result<LoopState, LoopError> {
+    let tolerance = options.tolerance;
+    if !(1e-12..=1e-2).contains(&tolerance) {
+        return Err(LoopError::Tolerance { tolerance });
+    }
+    flat::belt_loop::solve(belt_loop)
+}

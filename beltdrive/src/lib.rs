@@ -12,7 +12,7 @@
 //!   ([`NormalForce`]). [`flat::ClosedForm`] gives it without profiles, [`flat::BoundaryValue`] by
 //!   another way. [`stability`](stability()) examines its axial motion.
 //!
-//! Flat belts round any number of pulleys, with a tensioner, are a module of their own: [`belt_loop`].
+//! Belts round any number of pulleys, with a tensioner, are a module of their own: [`belt_loop`].
 //!
 //! [`mod@verify`] computes published results again.
 //!

@@ -32,6 +32,7 @@ fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> 
         radius,
         side,
         friction_coefficient: 0.6,
+        half_angle: None,
         duty,
     }
 }
@@ -116,7 +117,7 @@ fn two_pulleys_are_the_drive_with_two_pulleys() {
             );
             close(
                 "T_o",
-                found.reference_tension,
+                found.reference_tension.unwrap(),
                 closed.reference_tension(pulley),
                 1e-11,
             );

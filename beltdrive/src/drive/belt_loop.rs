@@ -1,4 +1,4 @@
-//! A flat belt round any number of pulleys as its engineer describes it, in SI units.
+//! A belt round any number of pulleys as its engineer describes it, in SI units.
 
 use super::layout::{Layout, LayoutError, PlacedPulley, Sense, Side};
 use super::{Belt, FrictionLaw};
@@ -8,9 +8,10 @@ use super::{Belt, FrictionLaw};
 pub struct BeltLoop {
     /// A name for outputs and figures.
     pub title: Option<String>,
-    /// The belt; a flat one with the convention [`crate::NormalForce::Inertia`].
+    /// The belt; a flat one with the convention [`crate::NormalForce::Inertia`], or a V-belt.
     pub belt: Belt,
-    /// How friction depends on slip: [`FrictionLaw::Coulomb`] or [`FrictionLaw::Epp`].
+    /// How friction depends on slip: [`FrictionLaw::Coulomb`], [`FrictionLaw::Epp`], or
+    /// [`FrictionLaw::Bristle`] on V-belts.
     pub law: FrictionLaw,
     /// Sense in which the belt runs round the loop.
     pub sense: Sense,
@@ -29,12 +30,16 @@ pub struct LoopPulley {
     pub name: String,
     /// What holds its axis.
     pub mount: Mount,
-    /// Radius R of the centre line of the belt, m; positive.
+    /// Radius R of the centre line of the belt, m; positive. Of a V-belt: of the pitch line where the belt
+    /// enters the groove, or where it lies on a flat pulley on its back.
     pub radius: f64,
-    /// On which side of the belt it lies.
+    /// On which side of the belt it lies. A pulley outside touches the back of a V-belt and is flat.
     pub side: Side,
     /// Coefficient of friction μ > 0 between belt and pulley.
     pub friction_coefficient: f64,
+    /// Half groove angle β of this pulley in rad, 0 < β < π/2, if it is not that of the belt; of V-belts
+    /// and pulleys inside only.
+    pub half_angle: Option<f64>,
     /// What it does.
     pub duty: Duty,
 }

@@ -62,11 +62,11 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
         if let Duty::Torque(torque) = stated.duty {
             close("M", pulley.torque, torque, 1e-13);
         }
-        let rim = state.unstretched_speed * (1.0 + pulley.reference_tension / axial);
+        let rim = state.unstretched_speed * (1.0 + pulley.reference_tension.unwrap() / axial);
         close("rim", pulley.angular_speed * stated.radius, rim, 1e-12);
         assert!(pulley.angular_speed > 0.0 && pulley.wrap >= 0.0);
         assert!((pulley.slip_arc + pulley.no_slip_arc - pulley.wrap).abs() < 1e-12);
-        assert!(pulley.friction_loss >= 0.0 && pulley.friction_utilisation < 1.0);
+        assert!(pulley.friction_loss >= 0.0 && pulley.friction_utilisation.unwrap() < 1.0);
         assert!(pulley.torque_margin.is_none_or(|margin| margin > 1.0));
         // Geometry and hubs.
         let end = state.layout.spans()[index].end;
@@ -215,7 +215,7 @@ fn unstretched_on(belt_loop: &BeltLoop, state: &LoopState, index: usize) -> Opti
             if sticks_again || rate * first > 600.0 {
                 return None;
             }
-            let b = stiffness * pulley.entry_strain;
+            let b = stiffness * pulley.entry_strain.unwrap();
             let a = axial + entering - b;
             let tanh = (0.5 * rate * first).tanh();
             let ratio = ((a - b) / (a + b)).abs().sqrt();

@@ -299,7 +299,7 @@ fn gross_slip_begins_at_the_load_limit() {
         match below {
             Ok(below) => {
                 hold(&scaled, &below);
-                let used = below.pulleys[limit.pulley].friction_utilisation;
+                let used = below.pulleys[limit.pulley].friction_utilisation.unwrap();
                 assert!(used > 1.0 - 1e-4, "{used} {scaled:?}");
             }
             Err(error) => assert!(matches!(error, LoopError::Overstretched { .. }), "{error}"),

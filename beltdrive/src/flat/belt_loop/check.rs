@@ -57,6 +57,12 @@ pub(super) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
                 "the coefficient of friction must not exceed 100",
             );
         }
+        if pulley.half_angle.is_some() {
+            return refuse(
+                &pulley.name,
+                "a flat belt has no groove, and so no half angle",
+            );
+        }
         match pulley.duty {
             Duty::Driver(speed) if positive(speed) => drivers += 1,
             Duty::Driver(_) => return refuse(&pulley.name, "the driver's speed must be positive"),

@@ -1,5 +1,6 @@
 //! Why a belt loop has no steady state.
 
+use crate::Check;
 use crate::drive::layout::LayoutError;
 use thiserror::Error;
 
@@ -92,6 +93,26 @@ pub enum LoopError {
     Overstretched {
         /// Largest strain T/EA.
         strain: f64,
+    },
+    /// The way to the steady state of a V-belt was not found.
+    #[error("no state was found beyond {reached:.4} of the load: {cause}")]
+    NotConverged {
+        /// Factor on all torques up to which states were found; 0 where there were none.
+        reached: f64,
+        /// Why the next one was not.
+        cause: &'static str,
+    },
+    /// A state of a V-belt was found that violates an invariant.
+    #[error(
+        "the state found violates an invariant, {}: relative deviation {:.1e}, limit {:.1e}",
+        .0.name, .0.deviation, .0.limit
+    )]
+    Violated(Check),
+    /// The tolerance is out of range.
+    #[error("tolerance {tolerance:e} is outside 1e-12 to 1e-2")]
+    Tolerance {
+        /// The tolerance asked for.
+        tolerance: f64,
     },
     /// The equations could not be solved in double precision.
     #[error("the {what} could not be found in double precision")]

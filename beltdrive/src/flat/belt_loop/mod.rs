@@ -10,5 +10,7 @@ mod state;
 mod tensioner;
 
 pub use error::{LoadedState, LoopError};
-pub use solve::solve;
-pub use state::{LoadLimit, LoopState, PulleyState, SpanState, TensionerState};
+pub(crate) use solve::solve;
+pub use state::{
+    GrooveState, LoadLimit, LoopConvergence, LoopState, PulleyState, SpanState, TensionerState,
+};

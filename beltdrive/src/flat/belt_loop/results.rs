@@ -142,8 +142,8 @@ impl Found<'_> {
             no_slip_arc: arc_of(false),
             slip_arc: arc_of(true),
             zones: zones(contact, radius),
-            entry_strain,
-            reference_tension: belt.tension(reference),
+            entry_strain: Some(entry_strain),
+            reference_tension: Some(belt.tension(reference)),
             hub_load: hub_load(&self.layout, ends),
             rest_hub_load: hub_load(&self.rest.layout, [self.rest.tension; 2]),
             speed_loss: (contacts[driver].reference() - reference) / driving,
@@ -151,13 +151,14 @@ impl Found<'_> {
             friction_loss: speed / belt.stiffness
                 * changes[index]
                 * (before_reference + 0.5 * changes[index]),
-            friction_utilisation: if changes[index] == 0.0 {
+            friction_utilisation: Some(if changes[index] == 0.0 {
                 0.0
             } else {
                 contact.arc.load() / load
-            },
-            torque_capacity: capacity,
+            }),
+            torque_capacity: Some(capacity),
             torque_margin: (torque != 0.0).then(|| capacity / torque.abs()),
+            groove: None,
         }
     }
 
@@ -203,9 +204,11 @@ pub(super) fn state(found: Found<'_>) -> LoopState {
         pulleys,
         tensioner: found.tensioner(),
         load_limit: found.limit,
+        checks: vec![],
+        convergence: None,
         rest_layout: found.rest.layout,
         layout: found.layout,
-        belt: found.belt_loop.belt,
         contacts: found.belt.contacts,
+        belt: found.belt_loop.belt,
     }
 }

@@ -61,7 +61,7 @@ pub(super) struct Problem<'l> {
 ///
 /// # Errors
 /// Those of [`LoopError`], in the order given there.
-pub fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
+pub(crate) fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
     check(belt_loop)?;
     let rim = belt_loop.rim_speed();
     let torque = |pulley: &LoopPulley| match pulley.duty {

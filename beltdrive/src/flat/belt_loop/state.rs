@@ -3,15 +3,16 @@
 use super::super::contact::Contact;
 use super::super::profile::profile;
 use crate::drive::layout::Layout;
-use crate::{Belt, Profile, Zone};
+use crate::{Belt, Check, Profile, Zone};
 
 /// The steady state of a belt loop; lists are in belt order.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LoopState {
-    /// The running belt on its pulleys.
+    /// The running belt on its pulleys. A V-belt sinks into its grooves: the layout is that of its pitch
+    /// line on the pitch circles, and its own spans and wraps are those of `spans` and `pulleys`.
     pub layout: Layout,
-    /// The belt at rest on them: it differs next to a tensioner.
+    /// The belt at rest on them: it differs next to a tensioner. Of a V-belt as `layout`.
     pub rest_layout: Layout,
     /// Speed c = G/m of the unstretched belt, m/s.
     pub unstretched_speed: f64,
@@ -27,7 +28,8 @@ pub struct LoopState {
     pub power_in: f64,
     /// Power that pulleys take out of the belt, W.
     pub power_out: f64,
-    /// Power lost in friction between belt and pulleys, W: power in less power out.
+    /// Power lost in friction between belt and pulleys, W: power in less power out. A V-belt also loses
+    /// [`GrooveState::transverse_loss`].
     pub power_loss: f64,
     /// Power out over power in; `None` without torques.
     pub efficiency: Option<f64>,
@@ -40,9 +42,36 @@ pub struct LoopState {
     /// How far all torques can be raised with Coulomb friction; `None` without torques, or if the tensioner
     /// has no equilibrium up to there.
     pub load_limit: Option<LoadLimit>,
+    /// The verified invariants of a V-belt, each with its relative deviation; empty for flat belts.
+    pub checks: Vec<Check>,
+    /// How the state of a V-belt was found and how accurate it is; flat belts are solved in closed form,
+    /// to rounding.
+    pub convergence: Option<LoopConvergence>,
     /// The belt on the pulleys.
     pub(super) contacts: Vec<Contact>,
     pub(super) belt: Belt,
+}
+
+/// How the steady state of a V-belt was found and how accurate it is.
+#[derive(Clone, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct LoopConvergence {
+    /// Relative tolerance asked for.
+    pub tolerance: f64,
+    /// Estimated largest relative error of all profiles and constants.
+    pub error_estimate: f64,
+    /// Largest relative defect of the profiles in the differential equations.
+    pub defect: f64,
+    /// Mesh intervals of all contacts in the final solution.
+    pub mesh_intervals: usize,
+    /// Newton steps in all, the state at rest included.
+    pub newton_steps: usize,
+    /// Boundary value problems solved or tried on the way, the state at rest included.
+    pub problems: usize,
+    /// Normalisation ε of the slip direction in the final state; 0 for the bristle law.
+    pub slip_normalisation: f64,
+    /// Estimated relative effect of ε on the constants of the loop.
+    pub slip_normalisation_effect: f64,
 }
 
 impl LoopState {
@@ -103,7 +132,7 @@ pub struct PulleyState {
     pub torque: f64,
     /// Power M ω, W; positive where it leaves the belt.
     pub power: f64,
-    /// Wrap angle φ, rad.
+    /// Wrap angle φ, rad; that which a V-belt sweeps in its groove.
     pub wrap: f64,
     /// Wrap angle at rest, rad.
     pub rest_wrap: f64,
@@ -115,10 +144,10 @@ pub struct PulleyState {
     /// The zones of friction, in the order in which the belt passes them.
     pub zones: Vec<Zone>,
     /// Strain u′(0) of the belt against the rim where it enters: positive where the tension grows, 0 with
-    /// Coulomb friction.
-    pub entry_strain: f64,
-    /// Belt tension `T_o` at which the belt would run as fast as the rim, N.
-    pub reference_tension: f64,
+    /// Coulomb friction. `None` for V-belts.
+    pub entry_strain: Option<f64>,
+    /// Belt tension `T_o` at which the belt would run as fast as the rim, N. `None` for V-belts.
+    pub reference_tension: Option<f64>,
     /// Force of the belt on the hub, N.
     pub hub_load: [f64; 2],
     /// Force of the belt on the hub at rest, N.
@@ -127,13 +156,30 @@ pub struct PulleyState {
     pub speed_loss: f64,
     /// Power lost in friction on this pulley, W.
     pub friction_loss: f64,
-    /// Share of the contact that slips with Coulomb friction, `|ln(F_out/F_in)|`/(μ φ); below 1.
-    pub friction_utilisation: f64,
-    /// Torque at which it would slip at the slacker of its tensions, N·m: R F (exp(μ φ) − 1).
-    pub torque_capacity: f64,
-    /// Torque capacity over torque; `None` for an idler. It holds the slacker tension, where the load limit
-    /// holds the closure.
+    /// Share of the contact that slips with Coulomb friction, `|ln(F_out/F_in)|`/(μ φ); below 1. `None` for
+    /// V-belts.
+    pub friction_utilisation: Option<f64>,
+    /// Torque at which it would slip at the slacker of its tensions, N·m: R F (exp(μ φ) − 1). `None` for
+    /// V-belts, which this formula does not describe.
+    pub torque_capacity: Option<f64>,
+    /// Torque capacity over torque; `None` for an idler and for V-belts. It holds the slacker tension, where
+    /// the load limit holds the closure.
     pub torque_margin: Option<f64>,
+    /// The belt in its groove; `None` for flat belts and for pulleys on the back of a V-belt.
+    pub groove: Option<GrooveState>,
+}
+
+/// A V-belt in the groove of a pulley.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct GrooveState {
+    /// Inclination θ of the belt to the local circle at entry and exit, rad; positive outward.
+    pub inclination: [f64; 2],
+    /// Largest penetration x of the belt into the groove, m.
+    pub max_penetration: f64,
+    /// Power that goes into the transverse compression of the belt between entry and exit, W: ∫ k x tan β V
+    /// dx. It is small and of either sign, since the belt speed V changes along the contact.
+    pub transverse_loss: f64,
 }
 
 /// The tensioner; its coordinate is an angle in rad or a displacement in m.
