@@ -48,6 +48,7 @@
 //! let belt_loop = BeltLoop {
 //!     title: None,
 //!     belt: Belt {
+//!         ribs: 1,
 //!         mass_per_length: 0.15,
 //!         axial_stiffness: 60e3,
 //!         kind: BeltKind::Flat { normal_force: NormalForce::Inertia },

@@ -35,6 +35,9 @@ pub struct Belt {
     pub axial_stiffness: f64,
     /// What kind of belt it is.
     pub kind: BeltKind,
+    /// Number of ribs, or of equal belts side by side, that the other numbers are for; at least 1. It only
+    /// matters to what is reported per rib.
+    pub ribs: u32,
 }
 
 /// The kind of a belt, with what only that kind has.

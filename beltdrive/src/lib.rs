@@ -107,6 +107,7 @@ pub mod input;
 mod limit_curve;
 mod limits;
 pub mod plot;
+pub mod quantity;
 pub mod report;
 mod solve;
 mod stability;

@@ -107,6 +107,16 @@ pub enum ZoneKind {
 impl ZoneKind {
     /// Every kind.
     pub(crate) const ALL: [Self; 4] = [Self::Elastic, Self::Adhesion, Self::Creep, Self::Slip];
+
+    /// The name of the kind in outputs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Elastic => "elastic",
+            Self::Slip => "slip",
+            Self::Adhesion => "adhesion",
+            Self::Creep => "creep",
+        }
+    }
 }
 
 /// A part of the wrap where friction is of one kind.

@@ -17,6 +17,7 @@ use invariants::{close, hold};
 
 fn belt() -> Belt {
     Belt {
+        ribs: 1,
         mass_per_length: 0.14,
         axial_stiffness: 1e5,
         kind: BeltKind::Flat {

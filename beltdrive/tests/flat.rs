@@ -13,6 +13,7 @@ fn plain(law: FrictionLaw, normal_force: NormalForce) -> Drive {
     Drive {
         title: None,
         belt: Belt {
+            ribs: 1,
             mass_per_length: 0.25,
             axial_stiffness: 150e3,
             kind: BeltKind::Flat { normal_force },

@@ -49,7 +49,7 @@ fn unknown_tables_and_keys() {
       |
     9 | [grove]
       |  ^^^^^
-    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `layout`, `load`, `model`
+    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `pulley`, `tensioner`, `layout`, `load`, `model`
     help: did you mean `groove`?
     ");
     assert_snapshot!(error("[pulleys.driver]", "[pulleys.drive]"), @r#"
@@ -76,7 +76,7 @@ fn unknown_tables_and_keys() {
       |
     9 | half_angle = 0.3
       | ^^^^^^^^^^
-    expected: one of `type`, `mass_per_length`, `axial_stiffness`, `radial_stiffness`, `height`
+    expected: one of `type`, `mass_per_length`, `axial_stiffness`, `radial_stiffness`, `height`, `ribs`
     help: did you mean `groove.half_angle`?
     "#);
     assert_snapshot!(error("[groove]", "colour = 3\n[groove]"), @r#"
@@ -85,7 +85,7 @@ fn unknown_tables_and_keys() {
       |
     9 | colour = 3
       | ^^^^^^
-    expected: one of `type`, `mass_per_length`, `axial_stiffness`, `radial_stiffness`, `height`
+    expected: one of `type`, `mass_per_length`, `axial_stiffness`, `radial_stiffness`, `height`, `ribs`
     "#);
 }
 
@@ -108,20 +108,21 @@ fn missing_tables_and_keys() {
     expected: half_angle = "18 deg"
     "#);
     assert_snapshot!(error("tight_tractive_tension = \"700 N\"\n", ""), @r#"
-    error: missing key `tight_tractive_tension` or `tight_tension` in [load]
+    error: missing key `tight_tractive_tension` or `tight_tension` or `driven_torque` in [load]
        --> drive.toml:27:2
        |
     27 | [load]
        |  ^^^^
-    expected: tight_tractive_tension = "700 N" or tight_tension = "710 N"
+    expected: tight_tractive_tension = "700 N" or tight_tension = "710 N" or driven_torque = "45 N*m"
+    help: two quantities close a drive: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
     "#);
     assert_snapshot!(error("radius = \"0.25 m\"\n", ""), @r#"
-    error: missing key `radius` in [pulleys.driver]
+    error: missing key `radius` or `diameter` in [pulleys.driver]
        --> drive.toml:17:10
        |
     17 | [pulleys.driver]
        |          ^^^^^^
-    expected: radius = "0.25 m"
+    expected: radius = "0.25 m" or diameter = "0.5 m"
     "#);
 }
 
@@ -198,24 +199,25 @@ fn refused_entries() {
        |
     24 | speed = "990 rpm"
        | ^^^^^
-    expected: `radius`
+    expected: one of `radius`, `diameter`
     "#);
     assert_snapshot!(override_error(&["load.setup_tension=400 N"]), @r"
-    error: `load.setup_tension` is not supported yet: give one slack and one tight tension
-      --> command line:1:12
+    error: overdetermined: two quantities close a drive, 3 are given: `load.slack_tractive_tension`, `load.tight_tractive_tension`, `load.setup_tension`
+      --> command line:1:26
       |
     1 | --set load.setup_tension=400 N
-      |            ^^^^^^^^^^^^^
-    expected: one of `slack_tractive_tension`, `slack_tension`, `tight_tractive_tension`, `tight_tension`, `driven_torque`
+      |                          ^^^^^
+    expected: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
+    help: `--set load.tight_tractive_tension=`, without a value, leaves that entry out for one run
     ");
     assert_snapshot!(override_error(&["load.torque=45 N*m"]), @r"
-    error: `load.torque` does not say of which pulley it is
-      --> command line:1:12
+    error: overdetermined: two quantities close a drive, 3 are given: `load.slack_tractive_tension`, `load.tight_tractive_tension`, `load.torque`
+      --> command line:1:19
       |
     1 | --set load.torque=45 N*m
-      |            ^^^^^^
-    expected: one of `slack_tractive_tension`, `slack_tension`, `tight_tractive_tension`, `tight_tension`, `driven_torque`
-    help: did you mean `driven_torque`?
+      |                   ^^^^^^
+    expected: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
+    help: `--set load.tight_tractive_tension=`, without a value, leaves that entry out for one run
     ");
 }
 
@@ -236,7 +238,7 @@ fn overrides() {
       |
     2 | --set frction.law = epp
       |       ^^^^^^^
-    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `layout`, `load`, `model`
+    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `pulley`, `tensioner`, `layout`, `load`, `model`
     help: did you mean `friction`?
     ");
     assert_snapshot!(override_error(&["law=epp"]), @r"
@@ -245,7 +247,7 @@ fn overrides() {
       |
     1 | --set law=epp
       |       ^^^
-    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `layout`, `load`, `model`
+    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `pulley`, `tensioner`, `layout`, `load`, `model`
     help: did you mean `friction.law`?
     ");
     assert_snapshot!(override_error(&["friction.law"]), @r#"
@@ -294,7 +296,7 @@ fn overrides() {
       |
     1 | --set load.tigt_tension=
       |            ^^^^^^^^^^^^
-    expected: one of `slack_tractive_tension`, `slack_tension`, `tight_tractive_tension`, `tight_tension`, `driven_torque`
+    expected: one of `slack_tractive_tension`, `slack_tension`, `tight_tractive_tension`, `tight_tension`, `driven_torque`, `torque`, `power`, `setup_tension`, `belt_length`, `span`, `span_tension`, `span_tractive_tension`
     help: did you mean `tight_tension`?
     ");
     assert_snapshot!(override_error(&["belt=3"]), @r#"

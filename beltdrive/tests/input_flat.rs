@@ -48,12 +48,12 @@ fn what_only_v_belts_have_may_stand_in_the_file_of_a_flat_belt() {
 #[test]
 fn what_a_v_belt_needs_beyond_a_flat_one() {
     assert_snapshot!(flat_error(&["belt.type=v", "friction.law=coulomb"]), @r#"
-    error: missing key `radial_stiffness` in [belt]
-      --> flat.toml:5:2
-      |
-    5 | [belt]                             # polyamide core, 60 mm wide
-      |  ^^^^
-    expected: radial_stiffness = "900 kN/m^2"
+    error: missing keys `belt.radial_stiffness`, `groove.half_angle`
+       --> flat.toml:36:25
+       |
+    36 | normal_force = "inertia"
+       |                         ^
+    expected: belt.radial_stiffness = "900 kN/m^2", groove.half_angle = "18 deg"
     "#);
     assert_snapshot!(override_error(&["model.normal_force=inertia"]), @r"
     error: `model.normal_force` is for flat belts; this drive has a V-belt
@@ -186,64 +186,62 @@ fn wrong_torques() {
       |                          ^^
     expected: a torque, e.g. "45 N*m"
     "#);
-    assert_snapshot!(error("driven_torque = ", "torque = "), @r#"
-    error: `load.torque` does not say of which pulley it is
-       --> flat.toml:30:1
-       |
-    30 | torque = "60 N*m"
-       | ^^^^^^
-    expected: one of `slack_tractive_tension`, `slack_tension`, `tight_tractive_tension`, `tight_tension`, `driven_torque`
-    help: did you mean `driven_torque`?
-    "#);
+    // Of two pulleys it is the driven one that takes it.
+    let torque = ["load.driven_torque=", "load.torque=60 N*m"];
+    assert_eq!(
+        flat(&torque).unwrap().load.tight,
+        SpanTension::DrivenTorque(60.0)
+    );
     assert_snapshot!(error("driven_torque = ", "driver_torque = "), @r#"
     error: `load.driver_torque` may not be given: the load is the torque of the driven pulley
        --> flat.toml:30:1
        |
     30 | driver_torque = "60 N*m"
        | ^^^^^^^^^^^^^
-    expected: one of `slack_tractive_tension`, `slack_tension`, `tight_tractive_tension`, `tight_tension`, `driven_torque`
+    expected: one of `slack_tractive_tension`, `slack_tension`, `tight_tractive_tension`, `tight_tension`, `driven_torque`, `torque`, `power`, `setup_tension`, `belt_length`, `span`, `span_tension`, `span_tractive_tension`
     help: did you mean `driven_torque`?
     "#);
     assert_snapshot!(override_error(&["load.driven_torque=45 N*m"]), @r"
-    error: `load.driven_torque` is not supported for V-belts yet
-      --> command line:1:12
+    error: overdetermined: two quantities close a drive, 3 are given: `load.slack_tractive_tension`, `load.tight_tractive_tension`, `load.driven_torque`
+      --> command line:1:26
       |
     1 | --set load.driven_torque=45 N*m
-      |            ^^^^^^^^^^^^^
-    expected: one slack and one tight tension
+      |                          ^^^^^^
+    expected: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
+    help: `--set load.tight_tractive_tension=`, without a value, leaves that entry out for one run
     ");
 }
 
 #[test]
 fn loads_of_three_quantities() {
     assert_snapshot!(flat_error(&["load.tight_tension=500 N"]), @r"
-    error: overdetermined: `load.slack_tension`, `load.tight_tension` and `load.driven_torque` are given, any one of which follows from the others
+    error: overdetermined: two quantities close a drive, 3 are given: `load.slack_tension`, `load.driven_torque`, `load.tight_tension`
       --> command line:1:26
       |
     1 | --set load.tight_tension=500 N
       |                          ^^^^^
-    expected: two of them
+    expected: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
     help: `--set load.driven_torque=`, without a value, leaves that entry out for one run
     ");
     let tensions = ["load.driven_torque=", "load.tight_tractive_tension=500 N"];
     let last = [&tensions[..], &["load.driven_torque=45 N*m"]].concat();
     assert_snapshot!(flat_error(&last), @r"
-    error: overdetermined: `load.slack_tension`, `load.tight_tractive_tension` and `load.driven_torque` are given, any one of which follows from the others
+    error: overdetermined: two quantities close a drive, 3 are given: `load.slack_tension`, `load.tight_tractive_tension`, `load.driven_torque`
       --> command line:3:26
       |
     3 | --set load.driven_torque=45 N*m
       |                          ^^^^^^
-    expected: two of them
+    expected: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
     help: `--set load.tight_tractive_tension=`, without a value, leaves that entry out for one run
     ");
     assert_snapshot!(error("[load]", "[load]\ntight_tension = 550"), @r#"
-    error: overdetermined: `load.slack_tension`, `load.tight_tension` and `load.driven_torque` are given, any one of which follows from the others
+    error: overdetermined: two quantities close a drive, 3 are given: `load.tight_tension`, `load.slack_tension`, `load.driven_torque`
        --> flat.toml:31:17
        |
     31 | driven_torque = "60 N*m"
        |                 ^^^^^^^^
-    expected: two of them
-    help: `--set load.tight_tension=`, without a value, leaves that entry out for one run
+    expected: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
+    help: `--set load.slack_tension=`, without a value, leaves that entry out for one run
     "#);
     assert_snapshot!(error("[load]", "[load]\nslack_tractive_tension = 180"), @r#"
     error: both `load.slack_tractive_tension` and `load.slack_tension` are given
@@ -264,7 +262,7 @@ fn loads_of_one_quantity_or_none() {
     26 | [load]                             # the slack tension and the torque of the driven pulley close the drive
        |  ^^^^
     expected: tight_tractive_tension = "700 N" or tight_tension = "710 N" or driven_torque = "45 N*m"
-    help: two of the slack tension, the tight tension and the driven torque state the load
+    help: two quantities close a drive: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
     "#);
     assert_snapshot!(flat_error(&["load.slack_tension="]), @r#"
     error: missing key `slack_tractive_tension` or `slack_tension` or `tight_tractive_tension` or `tight_tension` in [load]
@@ -273,7 +271,7 @@ fn loads_of_one_quantity_or_none() {
     26 | [load]                             # the slack tension and the torque of the driven pulley close the drive
        |  ^^^^
     expected: slack_tractive_tension = "100 N" or slack_tension = "110 N" or tight_tractive_tension = "700 N" or tight_tension = "710 N"
-    help: two of the slack tension, the tight tension and the driven torque state the load
+    help: two quantities close a drive: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
     "#);
     assert_snapshot!(flat_error(&["load.slack_tension=", "load.driven_torque=", "load.tight_tension=550 N"]), @r#"
     error: missing key `slack_tractive_tension` or `slack_tension` or `driven_torque` in [load]
@@ -282,7 +280,7 @@ fn loads_of_one_quantity_or_none() {
     26 | [load]                             # the slack tension and the torque of the driven pulley close the drive
        |  ^^^^
     expected: slack_tractive_tension = "100 N" or slack_tension = "110 N" or driven_torque = "45 N*m"
-    help: two of the slack tension, the tight tension and the driven torque state the load
+    help: two quantities close a drive: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
     "#);
     assert_snapshot!(flat_error(&["load.slack_tension=", "load.driven_torque="]), @r#"
     error: missing key `slack_tractive_tension` or `slack_tension` in [load]
@@ -291,7 +289,7 @@ fn loads_of_one_quantity_or_none() {
     26 | [load]                             # the slack tension and the torque of the driven pulley close the drive
        |  ^^^^
     expected: slack_tractive_tension = "100 N" or slack_tension = "110 N"
-    help: two of the slack tension, the tight tension and the driven torque state the load
+    help: two quantities close a drive: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
     "#);
 }
 

@@ -40,6 +40,7 @@ fn drive(random: &mut Random, law: FrictionLaw) -> Drive {
         let drive = Drive {
             title: None,
             belt: Belt {
+                ribs: 1,
                 mass_per_length: random.scale(0.05, 0.6),
                 axial_stiffness: random.scale(30e3, 300e3),
                 kind: BeltKind::V(VBelt {

@@ -86,7 +86,10 @@ fn entries_that_are_none_of_the_drive() {
     error: `load.tight_tension` is not given: the drive has `load.tight_tractive_tension`
     help: did you mean `load.tight_tractive_tension`?
     ");
-    assert_snapshot!(first(&[], "load.torque"), @r"error: `load.torque` does not say of which pulley it is");
+    assert_snapshot!(first(&[], "load.torque"), @r"
+    error: `load.torque` is not given: the drive has `load.tight_tractive_tension`
+    help: did you mean `load.tight_tractive_tension`?
+    ");
     assert_snapshot!(first(&[], "load.driven_torque"), @r"error: `load.driven_torque` does not apply to a V-belt");
     assert_snapshot!(first(&[], "friction.velocity"), @r"error: `friction.velocity` does not apply to the friction law `coulomb`");
     assert_snapshot!(first(&[], "model.normal_force"), @r"error: `model.normal_force` is no number, so it cannot be traced");
@@ -122,7 +125,7 @@ fn entries_that_are_none_of_a_flat_belt_drive() {
     help: did you mean `load.tight_tension`?
     ");
     assert_snapshot!(first(&[], "load.torque"), @r"
-    error: `load.torque` does not say of which pulley it is
+    error: `load.torque` is not given: the drive has `load.driven_torque`
     help: did you mean `load.driven_torque`?
     ");
     assert_snapshot!(error_of(&example("flat-unequal", &[]), "driven_torqe"), @r"

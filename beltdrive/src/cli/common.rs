@@ -5,7 +5,8 @@ use super::origin::Origin;
 use super::output::Output;
 use super::progress::with_bar;
 use super::read::read;
-use beltdrive::{Drive, SolveOptions, input};
+use beltdrive::input::DriveFile;
+use beltdrive::{Drive, SolveOptions};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -25,12 +26,19 @@ pub(super) struct Common {
 }
 
 impl Common {
-    /// The drive, once it is clear that its results have somewhere to go, and their origin.
-    pub(super) fn drive(&self) -> Result<(Drive, Origin), Failure> {
+    /// The drive file, once it is clear that its results have somewhere to go, and their origin.
+    pub(super) fn file(&self) -> Result<(DriveFile, Origin), Failure> {
         self.output.check(&self.file)?;
         let (name, text) = read(&self.file)?;
-        let drive = input::parse(&name, &text, &self.overrides).map_err(Failure::usage)?;
-        Ok((drive, Origin::of_drive(name, text)))
+        let file = DriveFile::read(&name, &text, &self.overrides).map_err(Failure::usage)?;
+        Ok((file, Origin::of_drive(name, text)))
+    }
+
+    /// The drive with two pulleys, once it is clear that its results have somewhere to go, and their origin.
+    pub(super) fn drive(&self) -> Result<(Drive, Origin), Failure> {
+        let (file, origin) = self.file()?;
+        let drive = file.drive().map_err(Failure::usage)?;
+        Ok((drive, origin))
     }
 
     /// How steady states are sought.

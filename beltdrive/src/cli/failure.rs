@@ -1,6 +1,7 @@
 //! Why a command fails.
 
 use beltdrive::SolveError;
+use beltdrive::belt_loop::LoopError;
 use std::error::Error;
 
 /// Why a command fails: a message for standard error, by exit status.
@@ -20,6 +21,17 @@ impl Failure {
     /// The failure to do something with a file or stream.
     pub(super) fn io(action: &str, error: &dyn Error) -> Self {
         Self::Usage(format!("error: cannot {action}: {error}"))
+    }
+}
+
+impl From<LoopError> for Failure {
+    fn from(error: LoopError) -> Self {
+        match error {
+            LoopError::Statement { .. } | LoopError::Layout(_) => {
+                Self::Usage(format!("error: {error}"))
+            }
+            _ => Self::Unsolved(format!("error: no steady state: {error}")),
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::{common::Common, failure::Failure, output::Report, parameter};
 use beltdrive::input::Key;
+use beltdrive::quantity::UnitSystem;
 use beltdrive::{plot, report};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -39,7 +40,7 @@ impl Limits {
 }
 
 impl Report for beltdrive::Limits {
-    fn table(&self) -> String {
+    fn table(&self, _units: UnitSystem) -> String {
         report::limits::table(self)
     }
 

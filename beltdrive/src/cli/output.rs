@@ -3,8 +3,9 @@
 use super::destinations::Destinations;
 use super::failure::Failure;
 use super::origin::Origin;
+use beltdrive::quantity::UnitSystem;
 use beltdrive::{plot, report::write_file};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::{
     io::{self, ErrorKind, Write},
     path::{Path, PathBuf},
@@ -22,15 +23,39 @@ pub(super) struct Output {
     /// Draw figures into a directory
     #[arg(long, value_name = "DIR")]
     plot: Option<PathBuf>,
+    /// Units of the table of a loop of pulleys
+    #[arg(long, value_name = "SYSTEM", default_value = "engineering")]
+    units: Units,
     /// Print neither the table nor the names of written files
     #[arg(long)]
     pub(super) quiet: bool,
 }
 
+/// A system of units by its name.
+#[derive(Clone, Copy, ValueEnum)]
+enum Units {
+    /// m, N, W, rad/s
+    Si,
+    /// mm, N, kW, rpm
+    Engineering,
+    /// in, lbf, hp, rpm
+    Us,
+}
+
+impl From<Units> for UnitSystem {
+    fn from(units: Units) -> Self {
+        match units {
+            Units::Si => Self::Si,
+            Units::Engineering => Self::Engineering,
+            Units::Us => Self::Us,
+        }
+    }
+}
+
 /// A result in all its forms.
 pub(super) trait Report {
     /// For people.
-    fn table(&self) -> String;
+    fn table(&self, units: UnitSystem) -> String;
     /// Complete.
     fn json(&self) -> String;
     /// Rows.
@@ -60,7 +85,7 @@ impl Output {
     pub(super) fn write(&self, report: &impl Report, origin: &Origin) -> Result<(), Failure> {
         let outputs = [self.json.as_deref(), self.csv.as_deref()];
         if !self.quiet && !outputs.into_iter().any(is_stdout) {
-            print(&report.table())?;
+            print(&report.table(self.units.into()))?;
         }
         for path in self.write_files(report, origin)? {
             if !self.quiet {

@@ -1,7 +1,10 @@
 //! `beltdrive solve`: the steady state of a drive.
 
 use super::{common::Common, failure::Failure, output::Report};
-use beltdrive::{SteadyState, plot, report};
+use beltdrive::belt_loop::{self, BeltLoop, LoopState};
+use beltdrive::input::Stated;
+use beltdrive::quantity::{Answer, UnitSystem};
+use beltdrive::{SteadyState, plot, quantity, report};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -20,14 +23,53 @@ pub(super) struct Solve {
 
 impl Solve {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        let (drive, origin) = self.common.drive()?;
-        let state = beltdrive::solve(&drive, &self.common.options())?;
-        self.common.output.write(&state, &origin)
+        let (file, origin) = self.common.file()?;
+        match file.stated().map_err(Failure::usage)? {
+            Stated::Drive(drive) => {
+                let state = beltdrive::solve(&drive, &self.common.options())?;
+                self.common.output.write(&state, &origin)
+            }
+            Stated::Loop(belt_loop) => {
+                let state = belt_loop::solve(&belt_loop)?;
+                let solved = SolvedLoop { belt_loop, state };
+                self.common.output.write(&solved, &origin)
+            }
+        }
+    }
+}
+
+/// A loop and its steady state.
+struct SolvedLoop {
+    belt_loop: BeltLoop,
+    state: LoopState,
+}
+
+impl SolvedLoop {
+    fn answer(&self) -> Answer {
+        quantity::belt_loop::answer(&self.belt_loop, &self.state)
+    }
+}
+
+impl Report for SolvedLoop {
+    fn table(&self, units: UnitSystem) -> String {
+        report::answer::table(&self.answer(), units)
+    }
+
+    fn json(&self) -> String {
+        report::answer::json(&self.answer())
+    }
+
+    fn csv(&self) -> String {
+        report::answer::csv(&self.answer())
+    }
+
+    fn plot(&self, _directory: &Path, _metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
+        Ok(Vec::new())
     }
 }
 
 impl Report for SteadyState {
-    fn table(&self) -> String {
+    fn table(&self, _units: UnitSystem) -> String {
         report::table(self)
     }
 

@@ -4,6 +4,7 @@ use super::{
     failure::Failure, origin::Origin, output::Output, output::Report, progress::with_bar,
     read::read,
 };
+use beltdrive::quantity::UnitSystem;
 use beltdrive::{Stability, input, plot, report};
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
@@ -45,7 +46,7 @@ impl Command {
 }
 
 impl Report for Stability {
-    fn table(&self) -> String {
+    fn table(&self, _units: UnitSystem) -> String {
         report::stability::table(self)
     }
 

@@ -2,6 +2,7 @@
 
 use super::{common::Common, failure::Failure, origin::Origin, output::Report, parameter};
 use beltdrive::input::Key;
+use beltdrive::quantity::UnitSystem;
 use beltdrive::{Branch, BranchEnd, Drive, LimitCurve, plot, report};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -96,7 +97,7 @@ fn finished(end: &BranchEnd) -> Result<(), Failure> {
 }
 
 impl Report for Branch {
-    fn table(&self) -> String {
+    fn table(&self, _units: UnitSystem) -> String {
         report::branch::table(self)
     }
 
@@ -114,7 +115,7 @@ impl Report for Branch {
 }
 
 impl Report for LimitCurve {
-    fn table(&self) -> String {
+    fn table(&self, _units: UnitSystem) -> String {
         report::limit_curve::table(self)
     }
 

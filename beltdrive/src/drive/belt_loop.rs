@@ -198,6 +198,16 @@ impl BeltLoop {
         Layout::new(self.sense, self.turning_number, pulleys)
     }
 
+    /// The coordinate from which the equilibrium of the tensioner is sought, rad or m; without one it means
+    /// nothing.
+    pub(crate) fn start_coordinate(&self) -> f64 {
+        match (self.closure, self.tensioner()) {
+            (Closure::RestCoordinate(coordinate), _) => coordinate,
+            (_, Some((_, tensioner))) => tensioner.start_coordinate,
+            (_, None) => 0.0,
+        }
+    }
+
     /// The index of the driver.
     pub(crate) fn driver(&self) -> usize {
         let mut pulleys = self.pulleys.iter();

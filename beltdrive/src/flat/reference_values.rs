@@ -49,6 +49,7 @@ fn kim(law: FrictionLaw, slack: f64, tight: f64, normal_force: NormalForce) -> D
     Drive {
         title: None,
         belt: Belt {
+            ribs: 1,
             mass_per_length: MASS,
             axial_stiffness: AXIAL,
             kind: BeltKind::Flat { normal_force },
@@ -183,6 +184,7 @@ fn finite_element_drive(friction_coefficient: f64) -> SteadyState {
     let length = UNSTRETCHED * (2.0 * centre_distance + 2.0 * PI * 0.1);
     let mut drive = Drive {
         belt: Belt {
+            ribs: 1,
             mass_per_length: 0.8288 / UNSTRETCHED,
             axial_stiffness: 8000.0 * UNSTRETCHED,
             kind: BeltKind::Flat {

@@ -50,7 +50,7 @@ impl Argument<'_> {
             dimension,
             range,
         } = rule.expect("a key is a quantity of the schema");
-        let value = check::number(rule, dimension, range, &entry, &source)?;
+        let value = check::number(key.path(), rule, dimension, range, &entry, &source)?;
         let mut drive = drive.clone();
         key.set(&mut drive, value);
         let is_free = |path: &&str| free.is_some_and(|free| free.path() == *path);
@@ -125,8 +125,8 @@ fn inapplicable(path: &str, drive: &Drive, place: &Range<usize>) -> Finding {
             ))
         }
         "load" if path != schema::TORQUE || !is_v_belt => {
-            let is_other = |key: &Key| Some(key.path()) == schema::alternative(path);
-            let other = Key::all(drive).find(is_other);
+            let others = schema::alternatives(path);
+            let other = Key::all(drive).find(|key| others.iter().any(|other| other == key.path()));
             let other = other.unwrap_or_else(|| Key::load(drive)).path();
             finding(format!("`{path}` is not given: the drive has `{other}`"))
                 .did_you_mean(Some(other))

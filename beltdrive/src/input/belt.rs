@@ -6,7 +6,14 @@ use crate::{Belt, BeltKind, NormalForce, VBelt};
 /// The belt. What only a V-belt has may stand in the file of a flat belt for other runs.
 pub(super) fn belt(values: &Values<'_>) -> Result<Belt, Finding> {
     let is_flat = values.required_text("belt.type")? == "flat";
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a whole number from 1 to 1000"
+    )]
+    let ribs = values.number("belt.ribs").map_or(1, |ribs| ribs as u32);
     Ok(Belt {
+        ribs,
         mass_per_length: values.required_number("belt.mass_per_length")?,
         axial_stiffness: values.required_number("belt.axial_stiffness")?,
         kind: match is_flat {

@@ -14,9 +14,20 @@ use std::ops::Range;
 /// Checks an entry without a rule: it must be a table of the schema.
 pub(super) fn table(path: &str, entry: &Entry) -> Result<(), Finding> {
     if schema::is_table(path) {
+        let expected = match schema::pair(path) {
+            Some([one, other]) => {
+                let example =
+                    schema::rule(&schema::join(path, one)).map_or("", |rule| rule.example);
+                format!("an array of {one} and {other}, e.g. [{example}, {example}]")
+            }
+            None => schema::header(path),
+        };
         return match entry.content {
             Content::Table => Ok(()),
-            _ => Err(wrong_type(path, "a table", entry).expected(format!("[{path}]"))),
+            _ if schema::pair(path).is_some() => {
+                Err(wrong_type(path, "a pair", entry).expected(expected))
+            }
+            _ => Err(wrong_type(path, "a table", entry).expected(expected)),
         };
     }
     let (table, name) = schema::split(path);
@@ -26,7 +37,7 @@ pub(super) fn table(path: &str, entry: &Entry) -> Result<(), Finding> {
     };
     let place = match table {
         "" => String::new(),
-        _ => format!(" in [{table}]"),
+        _ => format!(" in {}", schema::header(table)),
     };
     let finding = Finding::new(entry.key.clone(), format!("unknown {what} `{name}`{place}"))
         .did_you_mean(schema::nearest(path));
@@ -37,21 +48,22 @@ pub(super) fn table(path: &str, entry: &Entry) -> Result<(), Finding> {
 }
 
 /// Checks a text.
-pub(super) fn text<'e>(rule: &Rule, entry: &'e Entry) -> Result<&'e str, Finding> {
+pub(super) fn text<'e>(path: &str, rule: &Rule, entry: &'e Entry) -> Result<&'e str, Finding> {
     match &entry.content {
         Content::Text(text) => Ok(text),
-        _ => Err(wrong_type(rule.path, "a text", entry).expected(rule.line())),
+        _ => Err(wrong_type(path, "a text", entry).expected(rule.line())),
     }
 }
 
 /// Checks that a text is one of `words`.
 pub(super) fn word<'e>(
+    path: &str,
     rule: &Rule,
     what: &str,
     words: &[&str],
     entry: &'e Entry,
 ) -> Result<&'e str, Finding> {
-    let text = text(rule, entry)?;
+    let text = text(path, rule, entry)?;
     if words.contains(&text) {
         return Ok(text);
     }
@@ -65,6 +77,7 @@ pub(super) fn word<'e>(
 
 /// Checks a quantity and its range, and gives it in SI units.
 pub(super) fn number(
+    path: &str,
     rule: &Rule,
     dimension: Dimension,
     range: schema::Range,
@@ -84,7 +97,7 @@ pub(super) fn number(
                 quantity.unit.map(|(found, part)| (found, at(part))),
             )
         }
-        _ => return Err(wrong_type(rule.path, "a quantity", entry).expected(expected)),
+        _ => return Err(wrong_type(path, "a quantity", entry).expected(expected)),
     };
     let is_bare = unit.is_none();
     if let Some((found, place)) = unit
@@ -103,6 +116,8 @@ pub(super) fn number(
     let is_within = match range {
         schema::Range::Positive => value > 0.0,
         schema::Range::NotNegative => value >= 0.0,
+        schema::Range::Any => true,
+        schema::Range::Whole => (1.0..=1000.0).contains(&value) && value.fract() == 0.0,
         schema::Range::Below(limit, _) => value > 0.0 && value < limit,
     };
     if is_within && value.is_finite() {
@@ -110,18 +125,19 @@ pub(super) fn number(
     }
     let fault = match range {
         _ if !value.is_finite() => "is not a finite number".to_owned(),
-        schema::Range::Positive => "must be positive".to_owned(),
+        schema::Range::Positive | schema::Range::Any => "must be positive".to_owned(),
+        schema::Range::Whole => "must be a whole number from 1 to 1000".to_owned(),
         schema::Range::NotNegative => "must not be negative".to_owned(),
         schema::Range::Below(_, limit) => format!("must lie between 0 and {limit}"),
     };
     if dimension == Dimension::ANGLE && is_bare && value.is_finite() && value > 0.0 {
         // A bare number beyond the range is meant in degrees.
-        let message = format!("`{}` has no unit: {value} rad {fault}", rule.path);
+        let message = format!("`{path}` has no unit: {value} rad {fault}");
         return Err(Finding::new(entry.place.clone(), message)
             .expected(expected)
             .did_you_mean(Some(format!("{value} deg"))));
     }
-    let finding = Finding::new(entry.place.clone(), format!("`{}` {fault}", rule.path));
+    let finding = Finding::new(entry.place.clone(), format!("`{path}` {fault}"));
     Err(finding.expected(expected))
 }
 

@@ -28,10 +28,12 @@ impl Dimension {
     pub(super) const FORCE: Self = Self::new(1, 1, -2, 0);
     pub(super) const FORCE_PER_AREA: Self = Self::new(1, -1, -2, 0);
     pub(super) const TORQUE: Self = Self::new(1, 2, -2, 0);
+    pub(super) const FORCE_PER_LENGTH: Self = Self::new(1, 0, -2, 0);
+    pub(super) const TORQUE_PER_ANGLE: Self = Self::new(1, 2, -2, -1);
     pub(super) const POWER: Self = Self::new(1, 2, -3, 0);
 
     /// The dimensions that have a name in messages.
-    const NAMES: [(Self, &str); 17] = [
+    const NAMES: [(Self, &str); 18] = [
         (Self::NUMBER, "a pure number"),
         (Self::MASS, "a mass"),
         (Self::LENGTH, "a length"),
@@ -48,7 +50,8 @@ impl Dimension {
         (Self::new(0, 2, 0, 0), "an area"),
         (Self::new(0, 0, -1, 0), "an inverse time"),
         (Self::ACCELERATION, "an acceleration"),
-        (Self::new(1, 0, -2, 0), "a force per length"),
+        (Self::FORCE_PER_LENGTH, "a force per length"),
+        (Self::TORQUE_PER_ANGLE, "a torque per angle"),
     ];
 
     const fn new(mass: i32, length: i32, time: i32, angle: i32) -> Self {

@@ -5,10 +5,12 @@ use std::{collections::BTreeMap, ops::Range};
 use toml::de::{DeTable, DeValue};
 
 /// The entries of a drive file, with overrides applied.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Document {
     /// Tables and values by dotted path.
     pub(super) entries: BTreeMap<String, Entry>,
+    /// The names of the pulleys of a list, in belt order.
+    pub(super) pulleys: Vec<String>,
     /// Where the file ends: the place of what it lacks.
     pub(super) end: Range<usize>,
 }
@@ -56,29 +58,97 @@ impl Document {
         let length = text.trim_end().len();
         let mut document = Self {
             entries: BTreeMap::new(),
+            pulleys: Vec::new(),
             end: length..length,
         };
-        document.insert_table("", root.get_ref());
+        document.insert_table("", root.get_ref())?;
         Ok(document)
     }
 
     /// Inserts the entries of a table of the schema. Tables unknown to the schema stay closed: they
     /// are wrong as a whole.
-    fn insert_table(&mut self, path: &str, table: &DeTable<'_>) {
+    fn insert_table(&mut self, path: &str, table: &DeTable<'_>) -> Result<(), Finding> {
         for (key, value) in table {
             let child = schema::join(path, key.get_ref());
-            let entry = Entry {
+            let mut entry = Entry {
                 key: key.span(),
                 place: value.span(),
                 content: content(value.get_ref()),
             };
-            if let DeValue::Table(table) = value.get_ref()
-                && schema::is_table(&child)
-            {
-                self.insert_table(&child, table);
+            match value.get_ref() {
+                _ if child == schema::PULLEY => {
+                    self.insert_pulleys(&entry, value.get_ref())?;
+                    entry.content = Content::Table;
+                }
+                DeValue::Table(table) if schema::is_table(&child) => {
+                    self.insert_table(&child, table)?;
+                }
+                DeValue::Array(array) if array.len() == 2 => {
+                    if let Some(names) = schema::pair(&child) {
+                        for (name, value) in names.iter().zip(array) {
+                            let content = content(value.get_ref());
+                            let (key, place) = (value.span(), value.span());
+                            let element = Entry {
+                                key,
+                                place,
+                                content,
+                            };
+                            self.entries.insert(schema::join(&child, name), element);
+                        }
+                        entry.content = Content::Table;
+                    }
+                }
+                _ => {}
             }
             self.entries.insert(child, entry);
         }
+        Ok(())
+    }
+
+    /// Inserts the pulleys of a list, each as a table under its name, or its number if it has none.
+    fn insert_pulleys(&mut self, entry: &Entry, list: &DeValue<'_>) -> Result<(), Finding> {
+        let no_list = |place: Range<usize>| {
+            Finding::new(
+                place,
+                "`pulley` must be a list of tables, one for each pulley in belt order",
+            )
+            .expected("[[pulley]]")
+        };
+        let DeValue::Array(pulleys) = list else {
+            return Err(no_list(entry.key.clone()));
+        };
+        for (index, pulley) in pulleys.iter().enumerate() {
+            let DeValue::Table(table) = pulley.get_ref() else {
+                return Err(no_list(pulley.span()));
+            };
+            let named = table.iter().find(|(key, _)| key.get_ref() == "name");
+            let (name, place) = match named.map(|(_, value)| (value.get_ref(), value.span())) {
+                Some((DeValue::String(name), place)) => (name.trim().to_owned(), place),
+                _ => ((index + 1).to_string(), pulley.span()),
+            };
+            if name.is_empty() || name.contains(['.', '=', '*', '"']) {
+                let message = format!("`{name}` is no name for a pulley");
+                return Err(Finding::new(place, message).expected(
+                    "letters, digits, blanks, hyphens: the name stands in keys such as pulley.NAME.torque",
+                ));
+            }
+            if self.pulleys.contains(&name) {
+                let message = format!("two pulleys have the name `{name}`");
+                return Err(
+                    Finding::new(place, message).expected("a name of its own for each pulley")
+                );
+            }
+            let path = schema::join(schema::PULLEY, &name);
+            self.insert_table(&path, table)?;
+            let entry = Entry {
+                key: pulley.span(),
+                place: pulley.span(),
+                content: Content::Table,
+            };
+            self.entries.insert(path, entry);
+            self.pulleys.push(name);
+        }
+        Ok(())
     }
 }
 

@@ -1,26 +1,108 @@
-//! From checked values to a drive: what must be there, and relations between the values.
+//! From checked values to what they state: what must be there, and relations between the values.
 
-use super::{belt, diagnostic::Finding, friction, load, schema, values::Values};
-use crate::{Drive, SpanTension};
+use super::{
+    belt, belt_loop, diagnostic::Finding, friction, load, load::Closed, schema, values::Values,
+};
+use crate::belt_loop::BeltLoop;
+use crate::{Drive, Load, SpanTension};
 
-/// The drive the values state.
-pub(super) fn drive(values: &Values<'_>) -> Result<Drive, Finding> {
+/// What a drive file states.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Stated {
+    /// Two pulleys, closed by the tensions of their spans or by one of them and the driven torque.
+    Drive(Drive),
+    /// A loop of any number of pulleys.
+    Loop(BeltLoop),
+}
+
+/// What the values state.
+pub(super) fn stated(values: &Values<'_>) -> Result<Stated, Finding> {
+    if values.has(schema::PULLEY) {
+        return belt_loop::of_list(values).map(Stated::Loop);
+    }
+    let missing = missing(values);
+    if missing.len() > 1 {
+        return Err(values.all_missing(&missing));
+    }
+    let belt = belt::belt(values)?;
+    match load::load(values, belt.kind)? {
+        Closed::Drive(load) => drive(values, load).map(Stated::Drive),
+        Closed::Loop(duty, closure) => {
+            let belt_loop = belt_loop::of_two(values, duty, closure)?;
+            let distance = values.required_number("layout.centre_distance")?;
+            let radii = belt_loop.pulleys.iter().map(|pulley| pulley.radius).sum();
+            match overlap(radii, distance) {
+                Some(found) => Err(found.finding(values)),
+                None => Ok(Stated::Loop(belt_loop)),
+            }
+        }
+    }
+}
+
+/// What a drive with two pulleys needs and the file does not have, but for its load.
+fn missing(values: &Values<'_>) -> Vec<&'static str> {
+    let of_belt: &[_] = match values.text("belt.type") {
+        Some("v") => &["belt.radial_stiffness", "groove.half_angle"],
+        _ => &[],
+    };
+    let of_law: &[_] = match values.text("friction.law") {
+        Some("epp") => &["friction.stiffness"],
+        Some("bristle") => &["friction.bristle_stiffness"],
+        Some("creep-rate") => &["friction.velocity"],
+        _ => &[],
+    };
+    let of_all = [
+        "belt.type",
+        "belt.mass_per_length",
+        "belt.axial_stiffness",
+        "friction.law",
+        "friction.coefficient",
+        "pulleys.driver.radius",
+        "pulleys.driver.speed",
+        "pulleys.driven.radius",
+        "layout.centre_distance",
+    ];
+    let needed = of_all.iter().chain(of_belt).chain(of_law).copied();
+    let is_given = |path: &str| {
+        let mut others = schema::alternatives(path).into_iter();
+        values.has(path) || others.any(|other| values.has(&other))
+    };
+    needed.filter(|path| !is_given(path)).collect()
+}
+
+/// The radius of a pulley of a drive with two.
+pub(super) fn radius(values: &Values<'_>, table: &str) -> Result<f64, Finding> {
+    let [radius, diameter] = ["radius", "diameter"].map(|name| format!("{table}.{name}"));
+    match (values.number(&radius), values.number(&diameter)) {
+        (Some(_), Some(_)) => {
+            let message = format!(
+                "both `radius` and `diameter` are given in {}",
+                schema::header(table)
+            );
+            Err(Finding::new(values.key_place(&diameter), message).expected("one of them"))
+        }
+        (Some(radius), None) => Ok(radius),
+        (None, Some(diameter)) => Ok(0.5 * diameter),
+        (None, None) => Err(values.missing(&[&radius, &diameter])),
+    }
+}
+
+/// The drive the values state with a load.
+fn drive(values: &Values<'_>, load: Load) -> Result<Drive, Finding> {
     let belt = belt::belt(values)?;
     let drive = Drive {
         title: values.text("title").map(str::to_owned),
         belt,
         law: friction::law(values, belt.kind)?,
         friction_coefficient: values.required_number("friction.coefficient")?,
-        driver_radius: values.required_number("pulleys.driver.radius")?,
+        driver_radius: radius(values, "pulleys.driver")?,
         driver_speed: values.required_number("pulleys.driver.speed")?,
-        driven_radius: values.required_number("pulleys.driven.radius")?,
+        driven_radius: radius(values, "pulleys.driven")?,
         centre_distance: values.required_number("layout.centre_distance")?,
-        load: load::load(values, belt.kind)?,
+        load,
     };
     match contradiction(&drive) {
-        Some(found) => {
-            Err(Finding::new(values.place(found.path), found.message).expected(found.expected))
-        }
+        Some(found) => Err(found.finding(values)),
         None => Ok(drive),
     }
 }
@@ -37,24 +119,35 @@ pub(super) struct Contradiction {
     expected: String,
 }
 
+impl Contradiction {
+    fn finding(self, values: &Values<'_>) -> Finding {
+        Finding::new(values.place(self.path), self.message).expected(self.expected)
+    }
+}
+
+/// Pulleys with a sum of radii that is too large for their distance, m.
+fn overlap(radii: f64, distance: f64) -> Option<Contradiction> {
+    (distance <= radii).then(|| Contradiction {
+        path: "layout.centre_distance",
+        between: &[
+            "pulleys.driver.radius",
+            "pulleys.driven.radius",
+            "layout.centre_distance",
+        ],
+        message: format!(
+            "the pulleys overlap: their radii add up to {} m, the centre distance is {} m",
+            rounded(radii),
+            rounded(distance)
+        ),
+        expected: format!("a length greater than {} m", rounded(radii)),
+    })
+}
+
 /// The first contradiction between the values of a drive.
 pub(super) fn contradiction(drive: &Drive) -> Option<Contradiction> {
     let radii = drive.driver_radius + drive.driven_radius;
-    if drive.centre_distance <= radii {
-        return Some(Contradiction {
-            path: "layout.centre_distance",
-            between: &[
-                "pulleys.driver.radius",
-                "pulleys.driven.radius",
-                "layout.centre_distance",
-            ],
-            message: format!(
-                "the pulleys overlap: their radii add up to {} m, the centre distance is {} m",
-                rounded(radii),
-                rounded(drive.centre_distance)
-            ),
-            expected: format!("a length greater than {} m", rounded(radii)),
-        });
+    if let Some(found) = overlap(radii, drive.centre_distance) {
+        return Some(found);
     }
     let [tractive, belt] = schema::TIGHT;
     let (path, low, high) = match (drive.load.slack, drive.load.tight) {

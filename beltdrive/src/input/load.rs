@@ -1,41 +1,110 @@
-//! From checked values to a load: two of the quantities that close a drive.
+//! From checked values to what closes a drive with a driver and a driven pulley: two of its load.
 
 use super::{
     diagnostic::Finding,
     overrides,
-    schema::{SLACK, TENSIONS, TIGHT, TORQUE},
+    schema::{CLOSURE, EFFORT, SLACK, TENSIONS, TIGHT, TORQUE},
     values::Values,
 };
+use crate::belt_loop::{Closure, Duty};
 use crate::{BeltKind, Load, SpanTension};
 
-/// The load: two of the slack tension, the tight tension and, for flat belts, the driven torque.
-pub(super) fn load(values: &Values<'_>, belt: BeltKind) -> Result<Load, Finding> {
-    let torque = values.number(TORQUE).map(SpanTension::DrivenTorque);
-    let is_v_belt = matches!(belt, BeltKind::V(_));
-    if is_v_belt && torque.is_some() {
-        let message = format!("`{TORQUE}` is not supported for V-belts yet");
-        return Err(Finding::new(values.key_place(TORQUE), message)
-            .expected("one slack and one tight tension"));
+/// What closes a drive.
+pub(super) enum Closed {
+    /// Two of the slack tension, the tight tension and, for flat belts, the driven torque.
+    Drive(Load),
+    /// What the driven pulley takes, and how tight the belt is, as for any loop.
+    Loop(Duty, Closure),
+}
+
+/// The span that leaves the driver, and the one that leaves the driven pulley.
+const SPANS: [usize; 2] = [0, 1];
+
+/// What closes the drive: two tensions, or one of them, the setup tension or the length of the belt beside
+/// the torque or the power of the driven pulley.
+pub(super) fn load(values: &Values<'_>, belt: BeltKind) -> Result<Closed, Finding> {
+    let slack = span_tension(values, SLACK)?;
+    let tight = span_tension(values, TIGHT)?;
+    let effort = once(values, &EFFORT)?;
+    let closure = once(values, &CLOSURE)?;
+    if let Some(path) = closure.filter(|path| CLOSURE[2..].contains(path)) {
+        let message = format!("`{path}` is for a list of pulleys");
+        return Err(Finding::new(values.key_place(path), message)
+            .expected("the tension of the slack or of the tight span"));
     }
-    let missing = |tensions: &[&str], other: &[&str]| match is_v_belt {
-        true => values.missing(tensions),
-        false => values.missing(&[tensions, other].concat()).help(
-            "two of the slack tension, the tight tension and the driven torque state the load",
-        ),
+    let duty = |path: &str| {
+        let number = values.number(path).unwrap_or_default();
+        if path == "load.power" {
+            Duty::Power(number)
+        } else {
+            Duty::Torque(number)
+        }
     };
-    match (
-        span_tension(values, SLACK)?,
-        span_tension(values, TIGHT)?,
-        torque,
-    ) {
-        (Some(slack), Some(tight), None)
-        | (Some(slack), None, Some(tight))
-        | (None, Some(tight), Some(slack)) => Ok(Load { slack, tight }),
-        (Some(_), Some(_), Some(_)) => Err(overdetermined(values)),
-        (None, None, Some(_)) => Err(missing(&TENSIONS, &[])),
-        (Some(_), None, None) => Err(missing(&TIGHT, &[TORQUE])),
-        (None, Some(_), None) => Err(missing(&SLACK, &[TORQUE])),
-        (None, None, None) => Err(missing(&SLACK, &[])),
+    let is_flat = matches!(belt, BeltKind::Flat { .. });
+    let torque = effort.filter(|path| is_flat && *path != "load.power");
+    let torque = torque.and_then(|path| values.number(path));
+    let torque = torque.map(SpanTension::DrivenTorque);
+    match (slack, tight, effort, closure) {
+        (Some(slack), Some(tight), None, None) => Ok(Closed::Drive(Load { slack, tight })),
+        (Some(tension), None, Some(effort), None) => Ok(match torque {
+            Some(tight) => Closed::Drive(Load {
+                slack: tension,
+                tight,
+            }),
+            None => Closed::Loop(duty(effort), of_span(SPANS[0], tension)),
+        }),
+        (None, Some(tension), Some(effort), None) => Ok(match torque {
+            Some(slack) => Closed::Drive(Load {
+                slack,
+                tight: tension,
+            }),
+            None => Closed::Loop(duty(effort), of_span(SPANS[1], tension)),
+        }),
+        (None, None, Some(effort), Some(path)) => {
+            let number = values.number(path).unwrap_or_default();
+            let closure = match path {
+                "load.setup_tension" => Closure::SetupTension(number),
+                _ => Closure::UnstretchedLength(number),
+            };
+            Ok(Closed::Loop(duty(effort), closure))
+        }
+        (Some(_), None, None, None) => {
+            Err(values.missing(&[&TIGHT[..], &[TORQUE]].concat()).help(TWO))
+        }
+        (None, Some(_), None, None) => {
+            Err(values.missing(&[&SLACK[..], &[TORQUE]].concat()).help(TWO))
+        }
+        (None, None, None, None) => Err(values.missing(&SLACK).help(TWO)),
+        (None, None, Some(_), None) => Err(values.missing(&TENSIONS).help(TWO)),
+        (None, None, None, Some(_)) => Err(values.missing(&EFFORT).help(TWO)),
+        _ => Err(overdetermined(values)),
+    }
+}
+
+/// What states a load.
+const TWO: &str = "two quantities close a drive: two tensions, or the torque or power of the driven pulley \
+                   with a span tension, the setup tension or the belt length";
+
+/// The one of several ways to state a quantity that is given, if any is.
+fn once(values: &Values<'_>, paths: &[&'static str]) -> Result<Option<&'static str>, Finding> {
+    match values.given(paths)[..] {
+        [] => Ok(None),
+        [path] => Ok(paths.iter().copied().find(|known| *known == path)),
+        [one, other, ..] => {
+            let message = format!("both `{one}` and `{other}` are given");
+            Err(Finding::new(values.key_place(other), message).expected("one of them"))
+        }
+    }
+}
+
+/// The closure by the tension of a span.
+fn of_span(span: usize, tension: SpanTension) -> Closure {
+    match tension {
+        SpanTension::Tractive(tension) => Closure::SpanTractiveTension { span, tension },
+        _ => Closure::SpanTension {
+            span,
+            tension: tension.value(),
+        },
     }
 }
 
@@ -54,22 +123,28 @@ fn span_tension(
     Ok(tractive.or(belt_value.map(SpanTension::Belt)))
 }
 
-/// The finding that both tensions and the torque are given, at the last of them.
+/// The finding that more than two quantities of the load are given, or two that do not go together, at the
+/// last of them.
 fn overdetermined(values: &Values<'_>) -> Finding {
-    let given = |[tractive, belt]: [&'static str; 2]| match values.number(tractive) {
-        Some(_) => tractive,
-        None => belt,
+    let mut given = values.given(&[&TENSIONS[..], &EFFORT, &CLOSURE].concat());
+    given.sort_by_key(|path| values.place(path).start);
+    let names: Vec<_> = given.iter().map(|path| format!("`{path}`")).collect();
+    let Some((&last, others)) = given.split_last() else {
+        return values.missing(&TENSIONS);
     };
-    let [slack, tight] = [SLACK, TIGHT].map(given);
-    let mut in_order = [slack, tight, TORQUE];
-    in_order.sort_by_key(|path| values.place(path).start);
-    let [.., last] = in_order;
-    let other = if last == TORQUE { tight } else { TORQUE };
-    let message = format!(
-        "overdetermined: `{slack}`, `{tight}` and `{TORQUE}` are given, any one of which follows \
-         from the others"
-    );
+    // A tension makes room for anything else, and the torque or the power for a tension.
+    let is_tension = |path: &&str| TENSIONS.contains(path);
+    let makes_room = |path: &&&str| is_tension(path) != is_tension(&last);
+    let other = others.iter().rev().find(makes_room).or(others.last());
+    let other = other.copied().unwrap_or(last);
+    let message = match given.len() {
+        2 => format!("{} do not close a drive together", names.join(" and ")),
+        count => format!(
+            "overdetermined: two quantities close a drive, {count} are given: {}",
+            names.join(", ")
+        ),
+    };
     Finding::new(values.place(last), message)
-        .expected("two of them")
+        .expected(TWO.trim_start_matches("two quantities close a drive: "))
         .help(overrides::removal(other))
 }

@@ -17,6 +17,7 @@
 
 mod argument;
 mod belt;
+mod belt_loop;
 mod check;
 mod diagnostic;
 mod dimension;
@@ -30,12 +31,14 @@ mod quantity;
 mod schema;
 mod source;
 pub(crate) mod spelling;
+mod tensioner;
 mod traceable;
 mod unit;
 mod values;
 
 pub use argument::Argument;
 pub use diagnostic::Diagnostic;
+pub use file::Stated;
 pub use key::Key;
 
 use crate::Drive;
@@ -62,14 +65,73 @@ use values::Values;
 /// The first finding, in the order of the text: the text is no TOML, a table or key is unknown or
 /// missing, a value has the wrong type, unit, dimension or range, or values contradict each other.
 pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Drive, Diagnostic> {
-    let source = Source::new(name, text, overrides);
-    read(&source, text, overrides).map_err(|finding| Diagnostic::new(finding, &source))
+    DriveFile::read(name, text, overrides)?.drive()
 }
 
-fn read(source: &Source, text: &str, overrides: &[String]) -> Result<Drive, Finding> {
+/// Why a file states a loop rather than a drive with two tensions.
+fn no_drive(document: &Document) -> Finding {
+    let list = document.entries.get(schema::PULLEY);
+    let load = document.entries.get("load");
+    let place = list
+        .or(load)
+        .map_or(document.end.clone(), |entry| entry.key.clone());
+    let message = match list {
+        Some(_) => "the file has a list of pulleys",
+        None => "the load is not stated by the tensions of the spans",
+    };
+    Finding::new(place, message).expected("[pulleys.driver], [pulleys.driven] and two tensions")
+}
+
+/// A drive file with its overrides, as it stands: any of its quantities can be looked up and changed.
+#[derive(Clone, Debug)]
+pub struct DriveFile {
+    source: Source,
+    document: Document,
+}
+
+impl DriveFile {
+    /// The drive file `text`, called `name` in messages, with overrides as for [`parse`].
+    ///
+    /// # Errors
+    /// The text is no TOML, or an override has no place.
+    pub fn read(name: &str, text: &str, overrides: &[String]) -> Result<Self, Diagnostic> {
+        let source = Source::new(name, text, overrides);
+        match document(&source, text, overrides) {
+            Ok(document) => Ok(Self { source, document }),
+            Err(finding) => Err(Diagnostic::new(finding, &source)),
+        }
+    }
+
+    /// What the file states.
+    ///
+    /// # Errors
+    /// As [`parse`].
+    pub fn stated(&self) -> Result<Stated, Diagnostic> {
+        let values = Values::check(&self.document, &self.source);
+        let stated = values.and_then(|values| file::stated(&values));
+        stated.map_err(|finding| self.diagnose(finding))
+    }
+
+    /// The drive with two pulleys and two tensions, or one of them and the driven torque, that the file states.
+    ///
+    /// # Errors
+    /// As [`parse`].
+    pub fn drive(&self) -> Result<Drive, Diagnostic> {
+        match self.stated()? {
+            Stated::Drive(drive) => Ok(drive),
+            Stated::Loop(_) => Err(self.diagnose(no_drive(&self.document))),
+        }
+    }
+
+    fn diagnose(&self, finding: Finding) -> Diagnostic {
+        Diagnostic::new(finding, &self.source)
+    }
+}
+
+fn document(source: &Source, text: &str, overrides: &[String]) -> Result<Document, Finding> {
     let mut document = Document::from_toml(text)?;
     for (text, start) in overrides.iter().zip(source.override_starts()) {
         overrides::apply(&mut document, text, start)?;
     }
-    file::drive(&Values::check(&document, source)?)
+    Ok(document)
 }

@@ -1,9 +1,10 @@
 //! Overrides `KEY=VALUE` of entries of a drive file.
 
 use super::{
+    check,
     diagnostic::Finding,
     document::{Content, Document, Entry},
-    schema,
+    schema, spelling,
 };
 
 /// Applies the override `text`, which starts at byte `start` of the source.
@@ -36,6 +37,21 @@ pub(super) fn apply(document: &mut Document, text: &str, start: usize) -> Result
         return Ok(());
     }
 
+    if let Some(rest) = path.strip_prefix("pulley.") {
+        let (name, _) = rest.split_once('.').unwrap_or((rest, ""));
+        if !document.pulleys.iter().any(|pulley| pulley == name) {
+            let pulleys: Vec<_> = document.pulleys.iter().map(String::as_str).collect();
+            let start = path_start + "pulley.".len();
+            let message = format!("there is no pulley `{name}`");
+            let finding = Finding::new(start..start + name.len(), message).did_you_mean(
+                spelling::nearest(name, pulleys.iter().map(|name| (name, name))),
+            );
+            return Err(match pulleys.is_empty() {
+                true => finding.help("the drive file has no [[pulley]]"),
+                false => finding.expected(check::one_of(&pulleys)),
+            });
+        }
+    }
     // The tables on the way, unless the file has them.
     for (end, _) in path.match_indices('.') {
         let table = &path[..end];
@@ -48,8 +64,8 @@ pub(super) fn apply(document: &mut Document, text: &str, start: usize) -> Result
         document.entries.entry(table.to_owned()).or_insert(entry);
     }
 
-    if let Some(other) = schema::alternative(path) {
-        document.entries.remove(other);
+    for other in schema::alternatives(path) {
+        document.entries.remove(&other);
     }
     let (_, name) = schema::split(path);
     let path_end = path_start + path.len();
@@ -107,7 +123,7 @@ mod tests {
         assert_eq!(document.entries.keys().collect::<Vec<_>>(), ["load"]);
         // What is no entry stays, to be found fault with.
         apply(&mut document, "load.colour=", 100).unwrap();
-        apply(&mut document, "load.torque=", 100).unwrap();
+        apply(&mut document, "load.driver_torque=", 100).unwrap();
         assert_eq!(document.entries.len(), 3);
     }
 

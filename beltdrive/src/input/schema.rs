@@ -1,12 +1,16 @@
 //! What a drive file may hold: every entry with its kind and an example.
 
+mod rules;
+
+pub(super) use rules::LAWS;
+
 use super::{dimension::Dimension, spelling};
-use std::f64::consts::FRAC_PI_2;
+use rules::RULES;
 
 /// One entry of a drive file.
 #[derive(Debug)]
 pub(super) struct Rule {
-    /// Its dotted path.
+    /// Its dotted path; `*` stands for the name of a pulley.
     pub(super) path: &'static str,
     /// A right value as TOML.
     pub(super) example: &'static str,
@@ -49,148 +53,46 @@ pub(super) enum Range {
     Positive,
     /// Positive or zero.
     NotNegative,
+    /// Any finite number.
+    Any,
+    /// A whole number from 1 to 1000.
+    Whole,
     /// Positive and below a number, in SI units and in words.
     Below(f64, &'static str),
 }
 
-const fn quantity(path: &'static str, example: &'static str, dimension: Dimension) -> Rule {
-    Rule {
-        path,
-        example,
-        kind: Kind::Quantity {
-            dimension,
-            range: Range::Positive,
-        },
-    }
-}
-
-const fn word(
-    path: &'static str,
-    example: &'static str,
-    what: &'static str,
-    words: &'static [&'static str],
-) -> Rule {
-    Rule {
-        path,
-        example,
-        kind: Kind::Word { what, words },
-    }
-}
-
-const fn refused(
-    path: &'static str,
-    example: &'static str,
-    reason: &'static str,
-    instead: Option<&'static str>,
-) -> Rule {
-    Rule {
-        path,
-        example,
-        kind: Kind::Refused { reason, instead },
-    }
-}
-
-const LATER: &str = "is not supported yet: give one slack and one tight tension";
-
-/// The friction laws.
-pub(super) const LAWS: [&str; 4] = ["coulomb", "epp", "bristle", "creep-rate"];
-
-/// Every entry, in the order in which messages list them.
-const RULES: [Rule; 27] = [
-    Rule {
-        path: "title",
-        example: "\"Test drive\"",
-        kind: Kind::Text,
-    },
-    word("belt.type", "\"v\"", "belt type", &["v", "flat"]),
-    quantity(
-        "belt.mass_per_length",
-        "\"0.108 kg/m\"",
-        Dimension::MASS_PER_LENGTH,
-    ),
-    quantity("belt.axial_stiffness", "\"120 kN\"", Dimension::FORCE),
-    quantity(
-        "belt.radial_stiffness",
-        "\"900 kN/m^2\"",
-        Dimension::FORCE_PER_AREA,
-    ),
-    quantity("belt.height", "\"8 mm\"", Dimension::LENGTH),
-    Rule {
-        path: "groove.half_angle",
-        example: "\"18 deg\"",
-        kind: Kind::Quantity {
-            dimension: Dimension::ANGLE,
-            range: Range::Below(FRAC_PI_2, "90 deg"),
-        },
-    },
-    word("friction.law", "\"coulomb\"", "friction law", &LAWS),
-    quantity("friction.coefficient", "0.4", Dimension::NUMBER),
-    quantity(
-        "friction.stiffness",
-        "\"8.1e6 N/m^2\"",
-        Dimension::FORCE_PER_AREA,
-    ),
-    quantity(
-        "friction.bristle_stiffness",
-        "\"1620 1/m\"",
-        Dimension::INVERSE_LENGTH,
-    ),
-    quantity("friction.velocity", "\"0.05 m/s\"", Dimension::VELOCITY),
-    quantity("pulleys.driver.radius", "\"0.25 m\"", Dimension::LENGTH),
-    quantity(
-        "pulleys.driver.speed",
-        "\"1000 rpm\"",
-        Dimension::ANGULAR_SPEED,
-    ),
-    quantity("pulleys.driven.radius", "\"0.25 m\"", Dimension::LENGTH),
-    refused(
-        "pulleys.driven.speed",
-        "\"1000 rpm\"",
-        "may not be given: the speed of the driven pulley follows from the load",
-        None,
-    ),
-    quantity("layout.centre_distance", "\"1.4 m\"", Dimension::LENGTH),
-    quantity("load.slack_tractive_tension", "\"100 N\"", Dimension::FORCE),
-    quantity("load.slack_tension", "\"110 N\"", Dimension::FORCE),
-    quantity("load.tight_tractive_tension", "\"700 N\"", Dimension::FORCE),
-    quantity("load.tight_tension", "\"710 N\"", Dimension::FORCE),
-    Rule {
-        path: TORQUE,
-        example: "\"45 N*m\"",
-        kind: Kind::Quantity {
-            dimension: Dimension::TORQUE,
-            range: Range::NotNegative,
-        },
-    },
-    refused(
-        "load.torque",
-        "\"45 N*m\"",
-        "does not say of which pulley it is",
-        Some(TORQUE),
-    ),
-    refused(
-        "load.driver_torque",
-        "\"45 N*m\"",
-        "may not be given: the load is the torque of the driven pulley",
-        Some(TORQUE),
-    ),
-    refused("load.setup_tension", "\"400 N\"", LATER, None),
-    refused("load.belt_length", "\"4.36 m\"", LATER, None),
-    word(
-        NORMAL_FORCE,
-        "\"inertia\"",
-        "normal force",
-        &["inertia", "thesis", "exact"],
-    ),
-];
-
-/// The entries that state one quantity in two ways: of each pair a drive file has at most one.
+/// The tension of the slack span of a drive, stated in one of two ways.
 pub(super) const SLACK: [&str; 2] = ["load.slack_tractive_tension", "load.slack_tension"];
 /// As [`SLACK`], for the tight span.
 pub(super) const TIGHT: [&str; 2] = ["load.tight_tractive_tension", "load.tight_tension"];
+/// What the driven pulley takes, stated in one of these ways.
+pub(super) const EFFORT: [&str; 3] = [TORQUE, "load.torque", "load.power"];
+/// How tight the belt is, other than by the tension of the slack or the tight span.
+pub(super) const CLOSURE: [&str; 4] = [
+    "load.setup_tension",
+    "load.belt_length",
+    "load.span_tension",
+    "load.span_tractive_tension",
+];
+
+/// Entries of which a drive file has at most one, because they state the same.
+const ALTERNATIVES: [&[&str]; 10] = [
+    &SLACK,
+    &TIGHT,
+    &EFFORT,
+    &CLOSURE,
+    &["pulleys.driver.radius", "pulleys.driver.diameter"],
+    &["pulleys.driven.radius", "pulleys.driven.diameter"],
+    &["pulley.*.radius", "pulley.*.diameter"],
+    &["pulley.*.torque", "pulley.*.power"],
+    &["tensioner.arm.free_angle", "tensioner.arm.preload"],
+    &["tensioner.slide.free_position", "tensioner.slide.preload"],
+];
 
 /// The torque of the driven pulley, in place of the tension of a span.
 pub(super) const TORQUE: &str = "load.driven_torque";
+/// The list of pulleys.
+pub(super) const PULLEY: &str = "pulley";
 /// How the normal force follows from the tension of a flat belt.
 pub(super) const NORMAL_FORCE: &str = "model.normal_force";
 
@@ -219,7 +121,18 @@ impl Rule {
 
 /// The rule for the entry at `path`.
 pub(super) fn rule(path: &str) -> Option<&'static Rule> {
-    RULES.iter().find(|rule| rule.path == path)
+    RULES.iter().find(|rule| matches(rule.path, path))
+}
+
+/// Whether a path is one of a pattern, in which `*` stands for any name.
+fn matches(pattern: &str, path: &str) -> bool {
+    let mut names = path.split('.');
+    let mut wanted = pattern.split('.');
+    wanted.all(|wanted| {
+        names
+            .next()
+            .is_some_and(|name| wanted == "*" || wanted == name)
+    }) && names.next().is_none()
 }
 
 /// The rule of a quantity with what it says.
@@ -245,20 +158,41 @@ pub(super) fn quantity_rule(path: &str) -> Option<QuantityRule> {
     }
 }
 
-/// The other way to state the quantity at `path`.
-pub(super) fn alternative(path: &str) -> Option<&'static str> {
-    [SLACK, TIGHT]
-        .into_iter()
-        .find_map(|[one, other]| match path {
-            _ if path == one => Some(other),
-            _ if path == other => Some(one),
-            _ => None,
-        })
+/// The other ways to state what the entry at `path` states.
+pub(super) fn alternatives(path: &str) -> Vec<String> {
+    let is_of = |patterns: &&&[&str]| patterns.iter().any(|pattern| matches(pattern, path));
+    let (_, name) = path.split_once('.').unwrap_or_default();
+    let (pulley, _) = name.split_once('.').unwrap_or_default();
+    let patterns = ALTERNATIVES.iter().find(is_of).copied().unwrap_or_default();
+    let others = patterns.iter().filter(|pattern| !matches(pattern, path));
+    others.map(|pattern| pattern.replace('*', pulley)).collect()
 }
 
 /// Whether `path` is a table; the empty path is the top level.
 pub(super) fn is_table(path: &str) -> bool {
-    path.is_empty() || tables().any(|table| table == path)
+    path.is_empty() || tables().any(|table| matches(table, path))
+}
+
+/// The names in a table that may also be written as an array, in its order: a place or a pair of stops.
+pub(super) fn pair(table: &str) -> Option<[&'static str; 2]> {
+    match names(table)[..] {
+        [one @ ("x" | "low"), other] => Some([one, other]),
+        _ => None,
+    }
+}
+
+/// A table as its header in a drive file names it.
+pub(super) fn header(table: &str) -> String {
+    match table
+        .strip_prefix(PULLEY)
+        .and_then(|rest| rest.strip_prefix('.'))
+    {
+        Some(pulley) => match pulley.split_once('.') {
+            None => format!("[[pulley]] `{pulley}`"),
+            Some((pulley, rest)) => format!("`{rest}` of [[pulley]] `{pulley}`"),
+        },
+        None => format!("[{table}]"),
+    }
 }
 
 /// The names that may stand in a table, in order: keys and tables.
@@ -270,31 +204,54 @@ pub(super) fn names(table: &str) -> Vec<&'static str> {
     let mut names: Vec<_> = keys
         .chain(tables())
         .map(split)
-        .filter(|(parent, _)| *parent == table)
+        .filter(|(parent, _)| matches(parent, table))
         .map(|(_, name)| name)
         .collect();
     names.dedup();
     names
 }
 
-/// The right spelling nearest to an unknown path: a name of the same table or, if that has none, the
+/// What engineers call entries, and the last name of what is meant.
+const SYNONYMS: [(&str, &str); 8] = [
+    ("mu", "coefficient"),
+    ("μ", "coefficient"),
+    ("ea", "axial_stiffness"),
+    ("beta", "half_angle"),
+    ("groove_angle", "half_angle"),
+    ("rpm", "speed"),
+    ("axis_distance", "centre_distance"),
+    ("center_distance", "centre_distance"),
+];
+
+/// The right spelling nearest to an unknown path: what is meant by a synonym, or a name of the same table or, if that has none, the
 /// path of a like-named entry of another table.
 pub(super) fn nearest(path: &str) -> Option<&'static str> {
     let (table, name) = split(path);
-    let elsewhere = || RULES.iter().map(|rule| (split(rule.path).1, rule.meant()));
+    let rules = || RULES.iter().filter(|rule| !rule.path.contains('*'));
+    let elsewhere = || rules().map(|rule| (split(rule.path).1, rule.meant()));
+    let is_called = |(synonym, _): &&(&str, &str)| synonym.eq_ignore_ascii_case(name);
+    if let Some((_, meant)) = SYNONYMS.iter().find(is_called) {
+        let near = names(table).into_iter().find(|name| name == meant);
+        let far = || {
+            elsewhere()
+                .find(|(name, _)| name == meant)
+                .map(|(_, path)| path)
+        };
+        return near.or_else(far);
+    }
     spelling::nearest(name, names(table).into_iter().map(|name| (name, name)))
         .or_else(|| spelling::nearest(name, elsewhere()))
         .or_else(|| {
-            let near = spelling::nearest_path(path, RULES.iter().map(|rule| rule.path));
+            let near = spelling::nearest_path(path, rules().map(|rule| rule.path));
             near.and_then(rule).map(Rule::meant)
         })
 }
 
 /// The path of the entry `name` of a table. A name that is no bare TOML key keeps its quotes, so
-/// that its points do not part tables.
+/// that its points do not part tables; that of a pulley has none.
 pub(super) fn join(table: &str, name: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
-    let name = match name.chars().all(is_bare) && !name.is_empty() {
+    let name = match table == PULLEY || name.chars().all(is_bare) && !name.is_empty() {
         true => name.to_owned(),
         false => format!("{name:?}"),
     };
@@ -326,9 +283,29 @@ mod tests {
         assert!(is_table("pulleys") && is_table("pulleys.driver") && is_table(""));
         assert!(!is_table("belt.type") && !is_table("puls"));
         assert_eq!(names("pulleys"), ["driver", "driven"]);
-        assert_eq!(names("pulleys.driven"), ["radius"]);
+        assert_eq!(names("pulleys.driven"), ["radius", "diameter"]);
+        assert_eq!(names("pulley.fan.centre"), ["x", "y"]);
+        assert!(
+            is_table("pulley.fan") && is_table("pulley.A/C 2") && !is_table("pulley.fan.torque")
+        );
+        assert_eq!(
+            rule("pulley.fan.torque").map(|rule| rule.path),
+            Some("pulley.*.torque")
+        );
+        assert_eq!(alternatives("pulley.fan.torque"), ["pulley.fan.power"]);
+        assert_eq!(alternatives(TIGHT[0]), [TIGHT[1]]);
+        assert!(alternatives("belt.type").is_empty());
         let top = [
-            "title", "belt", "groove", "friction", "pulleys", "layout", "load", "model",
+            "title",
+            "belt",
+            "groove",
+            "friction",
+            "pulleys",
+            "pulley",
+            "tensioner",
+            "layout",
+            "load",
+            "model",
         ];
         assert_eq!(names(""), top);
     }
@@ -339,9 +316,9 @@ mod tests {
         assert_eq!(nearest("belt.half_angel"), Some("groove.half_angle"));
         assert_eq!(nearest("frction"), Some("friction"));
         assert_eq!(nearest("belt.colour"), None);
-        assert_eq!(nearest("pulleys.driver.diameter"), None);
-        assert_eq!(nearest("friction.mu"), None);
-        assert_eq!(nearest("torqe"), Some(TORQUE));
+        assert_eq!(nearest("friction.mu"), Some("coefficient"));
+        assert_eq!(nearest("mu"), Some("friction.coefficient"));
+        assert_eq!(nearest("load.torqe"), Some("torque"));
         assert_eq!(nearest("normal_force"), Some(NORMAL_FORCE));
     }
 }

@@ -7,6 +7,7 @@ const COMMAND_LINE: &str = "command line";
 
 /// A drive file and the overrides of its command line, laid end to end, so that a byte range tells
 /// where anything stands.
+#[derive(Clone, Debug)]
 pub(super) struct Source {
     name: String,
     /// The file, a line feed, and a line `--set KEY=VALUE` for every override.

@@ -6,6 +6,7 @@ use super::{
     document::{Document, Entry},
     schema::{self, Kind, Rule},
     source::Source,
+    spelling,
 };
 use std::{collections::BTreeMap, ops::Range};
 
@@ -13,9 +14,9 @@ use std::{collections::BTreeMap, ops::Range};
 pub(super) struct Values<'d> {
     document: &'d Document,
     /// Quantities in SI units.
-    numbers: BTreeMap<&'static str, f64>,
+    numbers: BTreeMap<&'d str, f64>,
     /// Texts and words.
-    texts: BTreeMap<&'static str, String>,
+    texts: BTreeMap<&'d str, &'d str>,
 }
 
 impl<'d> Values<'d> {
@@ -30,7 +31,7 @@ impl<'d> Values<'d> {
         entries.sort_by_key(|(_, entry)| entry.key.start);
         for (path, entry) in entries {
             match schema::rule(path) {
-                Some(rule) => values.insert(rule, entry, source)?,
+                Some(rule) => values.insert(path, rule, entry, source)?,
                 None => check::table(path, entry)?,
             }
         }
@@ -43,8 +44,39 @@ impl<'d> Values<'d> {
     }
 
     /// The text at `path`, if it is given.
-    pub(super) fn text(&self, path: &str) -> Option<&str> {
-        self.texts.get(path).map(String::as_str)
+    pub(super) fn text(&self, path: &str) -> Option<&'d str> {
+        self.texts.get(path).copied()
+    }
+
+    /// The names of the pulleys of a list, in belt order.
+    pub(super) fn pulleys(&self) -> &'d [String] {
+        &self.document.pulleys
+    }
+
+    /// The index of the pulley that the text `name` at `path` names.
+    pub(super) fn pulley(&self, path: &str, name: &str) -> Result<usize, Finding> {
+        let pulleys = self.pulleys();
+        let index = pulleys.iter().position(|pulley| pulley == name);
+        index.ok_or_else(|| {
+            let names: Vec<_> = pulleys.iter().map(String::as_str).collect();
+            Finding::new(self.place(path), format!("there is no pulley `{name}`"))
+                .expected(check::one_of(&names))
+                .did_you_mean(spelling::nearest(
+                    name,
+                    names.iter().map(|name| (name, name)),
+                ))
+        })
+    }
+
+    /// Whether a table or an entry is given at `path`.
+    pub(super) fn has(&self, path: &str) -> bool {
+        self.document.entries.contains_key(path)
+    }
+
+    /// Those of the entries at `paths` that are given.
+    pub(super) fn given<'p>(&self, paths: &[&'p str]) -> Vec<&'p str> {
+        let given = paths.iter().filter(|path| self.has(path));
+        given.copied().collect()
     }
 
     /// The number that a drive must have at `path`.
@@ -53,7 +85,7 @@ impl<'d> Values<'d> {
     }
 
     /// The text that a drive must have at `path`.
-    pub(super) fn required_text(&self, path: &str) -> Result<&str, Finding> {
+    pub(super) fn required_text(&self, path: &str) -> Result<&'d str, Finding> {
         self.text(path).ok_or_else(|| self.missing(&[path]))
     }
 
@@ -72,7 +104,7 @@ impl<'d> Values<'d> {
     /// The finding that a drive has none of the entries at `paths`, all of one table.
     pub(super) fn missing(&self, paths: &[&str]) -> Finding {
         let rules: Vec<_> = paths.iter().filter_map(|path| schema::rule(path)).collect();
-        let table = rules.first().map_or("", |rule| schema::split(rule.path).0);
+        let table = paths.first().map_or("", |path| schema::split(path).0);
         let lines: Vec<_> = rules.iter().map(|rule| rule.line()).collect();
         let lines = lines.join(" or ");
         match self.document.entries.get(table) {
@@ -81,35 +113,52 @@ impl<'d> Values<'d> {
                 let keys = keys.join("` or `");
                 Finding::new(
                     entry.key.clone(),
-                    format!("missing key `{keys}` in [{table}]"),
+                    format!("missing key `{keys}` in {}", schema::header(table)),
                 )
                 .expected(lines)
             }
             None => {
                 let end = self.document.end.clone();
-                Finding::new(end, format!("missing table [{table}]"))
-                    .expected(format!("[{table}] with {lines}"))
+                let table = schema::header(table);
+                Finding::new(end, format!("missing table {table}"))
+                    .expected(format!("{table} with {lines}"))
             }
         }
     }
 
-    fn insert(&mut self, rule: &Rule, entry: &Entry, source: &Source) -> Result<(), Finding> {
+    /// The finding that a drive has none of several entries, all of which it needs.
+    pub(super) fn all_missing(&self, paths: &[&str]) -> Finding {
+        let rules = paths.iter().filter_map(|path| schema::rule(path));
+        let examples: Vec<_> = rules
+            .map(|rule| format!("{} = {}", rule.path, rule.example))
+            .collect();
+        let keys = paths.join("`, `");
+        Finding::new(self.document.end.clone(), format!("missing keys `{keys}`"))
+            .expected(examples.join(", "))
+    }
+
+    fn insert(
+        &mut self,
+        path: &'d str,
+        rule: &Rule,
+        entry: &'d Entry,
+        source: &Source,
+    ) -> Result<(), Finding> {
         match rule.kind {
             Kind::Quantity { dimension, range } => {
-                let value = check::number(rule, dimension, range, entry, source)?;
-                self.numbers.insert(rule.path, value);
+                let value = check::number(path, rule, dimension, range, entry, source)?;
+                self.numbers.insert(path, value);
             }
             Kind::Word { what, words } => {
-                let word = check::word(rule, what, words, entry)?;
-                self.texts.insert(rule.path, word.to_owned());
+                self.texts
+                    .insert(path, check::word(path, rule, what, words, entry)?);
             }
             Kind::Text => {
-                let text = check::text(rule, entry)?;
-                self.texts.insert(rule.path, text.to_owned());
+                self.texts.insert(path, check::text(path, rule, entry)?);
             }
             Kind::Refused { reason, instead } => {
-                let message = format!("`{}` {reason}", rule.path);
-                let expected = check::one_of(&schema::names(schema::split(rule.path).0));
+                let message = format!("`{path}` {reason}");
+                let expected = check::one_of(&schema::names(schema::split(path).0));
                 return Err(Finding::new(entry.key.clone(), message)
                     .expected(expected)
                     .did_you_mean(instead.map(|path| schema::split(path).1)));

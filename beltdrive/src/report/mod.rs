@@ -3,6 +3,7 @@
 //! [`table()`], [`json()`] and [`csv()`] are of a steady state; [`branch`], [`limits`],
 //! [`limit_curve`], [`stability`] and [`verification`] have their own.
 
+pub mod answer;
 mod belt;
 pub mod branch;
 mod columns;
@@ -13,7 +14,6 @@ mod json;
 pub mod limit_curve;
 pub mod limits;
 mod lines;
-mod precision;
 mod rows;
 #[cfg(test)]
 pub(crate) mod sample;
@@ -33,17 +33,18 @@ pub mod verification;
 pub(crate) mod words;
 
 pub use self::csv::csv;
+pub(crate) use crate::quantity::precision::Precision;
 pub(crate) use belt::convention;
 pub use file::write_file;
 pub use json::json;
 pub(crate) use lines::folded;
-pub(crate) use precision::Precision;
 pub(crate) use slip_arc::slip_arc;
 pub use table::table;
 
 use crate::input::Key;
-use crate::{Drive, FrictionLaw, Warning};
-pub(crate) use precision::six_digits;
+pub(crate) use crate::quantity::precision::six_digits;
+use crate::quantity::words::law as words_of_law;
+use crate::{Drive, Warning};
 
 /// The title of a drive on one line, or what it is when it has no title.
 pub(crate) fn heading(drive: &Drive) -> String {
@@ -61,29 +62,8 @@ pub(crate) fn heading(drive: &Drive) -> String {
 
 /// The friction law of a drive in words, with its parameters; what varies has no value.
 pub(crate) fn law(drive: &Drive, varied: &[Key]) -> String {
-    let value = |symbol: &str, path: &str, value: f64, unit: &str| {
-        if varied.iter().any(|key| key.path() == path) {
-            format!("{symbol} varied")
-        } else {
-            format!("{symbol} = {}{unit}", six_digits(value))
-        }
-    };
-    let coefficient = value("μ", "friction.coefficient", drive.friction_coefficient, "");
-    match drive.law {
-        FrictionLaw::Coulomb => format!("Coulomb friction, {coefficient}"),
-        FrictionLaw::Epp { stiffness } => format!(
-            "elastic/perfectly-plastic friction, {coefficient}, {}",
-            value("k_f", "friction.stiffness", stiffness, " N/m²")
-        ),
-        FrictionLaw::Bristle { stiffness } => format!(
-            "bristle friction, {coefficient}, {}",
-            value("κ", "friction.bristle_stiffness", stiffness, " 1/m")
-        ),
-        FrictionLaw::CreepRate { velocity } => format!(
-            "creep-rate friction, {coefficient}, {}",
-            value("v_s", "friction.velocity", velocity, " m/s")
-        ),
-    }
+    let paths: Vec<_> = varied.iter().map(Key::path).collect();
+    words_of_law(drive.law, Some(drive.friction_coefficient), &paths)
 }
 
 /// The heading of a table: the title of a drive, then its friction law and, for a flat belt, how the
@@ -134,7 +114,7 @@ pub(crate) fn torque_scale(drive: &Drive, tight_tension: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BeltKind, NormalForce};
+    use crate::{BeltKind, FrictionLaw, NormalForce};
 
     #[test]
     fn heading_is_one_line() {

@@ -148,6 +148,7 @@ fn drive(slack: f64, tight: f64) -> Drive {
     Drive {
         title: Some("Equal pulleys, \"made up\" <&>".to_owned()),
         belt: Belt {
+            ribs: 1,
             mass_per_length: 0.108,
             axial_stiffness: 120e3,
             kind: BeltKind::V(VBelt {

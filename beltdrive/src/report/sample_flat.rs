@@ -181,6 +181,7 @@ fn drive(law: FrictionLaw, tight: f64) -> Drive {
     Drive {
         title: Some("Flat belt, \"made up\" <&>".to_owned()),
         belt: Belt {
+            ribs: 1,
             mass_per_length: MASS,
             axial_stiffness: AXIAL_STIFFNESS,
             kind: BeltKind::Flat {

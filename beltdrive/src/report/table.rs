@@ -1,7 +1,7 @@
 //! The steady state as a table for a terminal.
 
 use super::lines::{self, row, single, small};
-use super::{Precision, rpm, slip_arc, title, torque_scale, warning, words};
+use super::{Precision, rpm, slip_arc, title, torque_scale, warning};
 use crate::{BeltKind, Check, Convergence, Entry, PulleySummary, StateSummary, SteadyState, Zone};
 
 /// Most significant digits shown; fewer where the error estimate does not support them.
@@ -74,7 +74,7 @@ fn pulleys(state: &SteadyState, summary: &StateSummary, precision: Precision) ->
         BeltKind::Flat { .. } => rim(state, pulleys, precision),
     });
     let zone = |zone: &Zone| {
-        let kind = words::zone(zone.kind);
+        let kind = zone.kind.name();
         format!("{kind} {} – {}", angle(zone.from), angle(zone.to))
     };
     let longest = summary.driver.zones.len().max(summary.driven.zones.len());

@@ -1,7 +1,7 @@
 //! Values of a traced entry: in text with the digits that are known, in JSON under its own name.
 
-use super::precision::{known, six_digits};
 use crate::input::Key;
+use crate::quantity::precision::{known, six_digits};
 use serde::{Serialize, Serializer};
 
 /// Most digits of a located value.

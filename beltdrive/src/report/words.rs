@@ -3,16 +3,6 @@
 use crate::input::Key;
 use crate::{BeltKind, BranchEnd, Drive, EventKind, LimitReason, Pulley, RangeEnd, ZoneKind};
 
-/// The name of a kind of zone.
-pub(crate) fn zone(kind: ZoneKind) -> &'static str {
-    match kind {
-        ZoneKind::Elastic => "elastic",
-        ZoneKind::Slip => "slip",
-        ZoneKind::Adhesion => "adhesion",
-        ZoneKind::Creep => "creep",
-    }
-}
-
 /// The word for a kind of event in JSON and CSV.
 pub(super) fn event_kind(kind: EventKind) -> &'static str {
     match kind {
@@ -52,10 +42,10 @@ pub(super) fn event_zone(kind: EventKind) -> Option<ZoneKind> {
 pub(super) fn event_label(kind: EventKind) -> String {
     match kind {
         EventKind::ZoneAppears { pulley, kind } => {
-            format!("+{}, {}", zone(kind), pulley_word(pulley))
+            format!("+{}, {}", kind.name(), pulley_word(pulley))
         }
         EventKind::ZoneVanishes { pulley, kind } => {
-            format!("−{}, {}", zone(kind), pulley_word(pulley))
+            format!("−{}, {}", kind.name(), pulley_word(pulley))
         }
         EventKind::Overhang(pulley) => format!("90°, {}", pulley_word(pulley)),
         _ => match event_pulley(kind) {
@@ -79,11 +69,11 @@ pub(crate) fn event(kind: EventKind, key: Key, drive: &Drive) -> String {
         }
         EventKind::GrossSlip(pulley) => gross_slip(pulley, drive),
         EventKind::ZoneAppears { pulley, kind } => {
-            let kind = zone(kind);
+            let kind = kind.name();
             format!("a zone of {kind} friction appears on the {}", pulley.name())
         }
         EventKind::ZoneVanishes { pulley, kind } => {
-            let kind = zone(kind);
+            let kind = kind.name();
             format!(
                 "a zone of {kind} friction vanishes from the {}",
                 pulley.name()

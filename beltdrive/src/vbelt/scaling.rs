@@ -158,6 +158,7 @@ pub(super) mod tests {
         Drive {
             title: None,
             belt: Belt {
+                ribs: 1,
                 mass_per_length: 0.108,
                 axial_stiffness: 120e3,
                 kind: BeltKind::V(VBelt {

@@ -120,6 +120,7 @@ fn drive(friction_coefficient: f64, slack: f64, speed: f64) -> Drive {
     Drive {
         title: None,
         belt: Belt {
+            ribs: 1,
             mass_per_length: 0.8288 / UNSTRETCHED,
             axial_stiffness: AXIAL_STIFFNESS * UNSTRETCHED,
             kind: BeltKind::Flat {

@@ -56,6 +56,7 @@ fn belt_loop(input: &Value) -> BeltLoop {
     BeltLoop {
         title: None,
         belt: Belt {
+            ribs: 1,
             mass_per_length: number(&input["belt"]["mass_per_length_kg_per_m"]),
             axial_stiffness: number(&input["belt"]["axial_stiffness_N"]),
             kind: BeltKind::Flat {

@@ -116,6 +116,7 @@ fn random_loop(random: &mut Random) -> BeltLoop {
     BeltLoop {
         title: None,
         belt: Belt {
+            ribs: 1,
             mass_per_length: random.between(0.02, 0.3),
             axial_stiffness: random.between(9.0, 14.0).exp(),
             ..belt()

@@ -91,11 +91,7 @@ pub(crate) fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
 
 /// The steady state of a belt loop with given torques.
 fn with_torques(belt_loop: &BeltLoop, torques: &[f64]) -> Result<LoopState, LoopError> {
-    let start = match (belt_loop.closure, belt_loop.tensioner()) {
-        (Closure::RestCoordinate(coordinate), _) => coordinate,
-        (_, Some((_, tensioner))) => tensioner.start_coordinate,
-        (_, None) => 0.0,
-    };
+    let start = belt_loop.start_coordinate();
     belt_loop.layout(start)?;
     let (rest, target) = match belt_loop.closure {
         Closure::SpanTension { span, tension } => (None, Target::Tension { span, tension }),

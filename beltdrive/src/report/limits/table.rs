@@ -1,10 +1,10 @@
 //! Both limits of a drive as a table for a terminal.
 
+use crate::quantity::precision::known;
 use crate::report::branch::convergence;
 use crate::report::{
     self, Precision,
     lines::{self, row},
-    precision::known,
     rpm, slip_arc, torque_scale, value, words,
 };
 use crate::{

@@ -1,6 +1,6 @@
 //! Words and numbers that the reports and figures of stability share.
 
-use crate::report::precision::known;
+use crate::quantity::precision::known;
 use crate::stability::ROUNDING;
 use crate::{AxialMode, FormStability, LinearisedForm, Pulley, PulleyStability, Stability};
 

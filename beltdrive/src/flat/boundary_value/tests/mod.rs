@@ -15,6 +15,7 @@ fn drive(
     Drive {
         title: None,
         belt: Belt {
+            ribs: 1,
             mass_per_length: 0.1036,
             axial_stiffness: 80_068.0,
             kind: BeltKind::Flat { normal_force },

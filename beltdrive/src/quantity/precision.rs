@@ -24,7 +24,7 @@ impl Precision {
     }
 
     /// The precision of results of a relative error, shown to at most so many digits.
-    pub(super) fn new(error: f64, digits: u8) -> Self {
+    pub(crate) fn new(error: f64, digits: u8) -> Self {
         Self {
             error: error.clamp(1e-12, 0.1),
             digits: f64::from(digits),
@@ -42,13 +42,13 @@ impl Precision {
     }
 
     /// As [`show_against`](Self::show_against), but without digits below a unit.
-    pub(super) fn show_above(&self, value: f64, scale: f64, unit: f64) -> String {
+    pub(crate) fn show_above(&self, value: f64, scale: f64, unit: f64) -> String {
         known(value, (self.error * scale.abs()).max(unit), self.digits)
     }
 
     /// A value of any magnitude as a power of ten, to at most so many digits; its error is relative
     /// to `scale`.
-    pub(super) fn show_power(&self, value: f64, scale: f64, digits: u8) -> String {
+    pub(crate) fn show_power(&self, value: f64, scale: f64, digits: u8) -> String {
         if !value.is_finite() {
             return "not known".to_owned();
         }
@@ -64,7 +64,7 @@ impl Precision {
 }
 
 /// A value with the digits that an absolute error leaves, and no more than so many.
-pub(super) fn known(value: f64, error: f64, digits: f64) -> String {
+pub(crate) fn known(value: f64, error: f64, digits: f64) -> String {
     let known = (-error.log10()).floor();
     let power = value.abs().log10().floor();
     let decimals = known.min(digits - 1.0 - power);

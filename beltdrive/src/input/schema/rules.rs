@@ -1,0 +1,216 @@
+//! Every entry of a drive file.
+
+use super::{Kind, NORMAL_FORCE, Range, Rule, TORQUE};
+use crate::input::dimension::Dimension;
+use std::f64::consts::FRAC_PI_2;
+
+/// The range of half a groove angle.
+const HALF_ANGLE: Range = Range::Below(FRAC_PI_2, "90 deg");
+
+/// The sides of the belt on which a pulley may lie.
+const SIDES: [&str; 2] = ["inside", "outside"];
+
+/// The senses in which the belt may run round the loop.
+const SENSES: [&str; 2] = ["clockwise", "counter-clockwise"];
+
+const fn ranged(
+    path: &'static str,
+    example: &'static str,
+    dimension: Dimension,
+    range: Range,
+) -> Rule {
+    Rule {
+        path,
+        example,
+        kind: Kind::Quantity { dimension, range },
+    }
+}
+
+const fn quantity(path: &'static str, example: &'static str, dimension: Dimension) -> Rule {
+    ranged(path, example, dimension, Range::Positive)
+}
+
+const fn any(path: &'static str, example: &'static str, dimension: Dimension) -> Rule {
+    ranged(path, example, dimension, Range::Any)
+}
+
+const fn text(path: &'static str, example: &'static str) -> Rule {
+    Rule {
+        path,
+        example,
+        kind: Kind::Text,
+    }
+}
+
+const fn word(
+    path: &'static str,
+    example: &'static str,
+    what: &'static str,
+    words: &'static [&'static str],
+) -> Rule {
+    Rule {
+        path,
+        example,
+        kind: Kind::Word { what, words },
+    }
+}
+
+const fn refused(
+    path: &'static str,
+    example: &'static str,
+    reason: &'static str,
+    instead: Option<&'static str>,
+) -> Rule {
+    Rule {
+        path,
+        example,
+        kind: Kind::Refused { reason, instead },
+    }
+}
+
+/// The friction laws.
+pub(in super::super) const LAWS: [&str; 4] = ["coulomb", "epp", "bristle", "creep-rate"];
+
+/// Every entry, in the order in which messages list them; `*` stands for the name of a pulley.
+pub(super) const RULES: &[Rule] = &[
+    text("title", "\"Test drive\""),
+    word("belt.type", "\"v\"", "belt type", &["v", "flat"]),
+    quantity(
+        "belt.mass_per_length",
+        "\"0.108 kg/m\"",
+        Dimension::MASS_PER_LENGTH,
+    ),
+    quantity("belt.axial_stiffness", "\"120 kN\"", Dimension::FORCE),
+    quantity(
+        "belt.radial_stiffness",
+        "\"900 kN/m^2\"",
+        Dimension::FORCE_PER_AREA,
+    ),
+    quantity("belt.height", "\"8 mm\"", Dimension::LENGTH),
+    ranged("belt.ribs", "6", Dimension::NUMBER, Range::Whole),
+    ranged(
+        "groove.half_angle",
+        "\"18 deg\"",
+        Dimension::ANGLE,
+        HALF_ANGLE,
+    ),
+    word("friction.law", "\"coulomb\"", "friction law", &LAWS),
+    quantity("friction.coefficient", "0.4", Dimension::NUMBER),
+    quantity(
+        "friction.stiffness",
+        "\"8.1e6 N/m^2\"",
+        Dimension::FORCE_PER_AREA,
+    ),
+    quantity(
+        "friction.bristle_stiffness",
+        "\"1620 1/m\"",
+        Dimension::INVERSE_LENGTH,
+    ),
+    quantity("friction.velocity", "\"0.05 m/s\"", Dimension::VELOCITY),
+    quantity("pulleys.driver.radius", "\"0.25 m\"", Dimension::LENGTH),
+    quantity("pulleys.driver.diameter", "\"0.5 m\"", Dimension::LENGTH),
+    quantity(
+        "pulleys.driver.speed",
+        "\"1000 rpm\"",
+        Dimension::ANGULAR_SPEED,
+    ),
+    quantity("pulleys.driven.radius", "\"0.25 m\"", Dimension::LENGTH),
+    quantity("pulleys.driven.diameter", "\"0.5 m\"", Dimension::LENGTH),
+    refused(
+        "pulleys.driven.speed",
+        "\"1000 rpm\"",
+        "may not be given: the speed of the driven pulley follows from the load",
+        None,
+    ),
+    text("pulley.*.name", "\"crankshaft\""),
+    any("pulley.*.centre.x", "\"120 mm\"", Dimension::LENGTH),
+    any("pulley.*.centre.y", "\"80 mm\"", Dimension::LENGTH),
+    quantity("pulley.*.radius", "\"60 mm\"", Dimension::LENGTH),
+    quantity("pulley.*.diameter", "\"120 mm\"", Dimension::LENGTH),
+    word("pulley.*.side", "\"inside\"", "side of the belt", &SIDES),
+    quantity("pulley.*.friction_coefficient", "0.4", Dimension::NUMBER),
+    ranged(
+        "pulley.*.half_angle",
+        "\"18 deg\"",
+        Dimension::ANGLE,
+        HALF_ANGLE,
+    ),
+    quantity("pulley.*.speed", "\"1000 rpm\"", Dimension::ANGULAR_SPEED),
+    any("pulley.*.torque", "\"20 N*m\"", Dimension::TORQUE),
+    any("pulley.*.power", "\"2 kW\"", Dimension::POWER),
+    text("tensioner.pulley", "\"tensioner\""),
+    any("tensioner.arm.pivot.x", "\"50 mm\"", Dimension::LENGTH),
+    any("tensioner.arm.pivot.y", "\"150 mm\"", Dimension::LENGTH),
+    quantity("tensioner.arm.length", "\"80 mm\"", Dimension::LENGTH),
+    quantity(
+        "tensioner.arm.stiffness",
+        "\"20 N*m/rad\"",
+        Dimension::TORQUE_PER_ANGLE,
+    ),
+    any("tensioner.arm.free_angle", "\"-120 deg\"", Dimension::ANGLE),
+    any("tensioner.arm.preload", "\"12 N*m\"", Dimension::TORQUE),
+    quantity("tensioner.arm.weight", "\"50 N\"", Dimension::FORCE),
+    any("tensioner.arm.angle", "\"-80 deg\"", Dimension::ANGLE),
+    any("tensioner.arm.rest_angle", "\"-85 deg\"", Dimension::ANGLE),
+    any("tensioner.arm.stops.low", "\"-110 deg\"", Dimension::ANGLE),
+    any("tensioner.arm.stops.high", "\"-60 deg\"", Dimension::ANGLE),
+    any("tensioner.slide.origin.x", "\"200 mm\"", Dimension::LENGTH),
+    any("tensioner.slide.origin.y", "\"-80 mm\"", Dimension::LENGTH),
+    any("tensioner.slide.direction", "\"90 deg\"", Dimension::ANGLE),
+    quantity(
+        "tensioner.slide.stiffness",
+        "\"5 N/mm\"",
+        Dimension::FORCE_PER_LENGTH,
+    ),
+    any(
+        "tensioner.slide.free_position",
+        "\"60 mm\"",
+        Dimension::LENGTH,
+    ),
+    any("tensioner.slide.preload", "\"150 N\"", Dimension::FORCE),
+    quantity("tensioner.slide.weight", "\"200 N\"", Dimension::FORCE),
+    any("tensioner.slide.position", "\"20 mm\"", Dimension::LENGTH),
+    any(
+        "tensioner.slide.rest_position",
+        "\"20 mm\"",
+        Dimension::LENGTH,
+    ),
+    any("tensioner.slide.stops.low", "\"0 mm\"", Dimension::LENGTH),
+    any("tensioner.slide.stops.high", "\"50 mm\"", Dimension::LENGTH),
+    quantity("layout.centre_distance", "\"1.4 m\"", Dimension::LENGTH),
+    word("layout.sense", "\"clockwise\"", "sense", &SENSES),
+    quantity("load.slack_tractive_tension", "\"100 N\"", Dimension::FORCE),
+    quantity("load.slack_tension", "\"110 N\"", Dimension::FORCE),
+    quantity("load.tight_tractive_tension", "\"700 N\"", Dimension::FORCE),
+    quantity("load.tight_tension", "\"710 N\"", Dimension::FORCE),
+    ranged(TORQUE, "\"45 N*m\"", Dimension::TORQUE, Range::NotNegative),
+    ranged(
+        "load.torque",
+        "\"45 N*m\"",
+        Dimension::TORQUE,
+        Range::NotNegative,
+    ),
+    ranged(
+        "load.power",
+        "\"4 kW\"",
+        Dimension::POWER,
+        Range::NotNegative,
+    ),
+    quantity("load.setup_tension", "\"400 N\"", Dimension::FORCE),
+    quantity("load.belt_length", "\"4.36 m\"", Dimension::LENGTH),
+    text("load.span", "\"crankshaft\""),
+    quantity("load.span_tension", "\"300 N\"", Dimension::FORCE),
+    quantity("load.span_tractive_tension", "\"280 N\"", Dimension::FORCE),
+    refused(
+        "load.driver_torque",
+        "\"45 N*m\"",
+        "may not be given: the load is the torque of the driven pulley",
+        Some(TORQUE),
+    ),
+    word(
+        NORMAL_FORCE,
+        "\"inertia\"",
+        "normal force",
+        &["inertia", "thesis", "exact"],
+    ),
+];

@@ -1,0 +1,36 @@
+//! What stands in words beside the numbers of an answer.
+
+use super::precision::six_digits;
+use crate::FrictionLaw;
+
+/// A friction law in words, with its parameters and a coefficient that is the same for all pulleys; what
+/// varies has no value.
+pub(crate) fn law(law: FrictionLaw, coefficient: Option<f64>, varied: &[&str]) -> String {
+    let value = |symbol: &str, path: &str, value: f64, unit: &str| {
+        if varied.contains(&path) {
+            format!(", {symbol} varied")
+        } else {
+            format!(", {symbol} = {}{unit}", six_digits(value))
+        }
+    };
+    let (name, parameter) = match law {
+        FrictionLaw::Coulomb => ("Coulomb", String::new()),
+        FrictionLaw::Epp { stiffness } => (
+            "elastic/perfectly-plastic",
+            value("k_f", "friction.stiffness", stiffness, " N/m²"),
+        ),
+        FrictionLaw::Bristle { stiffness } => (
+            "bristle",
+            value("κ", "friction.bristle_stiffness", stiffness, " 1/m"),
+        ),
+        FrictionLaw::CreepRate { velocity } => (
+            "creep-rate",
+            value("v_s", "friction.velocity", velocity, " m/s"),
+        ),
+    };
+    let coefficient = coefficient.map(|number| value("μ", "friction.coefficient", number, ""));
+    format!(
+        "{name} friction{}{parameter}",
+        coefficient.unwrap_or_default()
+    )
+}
