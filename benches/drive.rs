@@ -1,9 +1,12 @@
 //! How long does the steady state of a drive take, cold from nothing but the drive file, and warm
-//! from that of a neighbouring load? How long a branch of them, and both limits of the load?
+//! from that of a neighbouring load? How long a branch of them, and both limits of the load? How long a
+//! V-belt round three pulleys?
 
+use beltdrive::belt_loop::{self, BeltLoop, Closure, Duty, LoopPulley, Mount, Sense, Side};
 use beltdrive::input::Key;
 use beltdrive::{
-    Drive, EventKind, RangeEnd, SolveOptions, examples, input, limits, solve, solve_from, trace,
+    Belt, BeltKind, Drive, EventKind, FrictionLaw, RangeEnd, SolveOptions, VBelt, examples, input,
+    limits, solve, solve_from, trace,
 };
 use criterion::{BenchmarkId, Criterion};
 use std::hint::black_box;
@@ -113,11 +116,65 @@ fn both_limits(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// A driver, a fan and an alternator, set up with 500 N.
+fn accessories(law: FrictionLaw) -> BeltLoop {
+    let pulley = |name: &str, centre, radius, duty| LoopPulley {
+        name: name.to_owned(),
+        mount: Mount::Fixed(centre),
+        radius,
+        side: Side::Inside,
+        friction_coefficient: 0.4,
+        half_angle: None,
+        duty,
+    };
+    BeltLoop {
+        title: None,
+        belt: Belt {
+            mass_per_length: 0.1,
+            axial_stiffness: 60e3,
+            ribs: 1,
+            kind: BeltKind::V(VBelt {
+                radial_stiffness: 3e7,
+                half_angle: 18_f64.to_radians(),
+                height: None,
+            }),
+        },
+        law,
+        sense: Sense::Clockwise,
+        turning_number: 1,
+        pulleys: vec![
+            pulley("driver", [0.0, 0.0], 0.08, Duty::Driver(200.0)),
+            pulley("alternator", [-0.15, 0.3], 0.035, Duty::Torque(4.0)),
+            pulley("fan", [0.2, 0.35], 0.06, Duty::Torque(8.0)),
+        ],
+        closure: Closure::SetupTension(500.0),
+    }
+}
+
+/// Three pulleys, cold.
+fn three_pulleys(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("loop, cold");
+    for law in [
+        FrictionLaw::Bristle { stiffness: 1500.0 },
+        FrictionLaw::Coulomb,
+    ] {
+        let belt_loop = accessories(law);
+        group.bench_function(BenchmarkId::new(law.name(), "3 pulleys"), |b| {
+            b.iter(|| {
+                let state = belt_loop::solve_to(black_box(&belt_loop), &OPTIONS);
+                state.expect("a load that the loop carries")
+            });
+        });
+    }
+    group.finish();
+}
+
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     cold(&mut criterion);
     warm(&mut criterion);
     branch(&mut criterion);
     both_limits(&mut criterion);
+    three_pulleys(&mut criterion);
     criterion.final_summary();
 }

@@ -17,11 +17,36 @@
 //! tensioner         Q(q) − F_t dL/dq = 0                         F_t: tractive tension of its idler
 //! ```
 //!
-//! with the load Q of the tensioner, −k (q − q₀) of a spring, and the closure. Contacts are those of the two-pulley flat belt with the normal force
-//! n = (T − G V)/R ([`crate::NormalForce::Inertia`]).
+//! with the load Q of the tensioner, −k (q − q₀) of a spring, and the closure. Contacts are those of the
+//! two-pulley flat belt with the normal force n = (T − G V)/R ([`crate::NormalForce::Inertia`]).
 //!
 //! Assumptions: those of the flat belt; no friction in bearings and in the tensioner; the belt at rest has
 //! one tension everywhere.
+//!
+//! # V-belts
+//!
+//! Pulleys inside the loop are grooves, each with a half angle and a coefficient of friction of its own;
+//! pulleys outside are flat and touch the back of the belt, which bends round them at their stated radius.
+//! The belt sinks into every groove, so that it leaves a pulley at the pitch radius R with an inclination θ,
+//! tangent to the circle R cos θ. The loop is one boundary value problem, of Coulomb or bristle friction:
+//!
+//! ```text
+//! torque            R_i (F_i cos θ_out − F_{i−1} cos θ_in) = M_i       so that Σ M_i/R_i is not 0
+//! wrap              φ_i − (θ_out − θ_in)                               angle between the spans
+//! span              ℓ_i = ℓ(tangent) − R_i sin θ_out,i + R_j sin θ_in,j
+//! tensioner         Q(q) + H · dC/dq = 0                               H: hub load of its idler
+//! ```
+//!
+//! The contacts are those of the two-pulley V-belt. On its back the belt presses with F/R per length, and
+//! friction has the same law in one direction; an idler there turns with the belt. The belt at rest is one
+//! without friction, as deep in every groove as its tension presses it; a groove carries up to k R² tan β/6
+//! at rest ([`LoopError::PressedThrough`]), and a loop whose belt cannot be at rest so is refused even where
+//! friction holds it in motion. The bristles of the loop are found from nothing; where they are not, and for
+//! the load limit ([`load_limit`]), all torques are raised together from a small share. A state whose
+//! invariants fail is an error ([`LoopState::checks`], [`LoopError::Violated`]).
+//!
+//! Not there: elastic/perfectly-plastic friction on V-belts round n pulleys, torque margins of single
+//! pulleys (`None`).
 //!
 //! Sources: M. B. Rubin, An exact solution for steady motion of an extensible belt in multipulley belt
 //! drive systems, J. Mech. Des. 122 (2000); S. E. Bechtel, S. Vohra, K. I. Jacob and C. D. Carlson, J.
@@ -80,7 +105,7 @@ pub use crate::flat::belt_loop::{
     SpanState, TensionerState,
 };
 
-use crate::{SolveOptions, flat};
+use crate::{BeltKind, SolveOptions, flat, vbelt};
 
 /// The steady state of a belt loop, to the relative tolerance 1e-6 where it is a V-belt.
 ///
@@ -99,9 +124,37 @@ pub fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
 /// # Errors
 /// As [`solve`], and [`LoopError::Tolerance`].
 pub fn solve_to(belt_loop: &BeltLoop, options: &SolveOptions) -> Result<LoopState, LoopError> {
+    check(belt_loop, options)?;
+    match belt_loop.belt.kind {
+        BeltKind::Flat { .. } => flat::belt_loop::solve(belt_loop),
+        BeltKind::V(_) => vbelt::belt_loop::solve(belt_loop, options.tolerance),
+    }
+}
+
+/// How far all torques of a loop can be raised at the same closure: of a flat belt with Coulomb friction, as
+/// in its state; of a V-belt with its own friction law, found by raising them until no steady state carries
+/// more. `None` without torques, or if nothing ends the range.
+///
+/// # Errors
+/// As [`solve_to`].
+pub fn load_limit(
+    belt_loop: &BeltLoop,
+    options: &SolveOptions,
+) -> Result<Option<LoadLimit>, LoopError> {
+    match belt_loop.belt.kind {
+        BeltKind::Flat { .. } => solve_to(belt_loop, options).map(|state| state.load_limit),
+        BeltKind::V(_) => {
+            check(belt_loop, options)?;
+            vbelt::belt_loop::load_limit(belt_loop, options.tolerance)
+        }
+    }
+}
+
+/// Whether the statement and the options are in range.
+fn check(belt_loop: &BeltLoop, options: &SolveOptions) -> Result<(), LoopError> {
     let tolerance = options.tolerance;
     if !(1e-12..=1e-2).contains(&tolerance) {
         return Err(LoopError::Tolerance { tolerance });
     }
-    flat::belt_loop::solve(belt_loop)
+    flat::belt_loop::check(belt_loop)
 }

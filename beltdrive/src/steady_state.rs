@@ -48,8 +48,7 @@ pub struct SteadyState {
 impl SteadyState {
     /// The first invariant that the state violates.
     pub(crate) fn violated(&self) -> Option<&Check> {
-        let violated = |check: &&Check| check.deviation.is_nan() || check.deviation > check.limit;
-        self.checks.iter().find(violated)
+        self.checks.iter().find(|check| check.is_violated())
     }
 }
 
@@ -203,6 +202,13 @@ pub struct Check {
     pub deviation: f64,
     /// Relative deviation allowed.
     pub limit: f64,
+}
+
+impl Check {
+    /// Whether the deviation is larger than allowed, or none.
+    pub(crate) fn is_violated(&self) -> bool {
+        self.deviation.is_nan() || self.deviation > self.limit
+    }
 }
 
 /// How a steady state was reached and how accurate it is.

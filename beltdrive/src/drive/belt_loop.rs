@@ -2,6 +2,7 @@
 
 use super::layout::{Layout, LayoutError, PlacedPulley, Sense, Side};
 use super::{Belt, FrictionLaw};
+use bvp::Real;
 
 /// A belt loop round two or more pulleys: everything that decides its steady state.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,6 +66,17 @@ pub enum Duty {
     Power(f64),
 }
 
+impl Duty {
+    /// Torque in N·m of a pulley that turns at a speed in rad/s; 0 for the driver.
+    pub(crate) fn torque_at(self, speed: f64) -> f64 {
+        match self {
+            Self::Driver(_) => 0.0,
+            Self::Torque(torque) => torque,
+            Self::Power(power) => power / speed,
+        }
+    }
+}
+
 /// An idler that tightens the belt. Its coordinate q is the angle of the arm in rad, counter-clockwise from x, or the
 /// displacement along its guide in m.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -96,7 +108,7 @@ pub enum TensionerLoad {
 
 impl Tensioner {
     /// Load along the coordinate q in N·m or N, and its derivative with q.
-    pub(crate) fn load_at(&self, coordinate: f64) -> [f64; 2] {
+    pub(crate) fn load_at<T: Real>(&self, coordinate: T) -> [T; 2] {
         match (self.load, self.guide) {
             (
                 TensionerLoad::Spring {
@@ -104,11 +116,16 @@ impl Tensioner {
                     free_coordinate,
                 },
                 _,
-            ) => [-stiffness * (coordinate - free_coordinate), -stiffness],
+            ) => [
+                (coordinate - free_coordinate) * -stiffness,
+                T::from_f64(-stiffness),
+            ],
             (TensionerLoad::Weight(weight), Guide::Rotary { arm_length, .. }) => {
-                [-coordinate.cos(), coordinate.sin()].map(|part| weight * arm_length * part)
+                [-coordinate.cos(), coordinate.sin()].map(|part| part * (weight * arm_length))
             }
-            (TensionerLoad::Weight(weight), Guide::Translating { .. }) => [weight, 0.0],
+            (TensionerLoad::Weight(weight), Guide::Translating { .. }) => {
+                [weight, 0.0].map(T::from_f64)
+            }
         }
     }
 }
@@ -134,21 +151,21 @@ pub enum Guide {
 
 impl Guide {
     /// Centre C of the idler at a coordinate, m, and its derivatives C′ and C″ with the coordinate.
-    pub(crate) fn centre(&self, coordinate: f64) -> [[f64; 2]; 3] {
+    pub(crate) fn centre<T: Real>(&self, coordinate: T) -> [[T; 2]; 3] {
         match *self {
             Self::Rotary {
                 pivot: [x, y],
                 arm_length,
             } => {
-                let [along, across] = [coordinate.cos(), coordinate.sin()].map(|c| arm_length * c);
-                [[x + along, y + across], [-across, along], [-along, -across]]
+                let [along, across] = [coordinate.cos(), coordinate.sin()].map(|c| c * arm_length);
+                [[along + x, across + y], [-across, along], [-along, -across]]
             }
             Self::Translating {
                 origin: [x, y],
                 direction: [right, up],
             } => {
-                let centre = [x + coordinate * right, y + coordinate * up];
-                [centre, [right, up], [0.0, 0.0]]
+                let centre = [coordinate * right + x, coordinate * up + y];
+                [centre, [right, up].map(T::from_f64), [T::ZERO; 2]]
             }
         }
     }

@@ -9,8 +9,10 @@
 //! ```
 
 mod error;
+mod tangent;
 
 pub use error::LayoutError;
+pub(crate) use tangent::tangent;
 
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
@@ -244,12 +246,10 @@ impl Wound {
             let [from, to] = [&pulleys[index], &pulleys[(index + 1) % count]];
             let [leaves, arrives] = [from, to].map(|pulley| pulley.turns(sense) * pulley.radius);
             let between = Vector2::from(to.centre) - Vector2::from(from.centre);
-            let (distance, across) = (between.norm(), arrives - leaves);
-            if distance <= across.abs() {
+            if between.norm() <= (arrives - leaves).abs() {
                 return Err(overlap(from, to));
             }
-            let length = ((distance - across) * (distance + across)).sqrt();
-            let direction = between.y.atan2(between.x) - across.atan2(length);
+            let [length, direction] = tangent(between.into(), leaves, arrives);
             let normal = Vector2::new(-direction.sin(), direction.cos());
             Ok(Span {
                 length,

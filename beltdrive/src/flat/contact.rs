@@ -77,7 +77,7 @@ pub(super) struct Place {
 
 /// A flat belt on one pulley: the solution.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Contact {
+pub(crate) struct Contact {
     /// What was given.
     pub(super) arc: Arc,
     /// Strain |u′(0)| of the belt against the rim where it enters.

@@ -25,8 +25,8 @@ pub(super) const ANGLE: usize = 3;
 /// Index of the first state of the friction law: u, or `B_t` followed by `B_w`.
 pub(super) const LAW: usize = 4;
 
-/// The largest number of states of any law.
-pub(super) const MAX_STATES: usize = LAW + 2;
+/// The largest number of states of any law; in a loop the elongation of the belt follows them.
+pub(super) const MAX_STATES: usize = LAW + 3;
 
 /// A friction law, scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,7 +14,7 @@
 //! fail as a start at high loads, as do speeds without any loss.
 
 use super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
-use super::{DRIVEN, DRIVER, DriveProblem, EndAngles, Law};
+use super::{DRIVEN, DRIVER, DriveProblem, EndAngles, Groove, Law};
 use crate::SpanTension;
 
 /// A first approximation to the solution of a [`DriveProblem`].
@@ -27,11 +27,66 @@ pub(crate) struct Guess<'a> {
 
 /// The belt on one pulley.
 #[derive(Clone, Copy, Debug)]
-struct Contacting {
+pub(super) struct Contacting {
     /// Tractive tension at entry and exit.
-    tension: [f64; 2],
+    pub(super) tension: [f64; 2],
     /// Swept angle Φ, also the scaled contact length.
-    swept: f64,
+    pub(super) swept: f64,
+}
+
+impl Contacting {
+    /// Inclination at entry and exit of a belt that presses with F, positive outward.
+    pub(super) fn end_angles(groove: &Groove, tension: [f64; 2]) -> EndAngles<f64> {
+        let [entry, exit] = tension.map(|force| {
+            let depth = groove.frictionless_penetration(force);
+            depth.max(0.0).sqrt()
+        });
+        EndAngles {
+            entry: -entry,
+            exit,
+        }
+    }
+
+    /// The state at a part of the contact, 0 at the entry and 1 at the exit.
+    pub(super) fn state(&self, groove: &Groove, flow: f64, part: f64, y: &mut [f64]) {
+        let Self {
+            tension: [entry, exit],
+            swept,
+        } = *self;
+        let angle = part * swept;
+        let slope = (exit - entry) / swept;
+        let force = entry + slope * angle;
+
+        let depth = groove.frictionless_penetration(force);
+        let depth_slope = groove.frictionless_penetration(slope);
+        let layer = |end: f64, distance: f64| {
+            let lambda = 1.0
+                / groove
+                    .frictionless_penetration(end)
+                    .max(f64::MIN_POSITIVE)
+                    .sqrt();
+            let decay = (-lambda * distance).exp();
+            (1.0 - decay, lambda * decay)
+        };
+        let (rise, rise_slope) = layer(entry, angle);
+        let (fall, fall_slope) = layer(exit, swept - angle);
+        y[TENSION] = force;
+        y[INCLINATION] =
+            -(depth_slope * rise * fall + depth * (rise_slope * fall - rise * fall_slope));
+        y[PENETRATION] = depth * rise * fall;
+        y[ANGLE] = angle;
+        match groove.law {
+            Law::Coulomb => {}
+            Law::Epp { unstretched, .. } => {
+                let [start, here] = [entry, force].map(|force| groove.strand.tension(force, flow));
+                y[LAW] = ((start + here) / 2.0 - unstretched) * angle;
+            }
+            Law::Bristle { .. } => {
+                y[LAW] = 0.5 * groove.friction_coefficient.copysign(slope);
+                y[LAW + 1] = 0.0;
+            }
+        }
+    }
 }
 
 impl<'a> Guess<'a> {
@@ -50,16 +105,8 @@ impl<'a> Guess<'a> {
             tension => strand.tractive(tension.value(), flow),
         });
         let tensions = [[slack, tight], [tight, slack]];
-        let ends = [DRIVEN, DRIVER].map(|pulley| {
-            let [entry, exit] = tensions[pulley].map(|force| {
-                let depth = problem.groove(pulley).frictionless_penetration(force);
-                depth.max(0.0).sqrt()
-            });
-            EndAngles {
-                entry: -entry,
-                exit,
-            }
-        });
+        let ends = [DRIVEN, DRIVER]
+            .map(|pulley| Contacting::end_angles(problem.groove(pulley), tensions[pulley]));
         let swept = problem.layout().wraps(ends);
         Self {
             problem,
@@ -87,46 +134,8 @@ impl bvp::Guess for Guess<'_> {
     /// The state at `s` in \[0, 1\] of a segment. The zones of a pulley have equal lengths.
     fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
         let pulley = self.problem.pulley(segment);
-        let groove = self.problem.groove(pulley);
-        let Contacting {
-            tension: [entry, exit],
-            swept,
-        } = self.pulleys[pulley];
         let part = (self.zone(segment) + s) * self.zone_share(pulley);
-        let angle = part * swept;
-        let slope = (exit - entry) / swept;
-        let force = entry + slope * angle;
-
-        let depth = groove.frictionless_penetration(force);
-        let depth_slope = groove.frictionless_penetration(slope);
-        let layer = |end: f64, distance: f64| {
-            let lambda = 1.0
-                / groove
-                    .frictionless_penetration(end)
-                    .max(f64::MIN_POSITIVE)
-                    .sqrt();
-            let decay = (-lambda * distance).exp();
-            (1.0 - decay, lambda * decay)
-        };
-        let (rise, rise_slope) = layer(entry, angle);
-        let (fall, fall_slope) = layer(exit, swept - angle);
-        y[TENSION] = force;
-        y[INCLINATION] =
-            -(depth_slope * rise * fall + depth * (rise_slope * fall - rise * fall_slope));
-        y[PENETRATION] = depth * rise * fall;
-        y[ANGLE] = angle;
-        match groove.law {
-            Law::Coulomb => {}
-            Law::Epp { unstretched, .. } => {
-                let [start, here] =
-                    [entry, force].map(|force| groove.strand.tension(force, self.flow));
-                y[LAW] = ((start + here) / 2.0 - unstretched) * angle;
-            }
-            Law::Bristle { .. } => {
-                y[LAW] = 0.5 * groove.friction_coefficient.copysign(slope);
-                y[LAW + 1] = 0.0;
-            }
-        }
+        self.pulleys[pulley].state(self.problem.groove(pulley), self.flow, part, y);
     }
 
     /// The parameters; the tight tension is that of the load if it is unknown.

@@ -20,19 +20,19 @@ use std::f64::consts::LN_10;
 
 /// Bristle stiffness of the start, κ R/μ: friction is fully developed after a thousandth of a
 /// radius of sliding, so that its layers are no finer than those of seating.
-const START_STIFFNESS: f64 = 1000.0;
+pub(super) const START_STIFFNESS: f64 = 1000.0;
 /// Normalisations ε of the slip direction with which Coulomb friction is entered, the first that
 /// works: of the order of the largest slip.
-const FIRST_EPSILONS: [f64; 3] = [1e-3, 1e-2, 1e-1];
+pub(super) const FIRST_EPSILONS: [f64; 3] = [1e-3, 1e-2, 1e-1];
 /// ε at which the profile is first resolved to the tolerance.
-const RESOLVED_EPSILON: f64 = 1e-7;
+pub(super) const RESOLVED_EPSILON: f64 = 1e-7;
 /// ε below which slip velocities drown in the rounding of the speeds they are differences of.
-const SMALLEST_EPSILON: f64 = 1e-12;
+pub(super) const SMALLEST_EPSILON: f64 = 1e-12;
 /// The effect of ε may be this share of the tolerance.
-const EPSILON_SHARE: f64 = 0.3;
+pub(super) const EPSILON_SHARE: f64 = 0.3;
 /// First steps of a homotopy in ln ε or ln κ: a factor of 10, or of 3 where that failed.
 pub(super) const GREAT_STEP: f64 = LN_10;
-const SMALL_STEP: f64 = 1.1;
+pub(super) const SMALL_STEP: f64 = 1.1;
 /// Zones are found anew at most so often; if they still change, the check of the state says so.
 const MAX_SPLITS: usize = 8;
 

@@ -10,6 +10,7 @@
 //! R. G. Parker, J. Mech. Des. 128 (2006); G. Gerbert and F. Sorge, J. Mech. Des. 124 (2002);
 //! P. R. Dahl, Aerospace Corp. TOR-0158 (1968) for the bristles.
 
+pub(crate) mod belt_loop;
 mod carried;
 mod chart;
 mod closure;
@@ -30,6 +31,7 @@ mod piece;
 mod scaling;
 mod solve;
 mod state;
+mod steps;
 mod trace;
 mod tracer;
 mod watched;

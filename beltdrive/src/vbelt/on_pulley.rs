@@ -92,16 +92,9 @@ impl OnPulley<'_> {
     /// arc length.
     pub(super) fn for_each_point(&self, mut visit: impl FnMut(Stretch, f64, f64, &[f64])) {
         for &stretch in &self.stretches {
-            let mut y = [0.0; MAX_STATES];
-            let y = &mut y[..self.solution.segments()[stretch.segment].states];
-            for pair in self.solution.mesh(stretch.segment).windows(2) {
-                let h = pair[1] - pair[0];
-                for (point, weight) in GAUSS {
-                    let s = pair[0] + point * h;
-                    self.solution.state(stretch.segment, s, y);
-                    visit(stretch, s, weight * h * stretch.length, y);
-                }
-            }
+            points(self.solution, stretch.segment, |s, weight, y| {
+                visit(stretch, s, weight * stretch.length, y);
+            });
         }
     }
 
@@ -224,6 +217,20 @@ impl OnPulley<'_> {
                 extend(zones, kind, from, y[ANGLE]);
                 from = y[ANGLE];
             }
+        }
+    }
+}
+
+/// Calls `visit(s, weight, y)` at the points of a rule that integrates over s on a segment.
+pub(super) fn points(solution: &Solution, segment: usize, mut visit: impl FnMut(f64, f64, &[f64])) {
+    let mut y = [0.0; MAX_STATES];
+    let y = &mut y[..solution.segments()[segment].states];
+    for pair in solution.mesh(segment).windows(2) {
+        let h = pair[1] - pair[0];
+        for (point, weight) in GAUSS {
+            let s = pair[0] + point * h;
+            solution.state(segment, s, y);
+            visit(s, weight * h, y);
         }
     }
 }

@@ -2,15 +2,13 @@
 //! problems from a solved member to the one that is wanted. What the families are is in `laws`.
 
 use super::carried::Carried;
+use super::steps::Steps;
 use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, Guess, Scales};
 use crate::{Drive, FrictionLaw};
 use bvp::{Control, Options, Scheme, Solution, Stats};
 
 /// A solve with at most so many Newton steps lets the next step of a homotopy be twice as long.
-const EASY: usize = 8;
-/// A homotopy ends when its steps have shrunk to this fraction of the first.
-const SHORTEST_STEP: f64 = 0.02;
-
+pub(super) const EASY: usize = 8;
 /// Mesh intervals that a rough solution may have.
 const ROUGH_INTERVALS: usize = 500;
 
@@ -27,6 +25,39 @@ pub(super) enum Effort {
     Full,
     /// To the tolerance asked for, with an estimate of the global error.
     Final,
+}
+
+impl Effort {
+    /// How a problem is solved with it, if the final tolerance is this.
+    pub(super) fn options(self, tolerance: f64) -> Options {
+        let (tolerance, stages, max_newton_steps) = match self {
+            Self::Start => (tolerance.max(1e-2), 4, 40),
+            Self::Rough => (tolerance.max(1e-2), 4, 16),
+            Self::Careful => (tolerance.max(1e-4), 5, 16),
+            Self::Full | Self::Final => (tolerance, 6, 30),
+        };
+        Options {
+            tolerance,
+            scheme: Some(Scheme::Gauss { stages }),
+            // Of a solve from the guess: a better first mesh saves Newton steps where one problem
+            // is all there is.
+            initial_intervals: if self == Self::Final { 40 } else { 16 },
+            max_newton_steps,
+            // A rough solution that needs more is none: the step to it was too long.
+            max_intervals: match self {
+                Self::Rough | Self::Careful => ROUGH_INTERVALS,
+                Self::Start | Self::Full | Self::Final => Options::default().max_intervals,
+            },
+            // A shorter step of the homotopy is a better answer to a failure than a finer mesh.
+            retries: if self == Self::Start { 2 } else { 0 },
+            control: match self {
+                // Integrals of friction need a small defect.
+                Self::Final => Control::Both,
+                _ => Control::Defect,
+            },
+            ..Options::default()
+        }
+    }
 }
 
 /// A problem and its solution.
@@ -136,33 +167,7 @@ impl<'a> Path<'a> {
         guess: &dyn bvp::Guess,
         effort: Effort,
     ) -> Result<Solved, bvp::Error> {
-        let (tolerance, stages, max_newton_steps) = match effort {
-            Effort::Start => (self.tolerance.max(1e-2), 4, 40),
-            Effort::Rough => (self.tolerance.max(1e-2), 4, 16),
-            Effort::Careful => (self.tolerance.max(1e-4), 5, 16),
-            Effort::Full | Effort::Final => (self.tolerance, 6, 30),
-        };
-        let options = Options {
-            tolerance,
-            scheme: Some(Scheme::Gauss { stages }),
-            // Of a solve from the guess: a better first mesh saves Newton steps where one problem
-            // is all there is.
-            initial_intervals: if effort == Effort::Final { 40 } else { 16 },
-            max_newton_steps,
-            // A rough solution that needs more is none: the step to it was too long.
-            max_intervals: match effort {
-                Effort::Rough | Effort::Careful => ROUGH_INTERVALS,
-                Effort::Start | Effort::Full | Effort::Final => Options::default().max_intervals,
-            },
-            // A shorter step of the homotopy is a better answer to a failure than a finer mesh.
-            retries: if effort == Effort::Start { 2 } else { 0 },
-            control: match effort {
-                // Integrals of friction need a small defect.
-                Effort::Final => Control::Both,
-                _ => Control::Defect,
-            },
-            ..Options::default()
-        };
+        let options = effort.options(self.tolerance);
         self.problems += 1;
         let outcome = bvp::solve(&problem, guess, &options);
         let cost = match &outcome {
@@ -173,33 +178,25 @@ impl<'a> Path<'a> {
         outcome.map(|solution| Solved { problem, solution })
     }
 
-    /// Follows the family `member(t)` from its solved member at t = `from` to the one at `to`, in
-    /// steps that double when they are easy and shrink when they fail.
+    /// Follows the family `member(t)` from its solved member at the beginning of a range of t to the one
+    /// at its end.
     pub(super) fn follow(
         &mut self,
         start: Solved,
-        [from, to]: [f64; 2],
+        range: [f64; 2],
         first_step: f64,
         effort: Effort,
         member: impl Fn(&DriveProblem, f64) -> DriveProblem,
     ) -> Result<Solved, Stuck> {
-        let (mut here, mut t, mut step) = (start, from, first_step);
-        while t != to {
-            let next = if (to - t).abs() <= 1.2 * step {
-                to
-            } else {
-                t + step.copysign(to - t)
-            };
+        let (mut here, mut steps) = (start, Steps::new(range, first_step));
+        while let Some(next) = steps.next() {
             match self.attempt(member(&here.problem, next), &Carried(&here), effort) {
                 Ok(solved) => {
-                    if solved.solution.stats().newton_steps <= EASY {
-                        step *= 2.0;
-                    }
-                    (here, t) = (self.keep_zones(solved, effort)?, next);
+                    steps.solved(next, solved.solution.stats().newton_steps <= EASY);
+                    here = self.keep_zones(solved, effort)?;
                 }
                 Err(cause) => {
-                    step = 0.4 * (next - t).abs();
-                    if step < SHORTEST_STEP * first_step {
+                    if !steps.failed(next) {
                         return Err(Stuck::after(here, cause));
                     }
                 }

@@ -2,10 +2,16 @@
 
 use super::error::LoopError;
 use crate::drive::belt_loop::{BeltLoop, Closure, Duty, Guide, Mount, Tensioner, TensionerLoad};
+use crate::drive::layout::Side;
 use crate::{BeltKind, FrictionLaw, NormalForce};
+use std::f64::consts::FRAC_PI_2;
 
 /// Largest magnitude of a number, SI: squares and products of three are far from overflow.
 const LARGEST: f64 = 1e60;
+
+/// Smallest distance of a half angle from 0 and from 90°, rad: tan β and its inverse are no larger than
+/// 1e4.
+const SMALLEST_ANGLE: f64 = 1e-4;
 
 /// How far the length of a direction may be from 1: components that were stated with ten digits.
 const ROUNDED: f64 = 1e-9;
@@ -14,7 +20,7 @@ const ROUNDED: f64 = 1e-9;
 const LARGEST_FRICTION: f64 = 100.0;
 
 /// The first part of the statement that is out of its range.
-pub(super) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
+pub(crate) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
     let refuse = |subject: &str, problem| {
         Err(LoopError::Statement {
             subject: subject.to_owned(),
@@ -28,20 +34,51 @@ pub(super) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
             "mass per length and axial stiffness must be positive",
         );
     }
-    let inertia = BeltKind::Flat {
-        normal_force: NormalForce::Inertia,
-    };
-    if belt.kind != inertia {
-        return refuse(
-            "belt",
-            "only flat belts with the normal force `inertia` are modelled",
-        );
+    let half_angle = |angle: f64| angle > SMALLEST_ANGLE && angle < FRAC_PI_2 - SMALLEST_ANGLE;
+    match belt.kind {
+        BeltKind::Flat {
+            normal_force: NormalForce::Inertia,
+        } => {}
+        BeltKind::Flat { .. } => {
+            return refuse(
+                "belt",
+                "of flat belts only those with the normal force `inertia` are modelled",
+            );
+        }
+        BeltKind::V(v) if positive(v.radial_stiffness) && half_angle(v.half_angle) => {}
+        BeltKind::V(_) => {
+            return refuse(
+                "belt",
+                "the radial stiffness must be positive, and the half angle between 0 and 90°",
+            );
+        }
     }
+    let is_flat = matches!(belt.kind, BeltKind::Flat { .. });
     match belt_loop.law {
         FrictionLaw::Coulomb => {}
-        FrictionLaw::Epp { stiffness } if positive(stiffness) => {}
-        FrictionLaw::Epp { .. } => return refuse("friction", "the stiffness must be positive"),
-        _ => return refuse("friction", "only `coulomb` and `epp` are modelled"),
+        FrictionLaw::Epp { .. } if !is_flat => {
+            return refuse(
+                "friction",
+                "on V-belts only `coulomb` and `bristle` are modelled",
+            );
+        }
+        FrictionLaw::Bristle { .. } | FrictionLaw::CreepRate { .. } if is_flat => {
+            return refuse(
+                "friction",
+                "on flat belts only `coulomb` and `epp` are modelled",
+            );
+        }
+        FrictionLaw::Epp { stiffness } | FrictionLaw::Bristle { stiffness }
+            if positive(stiffness) => {}
+        FrictionLaw::Epp { .. } | FrictionLaw::Bristle { .. } => {
+            return refuse("friction", "the stiffness must be positive");
+        }
+        FrictionLaw::CreepRate { .. } => {
+            return refuse(
+                "friction",
+                "on V-belts only `coulomb` and `bristle` are modelled",
+            );
+        }
     }
     let [mut drivers, mut tensioners] = [0, 0];
     for pulley in &belt_loop.pulleys {
@@ -57,11 +94,27 @@ pub(super) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
                 "the coefficient of friction must not exceed 100",
             );
         }
-        if pulley.half_angle.is_some() {
-            return refuse(
-                &pulley.name,
-                "a flat belt has no groove, and so no half angle",
-            );
+        match pulley.half_angle {
+            Some(_) if is_flat || pulley.side == Side::Outside => {
+                return refuse(
+                    &pulley.name,
+                    "a half angle is that of the groove of a V-belt, and this pulley has none",
+                );
+            }
+            Some(angle) if !half_angle(angle) => {
+                return refuse(&pulley.name, "the half angle must be between 0 and 90°");
+            }
+            _ => {}
+        }
+        if let (BeltKind::V(v), Side::Inside) = (belt.kind, pulley.side) {
+            let half_angle = pulley.half_angle.unwrap_or(v.half_angle);
+            if pulley.friction_coefficient * half_angle.tan() >= 1.0 {
+                return refuse(
+                    &pulley.name,
+                    "the groove is so wide and rough that its faces cannot press a belt that sinks: the \
+                     coefficient of friction must be below 1/tan of the half angle",
+                );
+            }
         }
         match pulley.duty {
             Duty::Driver(speed) if positive(speed) => drivers += 1,

@@ -28,6 +28,18 @@ pub enum LoopError {
         /// Uniform belt tension that the equations give, N; not positive.
         tension: f64,
     },
+    /// A V-belt at rest is pressed through a groove: the tension that the groove carries falls where the belt
+    /// sinks deeper.
+    #[error(
+        "the belt at rest is pressed through the groove of `{pulley}`, which carries at most {largest:.4} N; \
+         check its radial stiffness"
+    )]
+    PressedThrough {
+        /// The pulley.
+        pulley: String,
+        /// The largest belt tension that the groove carries at rest, N: k R² tan β/6.
+        largest: f64,
+    },
     /// The belt does not press on the pulleys even without torques.
     #[error(
         "the belt lifts off even without load: its tractive tension would be {tractive_tension:.4} N \
@@ -93,6 +105,22 @@ pub enum LoopError {
     Overstretched {
         /// Largest strain T/EA.
         strain: f64,
+    },
+    /// A V-belt does not carry its load.
+    #[error(
+        "the loop carries {load_factor:.4} of the load, where {}",
+        match overhangs {
+            true => format!("the belt overhangs itself on pulley `{pulley}`"),
+            false => format!("pulley `{pulley}` slips on its whole contact"),
+        }
+    )]
+    Overloaded {
+        /// The pulley that slips, or where the belt overhangs.
+        pulley: String,
+        /// The largest factor on all torques at which there is a steady state; at most 1.
+        load_factor: f64,
+        /// Whether the belt overhangs itself there, beyond an inclination of 90°, instead of slipping.
+        overhangs: bool,
     },
     /// The way to the steady state of a V-belt was not found.
     #[error("no state was found beyond {reached:.4} of the load: {cause}")]

@@ -5,13 +5,14 @@ use super::super::profile::zones;
 use super::error::LoopError;
 use super::running::RunningBelt;
 use super::solve::Rest;
-use super::state::{LoadLimit, LoopState, PulleyState, SpanState, TensionerState};
+use super::state::{Contacts, LoadLimit, LoopState, PulleyState, SpanState, TensionerState};
 use super::tensioner::Held;
+use crate::Belt;
 use crate::drive::belt_loop::{BeltLoop, Duty};
 use crate::drive::layout::Layout;
 
 /// Deflection of a span over its length, the customary one of tension gauges.
-const DEFLECTION: f64 = 1.0 / 64.0;
+pub(crate) const DEFLECTION: f64 = 1.0 / 64.0;
 
 /// A solved loop.
 pub(super) struct Found<'l> {
@@ -68,9 +69,6 @@ impl Found<'_> {
         let tension = belt.tension(tractive[index]);
         let moving = speed * (1.0 + belt.strain(tractive[index]));
         let flow = stated.mass_per_length * speed;
-        let resting = self.rest.tension;
-        let wave =
-            (resting * (1.0 + resting / stated.axial_stiffness) / stated.mass_per_length).sqrt();
         let deflection = DEFLECTION * rest.length;
         let deflected = self.rest.layout.deflected(index, deflection);
         let force = deflected.map(|[length, across]| {
@@ -83,9 +81,9 @@ impl Found<'_> {
             tension,
             tractive_tension: tractive[index],
             speed: moving,
-            frequency: tractive[index] / (2.0 * span.length) * (moving / (flow * tension)).sqrt(),
+            frequency: first_frequency(span.length, tractive[index], tension, moving, flow),
             rest_length: rest.length,
-            rest_frequency: wave / (2.0 * rest.length),
+            rest_frequency: rest_frequency(rest.length, self.rest.tension, &stated),
             deflection,
             deflection_force: force,
         }
@@ -179,6 +177,25 @@ impl Found<'_> {
     }
 }
 
+/// First natural frequency in Hz of a span in m as a moving string, from its tractive and its belt tension
+/// in N, the belt speed in m/s and the mass flow in kg/s: with the wave speed w² = T V/G of the belt at
+/// rest, (w² − V²)/(2 ℓ w).
+pub(crate) fn first_frequency(
+    length: f64,
+    tractive: f64,
+    tension: f64,
+    speed: f64,
+    flow: f64,
+) -> f64 {
+    tractive / (2.0 * length) * (speed / (flow * tension)).sqrt()
+}
+
+/// First natural frequency in Hz of a span in m at rest under a tension in N.
+pub(crate) fn rest_frequency(length: f64, tension: f64, belt: &Belt) -> f64 {
+    let strain = tension / belt.axial_stiffness;
+    (tension * (1.0 + strain) / belt.mass_per_length).sqrt() / (2.0 * length)
+}
+
 /// The answer.
 pub(super) fn state(found: Found<'_>) -> LoopState {
     let driver = found.belt_loop.driver();
@@ -208,7 +225,9 @@ pub(super) fn state(found: Found<'_>) -> LoopState {
         convergence: None,
         rest_layout: found.rest.layout,
         layout: found.layout,
-        contacts: found.belt.contacts,
-        belt: found.belt_loop.belt,
+        contacts: Contacts::Flat {
+            contacts: found.belt.contacts,
+            belt: found.belt_loop.belt,
+        },
     }
 }

@@ -1,6 +1,5 @@
 //! From a loop to its steady state: rest, unloaded loop, load factor limit, loaded loop.
 
-use super::check::check;
 use super::error::LoopError;
 use super::limit::{load_limit, most_used};
 use super::results::{Found, state};
@@ -62,7 +61,6 @@ pub(super) struct Problem<'l> {
 /// # Errors
 /// Those of [`LoopError`], in the order given there.
 pub(crate) fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
-    check(belt_loop)?;
     let rim = belt_loop.rim_speed();
     let torque = |pulley: &LoopPulley| match pulley.duty {
         Duty::Driver(_) => 0.0,

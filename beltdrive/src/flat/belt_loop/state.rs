@@ -40,7 +40,7 @@ pub struct LoopState {
     /// The tensioner, if there is one.
     pub tensioner: Option<TensionerState>,
     /// How far all torques can be raised with Coulomb friction; `None` without torques, or if the tensioner
-    /// has no equilibrium up to there.
+    /// has no equilibrium up to there. `None` for V-belts, of which [`crate::belt_loop::load_limit`] finds it.
     pub load_limit: Option<LoadLimit>,
     /// The verified invariants of a V-belt, each with its relative deviation; empty for flat belts.
     pub checks: Vec<Check>,
@@ -48,8 +48,16 @@ pub struct LoopState {
     /// to rounding.
     pub convergence: Option<LoopConvergence>,
     /// The belt on the pulleys.
-    pub(super) contacts: Vec<Contact>,
-    pub(super) belt: Belt,
+    pub(crate) contacts: Contacts,
+}
+
+/// What the profiles of a belt on its pulleys follow from.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Contacts {
+    /// The contacts of a flat belt in closed form.
+    Flat { contacts: Vec<Contact>, belt: Belt },
+    /// The profiles of a V-belt.
+    V(Vec<Profile>),
 }
 
 /// How the steady state of a V-belt was found and how accurate it is.
@@ -80,13 +88,13 @@ impl LoopState {
     /// # Panics
     /// If there is no such pulley.
     pub fn profile(&self, pulley: usize) -> Profile {
-        let radius = self.layout.pulleys()[pulley].radius;
-        profile(
-            &self.contacts[pulley],
-            self.belt,
-            radius,
-            self.unstretched_speed,
-        )
+        match &self.contacts {
+            Contacts::Flat { contacts, belt } => {
+                let radius = self.layout.pulleys()[pulley].radius;
+                profile(&contacts[pulley], *belt, radius, self.unstretched_speed)
+            }
+            Contacts::V(profiles) => profiles[pulley].clone(),
+        }
     }
 }
 

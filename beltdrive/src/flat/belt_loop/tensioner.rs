@@ -23,7 +23,7 @@ const STEPS: usize = 1000;
 
 /// Which way a search begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Towards {
+pub(crate) enum Towards {
     /// Where the idler is pushed: the length of the belt is given and its tension follows.
     Force,
     /// Where the equilibrium lies by Newton's method: the tension is given and the length follows.
@@ -31,7 +31,7 @@ pub(super) enum Towards {
 }
 
 /// First and second derivative of the length of the loop with the coordinate of the tensioner.
-pub(super) fn length_derivatives(
+pub(crate) fn length_derivatives(
     layout: &Layout,
     pulley: usize,
     guide: &Guide,
@@ -52,7 +52,7 @@ pub(super) fn length_derivatives(
 /// The coordinate nearest to `start`, in the direction in which the idler goes from there, at which the
 /// load Q(q) of the tensioner and the belt are in equilibrium: Q − `F_t` dL/dq = 0. `tractive` gives `F_t`
 /// in N.
-pub(super) fn equilibrium(
+pub(crate) fn equilibrium(
     belt_loop: &BeltLoop,
     start: f64,
     towards: Towards,
@@ -126,7 +126,7 @@ pub(super) fn equilibrium(
 }
 
 /// Whether the tensioner is between its stops.
-pub(super) fn within_travel(belt_loop: &BeltLoop, coordinate: f64) -> Result<(), LoopError> {
+pub(crate) fn within_travel(belt_loop: &BeltLoop, coordinate: f64) -> Result<(), LoopError> {
     match belt_loop.tensioner() {
         Some((
             pulley,
@@ -147,19 +147,19 @@ pub(super) fn within_travel(belt_loop: &BeltLoop, coordinate: f64) -> Result<(),
 
 /// The tensioner held at a coordinate by a belt of uniform tension.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Held {
+pub(crate) struct Held {
     /// dL/dq and d²L/dq².
-    pub(super) length_derivatives: [f64; 2],
+    pub(crate) length_derivatives: [f64; 2],
     /// K = k + `F_t` d²L/dq² + (EA/`L_0`) (dL/dq)², against a slow displacement, with k = −dQ/dq of the load
     /// Q of the tensioner; N·m/rad or N/m.
-    pub(super) stiffness: f64,
+    pub(crate) stiffness: f64,
     /// η = 1/(1 + (k + `F_t` d²L/dq²) `L_0`/(EA (dL/dq)²)) (Beikmann, Perkins and Ulsoy 1996).
-    pub(super) constant: f64,
+    pub(crate) constant: f64,
 }
 
 impl Held {
     /// With the tractive tension `F_t` of the idler, N, and the length `L_0` of the unstretched belt, m.
-    pub(super) fn new(
+    pub(crate) fn new(
         belt_loop: &BeltLoop,
         (pulley, tensioner): (usize, &Tensioner),
         layout: &Layout,
@@ -168,10 +168,22 @@ impl Held {
         unstretched: f64,
     ) -> Self {
         let derivatives = length_derivatives(layout, pulley, &tensioner.guide, coordinate);
-        let [slope, curvature] = derivatives;
         let [_, load_slope] = tensioner.load_at(coordinate);
+        let stiffness = belt_loop.belt.axial_stiffness / unstretched;
+        Self::by(derivatives, load_slope, tractive, stiffness)
+    }
+
+    /// With dL/dq and d²L/dq², the derivative of the load of the tensioner, the tractive tension of the
+    /// idler in N, and the tension of the belt per length that is taken up, N/m: EA/`L_0`.
+    pub(crate) fn by(
+        derivatives: [f64; 2],
+        load_slope: f64,
+        tractive: f64,
+        stiffness: f64,
+    ) -> Self {
+        let [slope, curvature] = derivatives;
         let by_spring = tractive * curvature - load_slope;
-        let by_belt = belt_loop.belt.axial_stiffness / unstretched * slope * slope;
+        let by_belt = stiffness * slope * slope;
         Self {
             length_derivatives: derivatives,
             stiffness: by_spring + by_belt,

@@ -1,0 +1,88 @@
+//! The back of a V-belt on a flat pulley: local mechanics at a point of the contact.
+//!
+//! The back presses with p = F/R per length and slips by e = 1 − ω R/V along the rim, per unit of its own
+//! speed. Friction q against that slip changes the tension, dF/ds = q, with the laws of the grooves in one
+//! direction:
+//!
+//! ```text
+//! Coulomb   q = μ p e/|e|,  |e| = sqrt(e² + ε²)
+//! bristle   q = p B,        dB/ds = κ (e − |e| B/μ)
+//! ```
+
+use super::super::Strand;
+use super::super::groove::Law;
+use bvp::Real;
+
+/// Index of the tractive tension F among the states; that of the friction law follows it, if there is one.
+pub(super) const TENSION: usize = 0;
+const LAW: usize = 1;
+
+/// The back of the belt on one pulley: constants of the local mechanics, scaled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Back {
+    pub(super) strand: Strand,
+    /// Coefficient of friction μ.
+    pub(super) friction_coefficient: f64,
+    pub(super) law: Law,
+    /// Normalisation ε of the slip; bristles do not use it.
+    pub(super) epsilon: f64,
+}
+
+/// All local quantities at one point of the contact, scaled.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rubbing<T> {
+    /// Belt tension T.
+    pub(super) tension: T,
+    /// Belt speed V.
+    pub(super) speed: T,
+    /// Slip e.
+    pub(super) slip: T,
+    /// Friction force q on the belt per length, positive against positive slip.
+    pub(super) friction: T,
+    /// Magnitude of the slip.
+    size: T,
+}
+
+impl Back {
+    /// Number of states of the contact but for the elongation.
+    pub(super) fn states(&self) -> usize {
+        match self.law {
+            Law::Coulomb | Law::Epp { .. } => LAW,
+            Law::Bristle { .. } => LAW + 1,
+        }
+    }
+
+    /// The contact in `state`, on a pulley of speed `omega`, with the mass flow `flow`.
+    pub(super) fn at<T: Real>(&self, state: &[T], omega: T, flow: T) -> Rubbing<T> {
+        let tractive = state[TENSION];
+        let tension = self.strand.tension(tractive, flow);
+        let speed = self.strand.speed(tension, flow);
+        let slip = ((flow - omega) + flow * self.strand.strain(tension)) / speed;
+        let epsilon = match self.law {
+            // Only keeps the derivative of |e| finite where e = 0.
+            Law::Bristle { .. } => 1e-20,
+            Law::Coulomb | Law::Epp { .. } => self.epsilon,
+        };
+        let size = (slip * slip + epsilon.powi(2)).sqrt();
+        let friction = match self.law {
+            Law::Bristle { .. } => tractive * state[LAW],
+            Law::Coulomb | Law::Epp { .. } => tractive * (slip / size) * self.friction_coefficient,
+        };
+        Rubbing {
+            tension,
+            speed,
+            slip,
+            friction,
+            size,
+        }
+    }
+
+    /// Derivatives of the states with respect to the arc length.
+    pub(super) fn rates<T: Real>(&self, at: &Rubbing<T>, state: &[T], rates: &mut [T]) {
+        rates[TENSION] = at.friction;
+        if let Law::Bristle { stiffness } = self.law {
+            let saturation = at.size / self.friction_coefficient;
+            rates[LAW] = (at.slip - saturation * state[LAW]) * stiffness;
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! The states of a loop as its load rises, followed by continuation in the factor on all torques, to a load
+//! that is asked for or to where no state carries more.
+
+use super::super::path::Effort;
+use super::problem::LoopProblem;
+use super::solve::{Search, Solved};
+use crate::difficulty;
+use bvp::{Control, Family, Options, Problem, Scheme, Solution};
+use continuation::{Branch, Direction, Kind};
+use std::f64::consts::FRAC_PI_2;
+
+/// Tolerance of the states on the way, which are only guesses of those to come.
+const ROUGH: f64 = 1e-4;
+/// The most mesh intervals: a point that needs more is approached by a shorter step.
+const MAX_INTERVALS: usize = 4000;
+/// The most steps.
+const STEPS: usize = 300;
+
+/// Where a climb ends.
+pub(super) enum Climbed {
+    /// At the load that was asked for.
+    Reached(Box<Solved>),
+    /// At the largest load.
+    Limit(Top),
+    /// It was not followed farther than to this factor.
+    Lost { reached: f64, cause: &'static str },
+}
+
+/// The largest load of a loop.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Top {
+    /// The factor on all torques.
+    pub(super) factor: f64,
+    /// The pulley that slips, or where the belt overhangs.
+    pub(super) pulley: usize,
+    /// Whether the belt overhangs itself there instead of slipping.
+    pub(super) overhangs: bool,
+}
+
+impl Search<'_> {
+    /// Raises the load from a state to a factor on all torques, above that of the state.
+    pub(super) fn climb(&mut self, from: &Solved, to: f64) -> Climbed {
+        let p = from.solution.parameters();
+        let begin = from.problem.factor(p);
+        let free = from.problem.clone().with_unknown_factor();
+        let unknown = Problem::parameters(&free) - 1;
+        let options = Options {
+            tolerance: self.tolerance.max(ROUGH),
+            scheme: Some(Scheme::Gauss { stages: 5 }),
+            control: Control::Defect,
+            max_intervals: MAX_INTERVALS,
+            ..Options::default()
+        };
+        let guess = WithFactor {
+            solution: &from.solution,
+            factor: begin,
+        };
+        let lost = |reached, cause| Climbed::Lost { reached, cause };
+        let (mut family, z) = match Family::new(&free, unknown, &[], &guess, &options) {
+            Ok(family) => family,
+            Err(error) => return lost(begin, difficulty::of_solver(&error)),
+        };
+        let branch_options = continuation::Options {
+            steps: STEPS,
+            accuracy: 1e-3 * options.tolerance,
+            ..continuation::Options::within(begin.min(0.0), to)
+        };
+        let direction = Direction::Increasing;
+        let mut branch = match Branch::new(&mut family, &z, direction, &branch_options) {
+            Ok(branch) => branch,
+            Err(error) => return lost(begin, difficulty::of_branch(&error)),
+        };
+        let segments = free.pulley_of.len();
+        let moving: Vec<_> = (0..segments)
+            .filter_map(|segment| Some((segment, free.speed_index(segment)?)))
+            .collect();
+        for &(_, index) in &moving {
+            branch = branch.event(move |_, point| point.z[point.z.len() - 1 - unknown + index]);
+        }
+        let mut reached = begin;
+        while let Some(point) = branch.next() {
+            let factor = point.lambda();
+            let solution = || branch.system().solution(&point.z);
+            match point.kind {
+                Kind::LimitPoint => return Climbed::Limit(top(&free, &solution(), factor)),
+                Kind::Event(index) => {
+                    return Climbed::Limit(Top {
+                        factor,
+                        pulley: free.pulley_of[moving[index].0],
+                        overhangs: false,
+                    });
+                }
+                Kind::Bound if factor == to => {
+                    let solution = solution();
+                    self.cost.newton_steps += solution.stats().newton_steps;
+                    let problem = free.clone().with_factor(to);
+                    let guess = WithFactor {
+                        solution: &solution,
+                        factor: to,
+                    };
+                    return match self.attempt(problem, &guess, Effort::Rough) {
+                        Ok(solved) => Climbed::Reached(Box::new(solved)),
+                        Err(cause) => lost(reached, difficulty::of_solver(&cause)),
+                    };
+                }
+                _ => reached = factor,
+            }
+        }
+        let cause = "the states change too abruptly there to be followed";
+        lost(reached, cause)
+    }
+}
+
+/// What ends the load at a limit point: the belt overhangs, or the pulley slips on the largest share of
+/// whose contact friction is at its limit.
+fn top(problem: &LoopProblem, solution: &Solution, factor: f64) -> Top {
+    let solved = Solved {
+        problem: problem.clone(),
+        solution: solution.clone(),
+    };
+    let pulleys = solved.problem.pulley_of.iter();
+    let slipping = pulleys.map(|&pulley| (solved.slip_share(pulley), pulley));
+    let (_, slips) = slipping.fold(
+        (0.0, 0),
+        |most, next| if next.0 > most.0 { next } else { most },
+    );
+    let ends = solved.with_ends(|at, _| solved.problem.end_angles(at));
+    let steep = ends.iter().position(|ends| ends.exit.abs() > FRAC_PI_2);
+    Top {
+        factor,
+        pulley: steep.unwrap_or(slips),
+        overhangs: steep.is_some(),
+    }
+}
+
+/// A solution as the guess of a problem with or without the factor as its last parameter.
+struct WithFactor<'a> {
+    solution: &'a Solution,
+    factor: f64,
+}
+
+impl bvp::Guess for WithFactor<'_> {
+    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
+        self.solution.state(segment, s, y);
+    }
+
+    fn parameters(&self, p: &mut [f64]) {
+        let known = self.solution.parameters();
+        let common = known.len().min(p.len());
+        p[..common].copy_from_slice(&known[..common]);
+        p[common..].fill(self.factor);
+    }
+
+    fn mesh(&self) -> Option<Vec<Vec<f64>>> {
+        bvp::Guess::mesh(self.solution)
+    }
+}

@@ -1,0 +1,169 @@
+//! The state of a loop nearly without friction, from which Newton's method starts.
+//!
+//! Torques change the tension as on a flat belt, and F runs linearly along every contact. How tight the
+//! belt is follows from the closure, where it is the tension of a span; from the load of the tensioner,
+//! which holds the tension of its idler about as it is at rest; or from the length of the belt, which
+//! strain and the depth in the grooves share,
+//!
+//! ```text
+//! Σ ∫ T/EA ds + Σ ∫ F/(k R tan β) dφ      is about what it is at rest.
+//! ```
+
+use super::super::guess::Contacting;
+use super::problem::{FLOW, LoopProblem, Seat, Target};
+use super::rest::Rest;
+use crate::drive::belt_loop::BeltLoop;
+use crate::drive::layout::Layout;
+
+/// A first approximation to the solution of a [`LoopProblem`].
+#[derive(Clone, Debug)]
+pub(super) struct LoopGuess<'a> {
+    problem: &'a LoopProblem,
+    /// Tractive tension of each span, scaled.
+    tractive: Vec<f64>,
+    /// Coordinate of the tensioner in its unit.
+    coordinate: f64,
+}
+
+/// Tractive tensions of the spans of a loop that the friction of its pulleys does not limit, N.
+pub(super) fn tractive_tensions(
+    belt_loop: &BeltLoop,
+    layout: &Layout,
+    target: Target,
+    rest: Option<&Rest>,
+    factor: f64,
+) -> Vec<f64> {
+    let belt = belt_loop.belt;
+    let groove = belt.v();
+    let rim = belt_loop.rim_speed();
+    let count = belt_loop.pulleys.len();
+    let driver = belt_loop.driver();
+    let mut offsets = vec![0.0; count];
+    for step in 1..count {
+        let pulley = (driver + step) % count;
+        let stated = &belt_loop.pulleys[pulley];
+        offsets[pulley] = offsets[(pulley + count - 1) % count]
+            + factor * stated.duty.torque_at(rim / stated.radius) / stated.radius;
+    }
+    let centrifugal = belt.mass_per_length * rim * rim;
+    let level = match (target, rest, belt_loop.tensioner()) {
+        (Target::Tension { span, tension }, _, _) => tension - centrifugal - offsets[span],
+        (Target::Tractive { span, tension }, _, _) => tension - offsets[span],
+        (Target::Length(_), None, _) => f64::NAN,
+        (Target::Length(_), Some(rest), Some((idler, _))) => rest.tension - offsets[idler],
+        (Target::Length(_), Some(rest), None) => {
+            let [mut by_tension, mut by_pressure, mut moment] = [0.0; 3];
+            for (index, pulley) in belt_loop.pulleys.iter().enumerate() {
+                let behind = offsets[(index + count - 1) % count];
+                let mean = 0.5 * (behind + offsets[index]);
+                let wrap = layout.wraps()[index];
+                let span = layout.spans()[index].length / belt.axial_stiffness;
+                let arc = pulley.radius * wrap / belt.axial_stiffness;
+                let half_angle = pulley.half_angle.unwrap_or(groove.half_angle);
+                let sinking = match pulley.side {
+                    crate::drive::layout::Side::Inside => {
+                        wrap / (groove.radial_stiffness * half_angle.tan())
+                    }
+                    crate::drive::layout::Side::Outside => 0.0,
+                };
+                by_tension += span + arc;
+                by_pressure += sinking;
+                moment += span * offsets[index] + (arc + sinking) * mean;
+            }
+            rest.tension - (moment + by_tension * centrifugal) / (by_tension + by_pressure)
+        }
+    };
+    offsets.iter().map(|offset| level + offset).collect()
+}
+
+impl<'a> LoopGuess<'a> {
+    /// The approximation with these tractive tensions of the spans in N, and a coordinate of the tensioner
+    /// in rad or m.
+    pub(super) fn new(problem: &'a LoopProblem, tractive: &[f64], coordinate: f64) -> Self {
+        let force = problem.units.force;
+        Self {
+            problem,
+            tractive: tractive.iter().map(|tension| tension / force).collect(),
+            coordinate: coordinate / problem.coordinate_unit(),
+        }
+    }
+
+    /// Tractive tensions behind and before a pulley, scaled.
+    fn tension(&self, pulley: usize) -> [f64; 2] {
+        [self.problem.plane.arriving(pulley), pulley].map(|span| self.tractive[span])
+    }
+
+    fn contacting(&self, pulley: usize) -> Contacting {
+        let tension = self.tension(pulley);
+        let wrap = self.problem.plane.spots[pulley].wrap;
+        Contacting {
+            tension,
+            swept: match &self.problem.seats[pulley] {
+                Seat::Groove(groove) => {
+                    let ends = Contacting::end_angles(groove, tension);
+                    wrap + ends.exit - ends.entry
+                }
+                Seat::Back(_) | Seat::Idle => wrap,
+            },
+        }
+    }
+
+    /// Depth of the belt in the groove of a pulley where its tension is larger; 0 on its back.
+    fn depth(&self, pulley: usize) -> f64 {
+        let [behind, before] = self.tension(pulley);
+        match &self.problem.seats[pulley] {
+            Seat::Groove(groove) => groove.frictionless_penetration(behind.max(before)),
+            Seat::Back(_) | Seat::Idle => 0.0,
+        }
+    }
+}
+
+impl bvp::Guess for LoopGuess<'_> {
+    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
+        let pulley = self.problem.pulley_of[segment];
+        let contacting = self.contacting(pulley);
+        let [entry, exit] = contacting.tension;
+        let last = y.len() - 1;
+        match &self.problem.seats[pulley] {
+            Seat::Groove(groove) => {
+                contacting.state(groove, 1.0, s, y);
+                if entry == exit {
+                    // Nothing bends the bristles of an idler one way rather than the other.
+                    y[super::super::LAW..last].fill(0.0);
+                }
+            }
+            Seat::Back(back) => {
+                y[0] = entry + s * (exit - entry);
+                y[1..last].fill(0.5 * back.friction_coefficient.copysign(exit - entry));
+            }
+            Seat::Idle => {}
+        }
+        let strand = self.problem.units.strand();
+        let strain = strand.strain(strand.tension(0.5 * (entry + exit), 1.0));
+        y[last] = s * contacting.swept * strain / (1.0 + strain);
+    }
+
+    fn parameters(&self, p: &mut [f64]) {
+        let problem = self.problem;
+        let strand = problem.units.strand();
+        let driver = problem.driver();
+        let [entering, _] = self.tension(driver);
+        let speed = 1.0 / (1.0 + 0.5 * self.depth(driver));
+        p[FLOW] = speed / strand.speed(strand.tension(entering, 1.0), 1.0);
+        if let Some(index) = problem.coordinate_index() {
+            p[index] = self.coordinate;
+        }
+        for (segment, &pulley) in problem.pulley_of.iter().enumerate() {
+            if let Some(index) = problem.speed_index(segment) {
+                let [entry, exit] = self.tension(pulley);
+                // The belt slows down by its mean depth where it is driven, and a driven pulley loses as
+                // much again; an idler does not.
+                p[index] = match exit > entry {
+                    true => speed / (1.0 + 0.5 * self.depth(pulley)),
+                    false => speed * (1.0 + 0.5 * self.depth(pulley)),
+                };
+            }
+            p[problem.length_index(segment)] = self.contacting(pulley).swept;
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! The steady state of a V-belt round n pulleys. [`crate::belt_loop`] is the public face.
+//!
+//! Pulleys inside the loop are grooves, with the mechanics of a drive with two pulleys; pulleys outside
+//! touch the back of the belt and are flat. `problem` states the running loop as one boundary value
+//! problem, `rest` the belt at rest.
+
+mod back;
+mod checks;
+mod climb;
+mod contacts;
+mod guess;
+mod laws;
+mod plane;
+mod problem;
+mod rest;
+mod rest_guess;
+mod seating;
+mod solve;
+mod state;
+mod tensioner;
+
+pub(crate) use solve::{load_limit, solve};

@@ -1,0 +1,355 @@
+//! From a loop to its steady state: rest, then the running loop, cold or by raising the load.
+
+use super::super::path::Effort;
+use super::climb::{Climbed, Top};
+use super::guess::tractive_tensions;
+use super::laws::Start;
+use super::problem::{LoopProblem, Target};
+use super::rest::{Cost, Known, Rest, RestProblem};
+use super::rest_guess::RestGuess;
+use super::state::state;
+use crate::difficulty;
+use crate::drive::belt_loop::{BeltLoop, Closure};
+use crate::drive::layout::{Layout, Side};
+use crate::flat::belt_loop::{
+    LoadLimit, LoopError, LoopState, Towards, equilibrium, length_derivatives, within_travel,
+};
+use bvp::{Ends, Problem, Solution};
+
+/// Shares of the load that are tried in turn from nothing; from all but the first the load is then raised.
+const SHARES: [f64; 7] = [1.0, 0.5, 0.2, 0.05, 0.01, 1e-3, 0.0];
+/// Where the belt leaves a pulley more steeply than this, or a pulley loses more than this share of its
+/// speed, a state may lie beyond the largest load.
+const STEEP: f64 = 1.3;
+const SLOW: f64 = 0.5;
+/// Largest load factor that is tried: beyond it the torques are but rounding errors of the driver's.
+const LARGEST_FACTOR: f64 = 1e9;
+
+/// A problem and its solution.
+#[derive(Clone, Debug)]
+pub(super) struct Solved {
+    pub(super) problem: LoopProblem,
+    pub(super) solution: Solution,
+}
+
+impl Solved {
+    /// Calls `view` with the states at both ends of all segments, and the parameters.
+    pub(super) fn with_ends<R>(&self, view: impl FnOnce(&Ends<'_, f64>, &[f64]) -> R) -> R {
+        let segments = self.problem.segments();
+        let values =
+            (0..segments.len()).flat_map(|i| [self.solution.start(i), self.solution.end(i)]);
+        let values: Vec<f64> = values.flatten().copied().collect();
+        view(&Ends::new(&segments, &values), self.solution.parameters())
+    }
+
+    /// Whether the state may lie beyond the largest load.
+    fn may_be_beyond(&self) -> bool {
+        let p = self.solution.parameters();
+        let ends = self.with_ends(|at, _| self.problem.end_angles(at));
+        let mut segments = 0..self.problem.pulley_of.len();
+        ends.iter().any(|ends| ends.exit > STEEP)
+            || segments.any(|segment| self.problem.omega(segment, p) < SLOW)
+    }
+
+    /// Whether the belt pulls in all spans, turns every pulley forwards and touches it.
+    fn is_drive(&self) -> bool {
+        let p = self.solution.parameters();
+        let segments = self.problem.pulley_of.len();
+        p[0] > 0.0
+            && (0..segments).all(|segment| {
+                p[self.problem.length_index(segment)] > 0.0
+                    && self.problem.omega(segment, p) > 0.0
+                    && self.solution.end(segment)[0] > 0.0
+            })
+    }
+}
+
+/// The search for one steady state.
+pub(super) struct Search<'l> {
+    pub(super) belt_loop: &'l BeltLoop,
+    pub(super) tolerance: f64,
+    pub(super) cost: Cost,
+    /// Relative effect of the last ε on the parameters.
+    pub(super) epsilon_effect: f64,
+}
+
+/// A loop at rest and running.
+struct Found {
+    at_rest: RestProblem,
+    rest: Rest,
+    running: Solved,
+}
+
+/// The steady state of a loop with a V-belt.
+pub(crate) fn solve(belt_loop: &BeltLoop, tolerance: f64) -> Result<LoopState, LoopError> {
+    let mut search = Search::new(belt_loop, tolerance);
+    let Found {
+        at_rest,
+        rest,
+        running,
+    } = search.find()?;
+    state(&mut search, &rest, &at_rest, &running)
+}
+
+/// How far all torques of a loop can be raised, found by raising them; `None` if that is not at all, or
+/// farther than anything that was tried.
+pub(crate) fn load_limit(
+    belt_loop: &BeltLoop,
+    tolerance: f64,
+) -> Result<Option<LoadLimit>, LoopError> {
+    let mut search = Search::new(belt_loop, tolerance);
+    let mut here = search.find()?.running;
+    if belt_loop
+        .pulleys
+        .iter()
+        .all(|pulley| pulley.duty.torque_at(1.0) == 0.0)
+    {
+        return Ok(None);
+    }
+    let mut to = 2.0;
+    while to < LARGEST_FACTOR {
+        match search.climb(&here, to) {
+            Climbed::Reached(solved) => here = *solved,
+            Climbed::Limit(Top { factor, pulley, .. }) => {
+                return Ok(Some(LoadLimit { factor, pulley }));
+            }
+            Climbed::Lost { reached, cause } => {
+                return Err(LoopError::NotConverged { reached, cause });
+            }
+        }
+        to *= 2.0;
+    }
+    Ok(None)
+}
+
+impl<'l> Search<'l> {
+    fn new(belt_loop: &'l BeltLoop, tolerance: f64) -> Self {
+        Self {
+            belt_loop,
+            tolerance,
+            cost: Cost::default(),
+            epsilon_effect: 0.0,
+        }
+    }
+
+    /// The loop at rest and running, in the order in which the closure gives them.
+    fn find(&mut self) -> Result<Found, LoopError> {
+        let belt_loop = self.belt_loop;
+        let start = match (belt_loop.closure, belt_loop.tensioner()) {
+            (Closure::RestCoordinate(coordinate), _) => coordinate,
+            (_, Some((_, tensioner))) => tensioner.start_coordinate,
+            (_, None) => 0.0,
+        };
+        let layout = belt_loop.layout(start)?;
+        let target = match belt_loop.closure {
+            Closure::UnstretchedLength(length) => Err(Known::Length(length)),
+            Closure::SetupTension(tension) => Err(Known::Tension(tension)),
+            Closure::RestCoordinate(_) => Err(Known::Equilibrium),
+            Closure::SpanTension { span, tension } => Ok(Target::Tension { span, tension }),
+            Closure::SpanTractiveTension { span, tension } => {
+                Ok(Target::Tractive { span, tension })
+            }
+        };
+        let target = match target {
+            Ok(target) => target,
+            Err(known) => {
+                let (at_rest, rest) = self.rest(known, start, &layout)?;
+                within_travel(belt_loop, rest.coordinate)?;
+                let target = Target::Length(rest.unstretched);
+                let running = self.running(target, Some(&rest), rest.coordinate)?;
+                return self.found(at_rest, rest, running);
+            }
+        };
+        let running = self.running(target, None, start)?;
+        let (length, coordinate) = running.with_ends(|at, p| {
+            let [unstretched, _] = running.problem.lengths(at, p);
+            (unstretched, running.problem.coordinate(p))
+        });
+        let layout = belt_loop.layout(coordinate)?;
+        let (at_rest, rest) = self.rest(Known::Length(length), coordinate, &layout)?;
+        self.found(at_rest, rest, running)
+    }
+
+    fn found(&self, at_rest: RestProblem, rest: Rest, running: Solved) -> Result<Found, LoopError> {
+        let coordinate = running.problem.coordinate(running.solution.parameters());
+        for coordinate in [rest.coordinate, coordinate] {
+            within_travel(self.belt_loop, coordinate)?;
+        }
+        Ok(Found {
+            at_rest,
+            rest,
+            running,
+        })
+    }
+
+    /// About how much the belt yields in all grooves, m/N.
+    fn groove_compliance(&self, layout: &Layout) -> f64 {
+        let groove = self.belt_loop.belt.v();
+        let pulleys = self.belt_loop.pulleys.iter().zip(layout.wraps());
+        let seats = pulleys.map(|(pulley, wrap)| match pulley.side {
+            Side::Inside => {
+                let half_angle = pulley.half_angle.unwrap_or(groove.half_angle);
+                wrap / (groove.radial_stiffness * half_angle.tan())
+            }
+            Side::Outside => 0.0,
+        });
+        seats.sum()
+    }
+
+    /// The belt at rest, from where its pitch line would be with grooves that yield.
+    pub(super) fn rest(
+        &mut self,
+        known: Known,
+        start: f64,
+        layout: &Layout,
+    ) -> Result<(RestProblem, Rest), LoopError> {
+        let belt_loop = self.belt_loop;
+        let axial = belt_loop.belt.axial_stiffness;
+        let (coordinate, tension) = match known {
+            Known::Length(length) => {
+                let compliance = length / axial + self.groove_compliance(layout);
+                let tension = |layout: &Layout| (layout.length() - length) / compliance;
+                let found = equilibrium(belt_loop, start, Towards::Force, "at rest", |layout| {
+                    Ok(tension(layout))
+                });
+                let coordinate = match found {
+                    Err(_) if tension(layout) <= 0.0 => start,
+                    found => found?,
+                };
+                (coordinate, tension(&belt_loop.layout(coordinate)?))
+            }
+            Known::Tension(tension) => {
+                let found = equilibrium(belt_loop, start, Towards::Newton, "at rest", |_| {
+                    Ok(tension)
+                });
+                (found?, tension)
+            }
+            Known::Equilibrium => {
+                let tension = belt_loop
+                    .tensioner()
+                    .map_or(f64::NAN, |(pulley, tensioner)| {
+                        let guide = &tensioner.guide;
+                        let [slope, _] = length_derivatives(layout, pulley, guide, start);
+                        tensioner.load_at(start)[0] / slope
+                    });
+                (start, tension)
+            }
+        };
+        if tension <= 0.0 {
+            return Err(LoopError::Slack { tension });
+        }
+        let layout = belt_loop.layout(coordinate)?;
+        let problem = RestProblem::new(belt_loop, &layout, tension, known);
+        let problem = match known {
+            Known::Equilibrium => problem.held(coordinate),
+            _ => problem,
+        };
+        let pressed = |(pulley, largest): (usize, f64)| LoopError::PressedThrough {
+            pulley: belt_loop.pulleys[pulley].name.clone(),
+            largest,
+        };
+        let guess = RestGuess::new(&problem, tension, coordinate).map_err(pressed)?;
+        let outcome = problem.solve(&guess, self.tolerance, &mut self.cost);
+        let rest = outcome.map_err(|cause| self.lost(0.0, &cause))?;
+        match rest.tension > 0.0 {
+            true => Ok((problem, rest)),
+            false => Err(LoopError::Slack {
+                tension: rest.tension,
+            }),
+        }
+    }
+
+    fn lost(&self, reached: f64, cause: &bvp::Error) -> LoopError {
+        LoopError::NotConverged {
+            reached,
+            cause: difficulty::of_solver(cause),
+        }
+    }
+
+    /// The running loop under its whole load: at once where Newton's method finds it and it cannot lie
+    /// beyond the largest load, else by raising a share of the load.
+    fn running(
+        &mut self,
+        target: Target,
+        rest: Option<&Rest>,
+        coordinate: f64,
+    ) -> Result<Solved, LoopError> {
+        let layout = self.belt_loop.layout(coordinate)?;
+        let start = |factor: f64| {
+            let tractive = tractive_tensions(self.belt_loop, &layout, target, rest, factor);
+            Start {
+                layout: &layout,
+                target,
+                tractive,
+                coordinate,
+                factor,
+            }
+        };
+        let [whole, shares @ ..] = SHARES.map(start);
+        let direct = match whole.is_taut() {
+            true => self.at(&whole, Effort::Final).map_err(Some),
+            false => Err(None),
+        };
+        if let Ok(solved) = &direct
+            && solved.is_drive()
+            && !solved.may_be_beyond()
+        {
+            return Ok(solved.clone());
+        }
+        for share in shares.iter().filter(|share| share.is_taut()) {
+            match self.at(share, Effort::Start) {
+                Ok(solved) if solved.is_drive() && !solved.may_be_beyond() => {
+                    return self.raise(&solved);
+                }
+                _ => {}
+            }
+        }
+        match direct {
+            Ok(solved) if solved.is_drive() => Ok(solved),
+            Err(Some(cause)) => Err(self.lost(0.0, &cause)),
+            _ => Err(LoopError::NotConverged {
+                reached: 0.0,
+                cause: "the belt would have to push in a span even under hardly any load",
+            }),
+        }
+    }
+
+    /// Raises the load of a state to the whole.
+    fn raise(&mut self, from: &Solved) -> Result<Solved, LoopError> {
+        match self.climb(from, 1.0) {
+            Climbed::Reached(solved) => {
+                let outcome = self.finish(*solved);
+                outcome.map_err(|cause| self.lost(1.0, &cause))
+            }
+            Climbed::Limit(Top {
+                factor,
+                pulley,
+                overhangs,
+            }) => Err(LoopError::Overloaded {
+                pulley: self.belt_loop.pulleys[pulley].name.clone(),
+                load_factor: factor,
+                overhangs,
+            }),
+            Climbed::Lost { reached, cause } => Err(LoopError::NotConverged { reached, cause }),
+        }
+    }
+
+    /// Solves one problem from a guess.
+    pub(super) fn attempt(
+        &mut self,
+        problem: LoopProblem,
+        guess: &dyn bvp::Guess,
+        effort: Effort,
+    ) -> Result<Solved, bvp::Error> {
+        let outcome = bvp::solve(&problem, guess, &effort.options(self.tolerance));
+        self.cost.count(&outcome);
+        outcome.map(|solution| Solved { problem, solution })
+    }
+}
+
+impl Start<'_> {
+    /// Whether the belt pulls in all spans.
+    fn is_taut(&self) -> bool {
+        self.tractive.iter().all(|&tension| tension > 0.0)
+    }
+}

@@ -1,0 +1,386 @@
+//! From a solved loop to its steady state in SI units.
+
+use super::super::EndAngles;
+use super::super::on_pulley::Integrals;
+use super::checks::{Checked, polar, rim};
+use super::contacts::{Touching, idle_profile};
+use super::plane::Laid;
+use super::problem::FLOW;
+use super::rest::{Known, Rest, RestProblem};
+use super::rest_guess::RestNear;
+use super::solve::{Search, Solved};
+use super::tensioner::{held, length_derivatives};
+use crate::drive::belt_loop::{Duty, Mount};
+use crate::flat::belt_loop::{
+    Contacts, DEFLECTION, GrooveState, LoopConvergence, LoopError, LoopState, PulleyState,
+    SpanState, TensionerState, first_frequency, rest_frequency,
+};
+use crate::{FrictionLaw, Profile, Zone, ZoneKind};
+
+/// A solved loop with what follows from its solution at once.
+struct Seen<'a> {
+    solved: &'a Solved,
+    rest: &'a Rest,
+    laid: Laid<f64>,
+    ends: Vec<EndAngles<f64>>,
+    touching: Vec<Touching<'a>>,
+    integrals: Vec<Integrals>,
+    /// Tractive tension of each span, scaled.
+    tractive: Vec<f64>,
+    /// Scaled angular speeds.
+    omegas: Vec<f64>,
+    /// Wraps, rad.
+    wraps: Vec<f64>,
+    coordinate: f64,
+    flow: f64,
+}
+
+impl<'a> Seen<'a> {
+    fn new(solved: &'a Solved, rest: &'a Rest) -> Self {
+        let problem = &solved.problem;
+        let p = solved.solution.parameters();
+        let count = problem.seats.len();
+        let (ends, tractive) = solved.with_ends(|at, _| {
+            let tractive: Vec<_> = (0..count).map(|span| problem.leaving(span, at)).collect();
+            (problem.end_angles(at), tractive)
+        });
+        let coordinate = problem.coordinate(p);
+        let laid = problem.plane.lay(coordinate, &ends);
+        let touching: Vec<_> = (0..count)
+            .map(|pulley| solved.touching(pulley, laid.turned[pulley]))
+            .collect();
+        let integrals = touching.iter().map(|touching| match touching {
+            Touching::Groove(on) => on.integrate(),
+            Touching::Back(on) => on.integrate(),
+            Touching::Idle(_) => Integrals::default(),
+        });
+        let strand = problem.units.strand();
+        let omegas = (0..count).map(|pulley| match problem.segment(pulley) {
+            Some(segment) => problem.omega(segment, p),
+            None => strand.speed(strand.tension(tractive[pulley], p[FLOW]), p[FLOW]),
+        });
+        let wraps = touching.iter().map(|touching| match touching {
+            Touching::Groove(on) => on.exit()[super::super::ANGLE],
+            Touching::Back(on) => on.wrap(),
+            Touching::Idle(wrap) => *wrap,
+        });
+        Self {
+            integrals: integrals.collect(),
+            omegas: omegas.collect(),
+            wraps: wraps.collect(),
+            flow: p[FLOW],
+            solved,
+            rest,
+            laid,
+            ends,
+            touching,
+            tractive,
+            coordinate,
+        }
+    }
+
+    /// Tractive tensions behind and before a pulley, scaled.
+    fn around(&self, pulley: usize) -> [f64; 2] {
+        let behind = self.solved.problem.plane.arriving(pulley);
+        [behind, pulley].map(|span| self.tractive[span])
+    }
+
+    /// Belt tension of a span, scaled.
+    fn tension(&self, span: usize) -> f64 {
+        let strand = self.solved.problem.units.strand();
+        strand.tension(self.tractive[span], self.flow)
+    }
+
+    fn pulley(&self, search: &Search<'_>, pulley: usize) -> PulleyState {
+        let stated = &search.belt_loop.pulleys[pulley];
+        let problem = &self.solved.problem;
+        let units = problem.units;
+        let angular_speed = match stated.duty {
+            Duty::Driver(speed) => speed,
+            _ => self.omegas[pulley] * units.angular_speed(stated.radius),
+        };
+        let [behind, before] = self.around(pulley);
+        let EndAngles { entry, exit } = self.ends[pulley];
+        let torque = match stated.duty {
+            Duty::Torque(torque) => torque,
+            _ => (before * exit.cos() - behind * entry.cos()) * units.torque(stated.radius),
+        };
+        let zones = self.zones(pulley);
+        let arc_of = |slips: bool| {
+            let zones = zones
+                .iter()
+                .filter(|zone| (zone.kind == ZoneKind::Slip) == slips);
+            // An empty sum is −0.
+            zones.map(|zone| zone.to - zone.from).sum::<f64>() + 0.0
+        };
+        let force = |load: [f64; 2], unit: f64| load.map(|part| part * unit);
+        let plane = &problem.plane;
+        PulleyState {
+            name: stated.name.clone(),
+            centre: self.centre(search, pulley, self.coordinate),
+            angular_speed,
+            torque,
+            power: torque * angular_speed,
+            wrap: self.wraps[pulley],
+            rest_wrap: self.rest.wraps[pulley],
+            no_slip_arc: arc_of(false),
+            slip_arc: arc_of(true),
+            zones,
+            entry_strain: None,
+            reference_tension: None,
+            hub_load: force(
+                self.laid.hub_load(plane, pulley, [behind, before]),
+                units.force,
+            ),
+            rest_hub_load: force(
+                self.rest.laid.hub_load(plane, pulley, [1.0; 2]),
+                self.rest.tension,
+            ),
+            speed_loss: 1.0 - self.omegas[pulley],
+            friction_loss: self.integrals[pulley].friction * units.power(),
+            friction_utilisation: None,
+            torque_capacity: None,
+            torque_margin: None,
+            groove: self.groove(pulley),
+        }
+    }
+
+    fn centre(&self, search: &Search<'_>, pulley: usize, coordinate: f64) -> [f64; 2] {
+        match &search.belt_loop.pulleys[pulley].mount {
+            Mount::Fixed(centre) => *centre,
+            Mount::Tensioner(tensioner) => tensioner.guide.centre(coordinate)[0],
+        }
+    }
+
+    fn groove(&self, pulley: usize) -> Option<GrooveState> {
+        let Touching::Groove(on) = &self.touching[pulley] else {
+            return None;
+        };
+        let EndAngles { entry, exit } = self.ends[pulley];
+        let deepest = self
+            .profile(pulley)
+            .penetration
+            .into_iter()
+            .fold(0.0, f64::max);
+        Some(GrooveState {
+            inclination: [entry, exit],
+            max_penetration: deepest,
+            transverse_loss: self.integrals[pulley].stored * on.units.power(),
+        })
+    }
+
+    fn zones(&self, pulley: usize) -> Vec<Zone> {
+        match &self.touching[pulley] {
+            Touching::Groove(on) => on.friction_zones(),
+            Touching::Back(on) => on.zones(),
+            Touching::Idle(wrap) => vec![Zone {
+                kind: ZoneKind::Adhesion,
+                from: 0.0,
+                to: *wrap,
+            }],
+        }
+    }
+
+    fn profile(&self, pulley: usize) -> Profile {
+        let force = self.solved.problem.units.force;
+        match &self.touching[pulley] {
+            Touching::Groove(on) => on.profile(),
+            Touching::Back(on) => on.profile(),
+            Touching::Idle(wrap) => idle_profile(
+                *wrap,
+                self.solved.problem.plane.spots[pulley].radius,
+                self.tension(pulley) * force,
+                self.tractive[pulley] * force,
+            ),
+        }
+    }
+
+    fn span(&self, search: &mut Search<'_>, at_rest: &RestProblem, span: usize) -> SpanState {
+        let units = self.solved.problem.units;
+        let belt = search.belt_loop.belt;
+        let tension = self.tension(span) * units.force;
+        let tractive = self.tractive[span] * units.force;
+        let speed = units.strand().speed(self.tension(span), self.flow) * units.speed;
+        let flow = self.flow * units.mass_flow();
+        let length = self.laid.lengths[span];
+        let rest_length = self.rest.laid.lengths[span];
+        let deflection = DEFLECTION * rest_length;
+        SpanState {
+            length,
+            direction: self.laid.directions[span].rem_euclid(std::f64::consts::TAU),
+            tension,
+            tractive_tension: tractive,
+            speed,
+            frequency: first_frequency(length, tractive, tension, speed, flow),
+            rest_length,
+            rest_frequency: rest_frequency(rest_length, self.rest.tension, &belt),
+            deflection,
+            deflection_force: self.deflection_force(search, at_rest, span, deflection),
+        }
+    }
+
+    /// Force across a span of the belt at rest that displaces its midpoint, N.
+    fn deflection_force(
+        &self,
+        search: &mut Search<'_>,
+        at_rest: &RestProblem,
+        span: usize,
+        deflection: f64,
+    ) -> Option<f64> {
+        let rest = self.rest;
+        let plane = &self.solved.problem.plane;
+        let (direction, spot) = (rest.laid.directions[span], plane.spots[span]);
+        let centre = self.centre(search, span, rest.coordinate);
+        let begin = rim(
+            centre,
+            spot.radius,
+            polar(direction, spot.turns, rest.exits[span]),
+        );
+        let [along, inward] = [
+            0.0,
+            0.5 * std::f64::consts::PI * search.belt_loop.sense.sign(),
+        ]
+        .map(|turned| direction + turned);
+        let middle = rim(begin, 0.5 * rest.laid.lengths[span], along);
+        let point = rim(middle, deflection, inward);
+        let problem = at_rest.clone().with(Known::Length(rest.unstretched));
+        let problem = problem.deflected(span, point, rest.coordinate);
+        let guess = RestNear {
+            problem: &problem,
+            rest,
+            first_length: at_rest.first_length(),
+        };
+        let found = problem
+            .solve(&guess, search.tolerance, &mut search.cost)
+            .ok()?;
+        if found.wraps.iter().any(|&wrap| wrap <= 0.0) {
+            return None;
+        }
+        let pull = found
+            .laid
+            .hub_load(&problem.plane, span + 1, [found.tension; 2]);
+        let (sine, cosine) = inward.sin_cos();
+        Some(-(pull[0] * cosine + pull[1] * sine))
+    }
+
+    fn tensioner(
+        &self,
+        search: &mut Search<'_>,
+        at_rest: &RestProblem,
+    ) -> Result<Option<TensionerState>, LoopError> {
+        let Some((pulley, tensioner)) = search.belt_loop.tensioner() else {
+            return Ok(None);
+        };
+        let plane = &self.solved.problem.plane;
+        let lost = LoopError::NotFound {
+            what: "stiffness of the belt at rest",
+        };
+        let belt = search.stiffness(at_rest, self.rest).ok_or(lost)?;
+        let carried = (pulley, tensioner);
+        let tractive = self.tractive[pulley] * self.solved.problem.units.force;
+        let running = held(plane, &self.laid, carried, self.coordinate, tractive, belt);
+        let rest = self.rest;
+        let at_rest = held(
+            plane,
+            &rest.laid,
+            carried,
+            rest.coordinate,
+            rest.tension,
+            belt,
+        );
+        for (held, which) in [(&running, "under load"), (&at_rest, "at rest")] {
+            if held.stiffness.is_nan() || held.stiffness <= 0.0 {
+                return Err(LoopError::NoEquilibrium {
+                    pulley: search.belt_loop.pulleys[pulley].name.clone(),
+                    which,
+                });
+            }
+        }
+        Ok(Some(TensionerState {
+            pulley,
+            coordinate: self.coordinate,
+            rest_coordinate: rest.coordinate,
+            load: tensioner.load_at(self.coordinate)[0],
+            length_derivatives: length_derivatives(plane, &self.laid, carried, self.coordinate),
+            stiffness: running.stiffness,
+            rest_stiffness: at_rest.stiffness,
+            constant: running.constant,
+            rest_constant: at_rest.constant,
+        }))
+    }
+}
+
+/// The answer, if it passes its checks.
+pub(super) fn state(
+    search: &mut Search<'_>,
+    rest: &Rest,
+    at_rest: &RestProblem,
+    solved: &Solved,
+) -> Result<LoopState, LoopError> {
+    let seen = Seen::new(solved, rest);
+    let belt_loop = search.belt_loop;
+    let checks = Checked {
+        solved,
+        laid: &seen.laid,
+        ends: &seen.ends,
+        touching: &seen.touching,
+        integrals: &seen.integrals,
+        tractive: &seen.tractive,
+        omegas: &seen.omegas,
+        wraps: &seen.wraps,
+        tolerance: search.tolerance,
+    };
+    let checks = checks.all();
+    if let Some(violated) = checks.iter().find(|check| check.is_violated()) {
+        return Err(LoopError::Violated(violated.clone()));
+    }
+    let count = belt_loop.pulleys.len();
+    let pulleys: Vec<_> = (0..count)
+        .map(|pulley| seen.pulley(search, pulley))
+        .collect();
+    let powers = pulleys.iter().map(|pulley| pulley.power);
+    let [power_in, power_out] = powers.fold([0.0, 0.0], |[input, output], power| {
+        [input + (-power).max(0.0), output + power.max(0.0)]
+    });
+    let spans = (0..count)
+        .map(|span| seen.span(search, at_rest, span))
+        .collect();
+    let tensioner = seen.tensioner(search, at_rest)?;
+    let length = solved.with_ends(|at, p| solved.problem.lengths(at, p))[1];
+    let units = solved.problem.units;
+    let meshes = 0..solved.problem.pulley_of.len();
+    Ok(LoopState {
+        layout: belt_loop.layout(seen.coordinate)?,
+        rest_layout: belt_loop.layout(rest.coordinate)?,
+        unstretched_speed: seen.flow * units.speed,
+        mass_flow: seen.flow * units.mass_flow(),
+        length,
+        unstretched_length: rest.unstretched,
+        rest_tension: rest.tension,
+        power_in,
+        power_out,
+        power_loss: pulleys.iter().map(|pulley| pulley.friction_loss).sum(),
+        efficiency: (power_in > 0.0).then(|| power_out / power_in),
+        spans,
+        pulleys,
+        tensioner,
+        load_limit: None,
+        convergence: Some(LoopConvergence {
+            tolerance: search.tolerance,
+            error_estimate: solved.solution.error_estimate().unwrap_or(f64::INFINITY),
+            defect: solved.solution.defect(),
+            mesh_intervals: meshes
+                .map(|segment| solved.solution.mesh(segment).len() - 1)
+                .sum(),
+            newton_steps: search.cost.newton_steps,
+            problems: search.cost.problems,
+            slip_normalisation: match belt_loop.law {
+                FrictionLaw::Bristle { .. } => 0.0,
+                _ => solved.problem.epsilon(),
+            },
+            slip_normalisation_effect: search.epsilon_effect,
+        }),
+        checks,
+        contacts: Contacts::V((0..count).map(|pulley| seen.profile(pulley)).collect()),
+    })
+}

@@ -1,0 +1,597 @@
+//! V-belts round n pulleys: against the drive with two pulleys, invariants, symmetries and random loops.
+
+use beltdrive::belt_loop::{
+    BeltLoop, Closure, Duty, Guide, LoopError, LoopPulley, LoopState, Mount, Sense, Side,
+    Tensioner, TensionerLoad, load_limit, solve, solve_to,
+};
+use beltdrive::{Belt, BeltKind, Drive, FrictionLaw, SolveOptions, VBelt, examples, input};
+
+fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> LoopPulley {
+    LoopPulley {
+        name: name.to_owned(),
+        mount: Mount::Fixed(centre),
+        radius,
+        side,
+        friction_coefficient: 0.4,
+        half_angle: None,
+        duty,
+    }
+}
+
+/// The drive of the thesis with a friction law and a tight tractive tension in N.
+fn thesis(law: &str, tight: f64) -> Drive {
+    let text = examples::find("kim2009").expect("a shipped example").text;
+    let overrides = [
+        format!("friction.law={law}"),
+        format!("load.tight_tractive_tension={tight} N"),
+    ];
+    input::parse("kim2009.toml", text, &overrides).expect("a valid drive file")
+}
+
+/// A drive as a loop with the torque of its steady state.
+fn as_loop(drive: &Drive, torque: f64) -> BeltLoop {
+    let inside = Side::Inside;
+    let driven = [drive.centre_distance, 0.0];
+    let mut pulleys = vec![
+        pulley(
+            "driver",
+            [0.0; 2],
+            drive.driver_radius,
+            inside,
+            Duty::Driver(drive.driver_speed),
+        ),
+        pulley(
+            "driven",
+            driven,
+            drive.driven_radius,
+            inside,
+            Duty::Torque(torque),
+        ),
+    ];
+    for pulley in &mut pulleys {
+        pulley.friction_coefficient = drive.friction_coefficient;
+    }
+    BeltLoop {
+        title: None,
+        belt: drive.belt,
+        law: drive.law,
+        sense: Sense::CounterClockwise,
+        turning_number: 1,
+        pulleys,
+        closure: Closure::SpanTractiveTension {
+            span: 0,
+            tension: drive.load.slack.value(),
+        },
+    }
+}
+
+fn close(name: &str, found: f64, known: f64, tolerance: f64) {
+    let deviation = (found - known).abs() / (1.0 + known.abs());
+    assert!(
+        deviation <= tolerance,
+        "{name}: {found} and {known}, {deviation:e}"
+    );
+}
+
+#[test]
+fn two_pulleys_are_the_drive_with_two_pulleys() {
+    let options = SolveOptions { tolerance: 1e-8 };
+    for (law, tight, tolerance) in [
+        ("bristle", 105.0, 1e-8),
+        ("bristle", 700.0, 1e-8),
+        ("bristle", 3000.0, 1e-8),
+        ("coulomb", 400.0, 1e-7),
+        ("coulomb", 700.0, 1e-7),
+        ("coulomb", 3000.0, 1e-7),
+    ] {
+        let drive = thesis(law, tight);
+        let known = beltdrive::solve(&drive, &options).unwrap();
+        let belt_loop = as_loop(&drive, known.driven.torque);
+        let state = solve_to(&belt_loop, &options);
+        let state = state.unwrap_or_else(|error| panic!("{law} {tight}: {error}"));
+        let work = state.convergence.as_ref().unwrap();
+        println!(
+            "{law} {tight}: {} Newton steps, {} problems",
+            work.newton_steps, work.problems
+        );
+        let [driver, driven] = &state.pulleys[..] else {
+            panic!("two pulleys")
+        };
+        let name = format!("{law} {tight}");
+        let close = |what: &str, found: f64, known: f64| {
+            close(&format!("{name} {what}"), found, known, tolerance);
+        };
+        close("w", driven.angular_speed, known.driven.angular_speed);
+        close(
+            "F",
+            state.spans[1].tractive_tension,
+            known.tight_tractive_tension,
+        );
+        close("T", state.spans[0].tension, known.slack_tension);
+        close("G", state.mass_flow, known.mass_flow);
+        close("M", -driver.torque, known.driver.torque);
+        close("L0", state.unstretched_length, known.belt_length);
+        close("span", state.spans[0].length, known.slack_span);
+        close("efficiency", state.efficiency.unwrap(), known.efficiency);
+        close("loss", 1e-3 * state.power_loss, 1e-3 * known.friction_loss);
+        for (pulley, known) in [(driver, &known.driver), (driven, &known.driven)] {
+            let groove = pulley.groove.as_ref().unwrap();
+            close("wrap", pulley.wrap, known.wrap_angle);
+            close("entry", groove.inclination[0], known.inclination[0]);
+            close("exit", groove.inclination[1], known.inclination[1]);
+            // The deepest of points that depend on the mesh.
+            let deepest = groove.max_penetration / known.max_penetration;
+            assert!((deepest - 1.0).abs() < 1e-4, "{name} {deepest}");
+        }
+    }
+}
+
+/// A V-belt of the size of cars: driver, alternator, water pump on the back of the belt.
+fn accessories(closure: Closure) -> BeltLoop {
+    let inside = Side::Inside;
+    let mut belt_loop = BeltLoop {
+        title: None,
+        belt: Belt {
+            mass_per_length: 0.1,
+            axial_stiffness: 60e3,
+            ribs: 1,
+            kind: BeltKind::V(VBelt {
+                radial_stiffness: 3e7,
+                half_angle: 18_f64.to_radians(),
+                height: None,
+            }),
+        },
+        law: FrictionLaw::Bristle { stiffness: 1500.0 },
+        sense: Sense::Clockwise,
+        turning_number: 1,
+        pulleys: vec![
+            pulley("driver", [0.0, 0.0], 0.08, inside, Duty::Driver(200.0)),
+            pulley("alternator", [-0.15, 0.3], 0.035, inside, Duty::Torque(4.0)),
+            pulley("fan", [0.2, 0.35], 0.06, inside, Duty::Torque(8.0)),
+        ],
+        closure,
+    };
+    belt_loop.pulleys[1].half_angle = Some(17_f64.to_radians());
+    belt_loop
+}
+
+/// The same with an idler on a sprung arm on its back.
+fn tensioned(closure: Closure) -> BeltLoop {
+    let mut belt_loop = accessories(closure);
+    let mut idler = pulley("idler", [0.0; 2], 0.03, Side::Outside, Duty::Torque(0.0));
+    idler.mount = Mount::Tensioner(Tensioner {
+        guide: Guide::Rotary {
+            pivot: [0.18, 0.27],
+            arm_length: 0.1,
+        },
+        load: TensionerLoad::Spring {
+            stiffness: 40.0,
+            free_coordinate: 4.3,
+        },
+        start_coordinate: 4.7,
+        travel: None,
+    });
+    belt_loop.pulleys.push(idler);
+    belt_loop
+}
+
+/// A loop with another law.
+fn with_law(mut belt_loop: BeltLoop, law: FrictionLaw) -> BeltLoop {
+    belt_loop.law = law;
+    belt_loop
+}
+
+/// Numbers that do not depend on where the loop begins and how the plane lies, in belt order from the driver.
+fn numbers(belt_loop: &BeltLoop, state: &LoopState) -> Vec<f64> {
+    let count = belt_loop.pulleys.len();
+    let mut pulleys = belt_loop.pulleys.iter();
+    let driver = pulleys.position(|pulley| matches!(pulley.duty, Duty::Driver(_)));
+    let mut numbers = vec![
+        state.mass_flow,
+        state.unstretched_length,
+        state.rest_tension,
+        state.power_in,
+        state.power_loss,
+    ];
+    for step in 0..count {
+        let index = (driver.unwrap() + step) % count;
+        let (pulley, span) = (&state.pulleys[index], &state.spans[index]);
+        let [x, y] = pulley.hub_load;
+        numbers.extend([
+            pulley.angular_speed,
+            pulley.torque,
+            pulley.wrap,
+            pulley.rest_wrap,
+            pulley.friction_loss,
+            x.hypot(y),
+            span.tension,
+            span.tractive_tension,
+            span.length,
+            span.frequency,
+            span.deflection_force.unwrap(),
+        ]);
+    }
+    if let Some(tensioner) = &state.tensioner {
+        numbers.extend([tensioner.stiffness, tensioner.rest_constant]);
+    }
+    numbers
+}
+
+fn agree(name: &str, one: &[f64], other: &[f64], tolerance: f64) {
+    assert_eq!(one.len(), other.len());
+    for (index, (&one, &other)) in one.iter().zip(other).enumerate() {
+        close(&format!("{name}, number {index}"), one, other, tolerance);
+    }
+}
+
+#[test]
+fn nothing_depends_on_where_the_loop_begins_and_how_the_plane_lies() {
+    for belt_loop in [
+        accessories(Closure::SetupTension(500.0)),
+        tensioned(Closure::SetupTension(500.0)),
+        tensioned(Closure::RestCoordinate(4.7)),
+    ] {
+        let known = numbers(&belt_loop, &solve(&belt_loop).unwrap());
+        for first in 1..belt_loop.pulleys.len() {
+            let mut turned = belt_loop.clone();
+            turned.pulleys.rotate_left(first);
+            let state = solve(&turned).unwrap();
+            agree("turned", &numbers(&turned, &state), &known, 2e-6);
+        }
+        let mut mirrored = belt_loop.clone();
+        mirrored.sense = Sense::CounterClockwise;
+        let mirror = |angle: f64| std::f64::consts::PI - angle;
+        for pulley in &mut mirrored.pulleys {
+            match &mut pulley.mount {
+                Mount::Fixed([x, _]) => *x = -*x,
+                Mount::Tensioner(tensioner) => {
+                    let Guide::Rotary { pivot: [x, _], .. } = &mut tensioner.guide else {
+                        panic!("an arm")
+                    };
+                    *x = -*x;
+                    tensioner.start_coordinate = mirror(tensioner.start_coordinate);
+                    let TensionerLoad::Spring {
+                        free_coordinate, ..
+                    } = &mut tensioner.load
+                    else {
+                        panic!("a spring")
+                    };
+                    *free_coordinate = mirror(*free_coordinate);
+                }
+            }
+        }
+        if let Closure::RestCoordinate(coordinate) = &mut mirrored.closure {
+            *coordinate = mirror(*coordinate);
+        }
+        let state = solve(&mirrored).unwrap();
+        agree("mirrored", &numbers(&mirrored, &state), &known, 2e-6);
+    }
+}
+
+#[test]
+fn the_error_falls_with_the_tolerance() {
+    for belt_loop in [
+        accessories(Closure::SetupTension(500.0)),
+        tensioned(Closure::SpanTension {
+            span: 2,
+            tension: 500.0,
+        }),
+    ] {
+        let at = |tolerance: f64| {
+            let state = solve_to(&belt_loop, &SolveOptions { tolerance }).unwrap();
+            assert!(state.convergence.as_ref().unwrap().error_estimate <= tolerance);
+            numbers(&belt_loop, &state)
+        };
+        let known = at(1e-11);
+        for tolerance in [1e-4, 1e-6, 1e-8] {
+            agree(
+                &format!("{tolerance:e}"),
+                &at(tolerance),
+                &known,
+                3.0 * tolerance,
+            );
+        }
+    }
+}
+
+/// Regression in the work of cold starts.
+#[test]
+fn cold_starts_take_few_newton_steps() {
+    for (belt_loop, most) in [
+        (accessories(Closure::SetupTension(500.0)), 40),
+        (accessories(Closure::UnstretchedLength(1.455)), 40),
+        (tensioned(Closure::SetupTension(500.0)), 56),
+    ] {
+        let state = solve(&belt_loop).unwrap();
+        let work = state.convergence.unwrap();
+        println!(
+            "{} Newton steps, {} problems",
+            work.newton_steps, work.problems
+        );
+        assert!(work.newton_steps <= most, "{} of {most}", work.newton_steps);
+        assert!(state.checks.len() > 8);
+    }
+}
+
+/// The closures are different questions about the same loop.
+#[test]
+fn one_loop_by_every_closure() {
+    let closure = Closure::SetupTension(500.0);
+    let known = solve(&tensioned(closure)).unwrap();
+    let numbers_of = |closure: Closure| {
+        let belt_loop = tensioned(closure);
+        numbers(&belt_loop, &solve(&belt_loop).unwrap())
+    };
+    let reference = numbers_of(closure);
+    let span = &known.spans[1];
+    for closure in [
+        Closure::UnstretchedLength(known.unstretched_length),
+        Closure::RestCoordinate(known.tensioner.as_ref().unwrap().rest_coordinate),
+        Closure::SpanTension {
+            span: 1,
+            tension: span.tension,
+        },
+        Closure::SpanTractiveTension {
+            span: 1,
+            tension: span.tractive_tension,
+        },
+    ] {
+        agree(
+            &format!("{closure:?}"),
+            &numbers_of(closure),
+            &reference,
+            1e-5,
+        );
+    }
+}
+
+/// Power instead of torque.
+#[test]
+fn a_power_is_a_torque_at_the_speed_of_its_pulley() {
+    let belt_loop = accessories(Closure::SetupTension(500.0));
+    let known = solve(&belt_loop).unwrap();
+    let mut powered = belt_loop.clone();
+    for index in [1, 2] {
+        powered.pulleys[index].duty = Duty::Power(known.pulleys[index].power);
+    }
+    let state = solve(&powered).unwrap();
+    agree(
+        "power",
+        &numbers(&powered, &state),
+        &numbers(&belt_loop, &known),
+        2e-6,
+    );
+}
+
+/// Below the limit of the load there is a state, above it there is none, and that is said.
+#[test]
+fn a_load_beyond_the_limit_is_refused_with_the_limit() {
+    let mut drive = as_loop(&thesis("bristle", 700.0), 140.0);
+    drive.closure = Closure::SetupTension(400.0);
+    let loops = [
+        accessories(Closure::SetupTension(300.0)),
+        tensioned(Closure::SetupTension(200.0)),
+        drive,
+    ];
+    for belt_loop in loops {
+        let options = SolveOptions::default();
+        let limit = load_limit(&belt_loop, &options).unwrap().unwrap();
+        println!("limit {limit:?}");
+        let at = |share: f64| {
+            let mut scaled = belt_loop.clone();
+            for pulley in &mut scaled.pulleys {
+                if let Duty::Torque(torque) = &mut pulley.duty {
+                    *torque *= share * limit.factor;
+                }
+            }
+            solve(&scaled)
+        };
+        let below = at(0.995).unwrap();
+        assert!(
+            below
+                .pulleys
+                .iter()
+                .all(|pulley| pulley.angular_speed > 0.0)
+        );
+        for share in [1.005, 1.5, 20.0] {
+            match at(share).expect_err("more than the loop carries") {
+                LoopError::Overloaded {
+                    pulley,
+                    load_factor,
+                    ..
+                } => {
+                    close("load factor", load_factor * share, 1.0, 1e-3);
+                    assert_eq!(pulley, belt_loop.pulleys[limit.pulley].name);
+                }
+                error => panic!("{share}: {error}"),
+            }
+        }
+    }
+}
+
+/// A stiff belt in a wide groove does not sink, and its faces press like a flat belt that is rougher by
+/// 1/sin β: the flat loop is the limit.
+#[test]
+fn a_stiff_belt_in_a_wide_groove_tends_to_the_flat_belt() {
+    let half_angle = 60_f64.to_radians();
+    let belt_loop = with_law(
+        accessories(Closure::SetupTension(500.0)),
+        FrictionLaw::Coulomb,
+    );
+    let mut flat = belt_loop.clone();
+    flat.belt.kind = BeltKind::Flat {
+        normal_force: beltdrive::NormalForce::Inertia,
+    };
+    for pulley in &mut flat.pulleys {
+        pulley.half_angle = None;
+        pulley.friction_coefficient /= half_angle.sin();
+    }
+    let flat = solve(&flat).unwrap();
+    let mut last = f64::INFINITY;
+    for stiffness in [3e6, 3e7, 3e8] {
+        let mut belt_loop = belt_loop.clone();
+        belt_loop.pulleys[1].half_angle = None;
+        belt_loop.law = FrictionLaw::Bristle { stiffness: 3e4 };
+        belt_loop.belt.kind = BeltKind::V(VBelt {
+            radial_stiffness: stiffness,
+            half_angle,
+            height: None,
+        });
+        let state = solve(&belt_loop).unwrap();
+        let pairs = state.spans.iter().zip(&flat.spans);
+        let tensions = pairs.map(|(v, flat)| (v.tension / flat.tension - 1.0).abs());
+        let pulleys = state.pulleys.iter().zip(&flat.pulleys);
+        let speeds = pulleys.map(|(v, flat)| (v.speed_loss - flat.speed_loss).abs() * 10.0);
+        let deviation = tensions.chain(speeds).fold(0.0, f64::max);
+        println!("{stiffness:e}: {deviation:e}");
+        assert!(deviation < 0.5 * last);
+        last = deviation;
+    }
+    assert!(last < 0.02, "{last}");
+}
+
+#[test]
+fn statements_out_of_range_are_refused() {
+    let refused = |change: &dyn Fn(&mut BeltLoop)| {
+        let mut belt_loop = tensioned(Closure::SetupTension(500.0));
+        change(&mut belt_loop);
+        solve(&belt_loop)
+            .expect_err("a statement out of range")
+            .to_string()
+    };
+    let outside = refused(&|belt_loop| belt_loop.pulleys[3].half_angle = Some(0.3));
+    assert!(
+        outside.contains("idler") && outside.contains("groove"),
+        "{outside}"
+    );
+    let steep = refused(&|belt_loop| belt_loop.pulleys[1].half_angle = Some(1.6));
+    assert!(steep.contains("alternator"), "{steep}");
+    let soft = refused(&|belt_loop| {
+        let BeltKind::V(belt) = &mut belt_loop.belt.kind else {
+            panic!("a V-belt")
+        };
+        belt.radial_stiffness = 1e6;
+    });
+    assert!(soft.contains("pressed through the groove"), "{soft}");
+    let slack = refused(&|belt_loop| belt_loop.closure = Closure::UnstretchedLength(2.0));
+    assert!(
+        slack.contains("slack") || slack.contains("idler"),
+        "{slack}"
+    );
+    let tolerance = SolveOptions { tolerance: 0.1 };
+    let tolerance = solve_to(&accessories(Closure::SetupTension(500.0)), &tolerance);
+    assert!(matches!(tolerance, Err(LoopError::Tolerance { .. })));
+}
+
+/// Numbers between 0 and 1 (Marsaglia, Xorshift RNGs, J. Stat. Softw. 8, 2003).
+struct Random(u64);
+
+impl Random {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        low + (high - low) * (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+/// Three or four pulleys; of four one presses on the back, on a spring half of the times.
+fn random_loop(random: &mut Random) -> BeltLoop {
+    let mut belt_loop = match random.between(0.0, 2.0) < 1.0 {
+        true => accessories(Closure::SetupTension(1.0)),
+        false => tensioned(Closure::SetupTension(1.0)),
+    };
+    belt_loop.law = FrictionLaw::Bristle {
+        stiffness: random.between(5.0, 8.5).exp(),
+    };
+    belt_loop.closure = match random.between(0.0, 3.0) {
+        choice if choice < 2.0 => Closure::SetupTension(random.between(4.0, 7.2).exp()),
+        _ => Closure::SpanTension {
+            span: usize::from(choice_of_two(random)),
+            tension: random.between(4.0, 7.0).exp(),
+        },
+    };
+    let driver = belt_loop.pulleys.len() > 3 && random.between(0.0, 1.0) < 0.3;
+    for (index, pulley) in belt_loop.pulleys.iter_mut().enumerate() {
+        pulley.friction_coefficient = random.between(0.2, 0.7);
+        match &mut pulley.mount {
+            Mount::Fixed(centre) => {
+                for part in centre {
+                    *part += random.between(-0.03, 0.03);
+                }
+                pulley.radius *= random.between(0.7, 1.3);
+                if let Duty::Torque(torque) = &mut pulley.duty {
+                    *torque *= random.between(-0.3, 1.5);
+                }
+            }
+            Mount::Tensioner(tensioner) => {
+                if random.between(0.0, 1.0) < 0.4 {
+                    let [x, y] = [0.18 + random.between(-0.01, 0.01), 0.17];
+                    pulley.mount = Mount::Fixed([x, y]);
+                    pulley.duty = Duty::Torque(random.between(0.0, 3.0));
+                } else {
+                    tensioner.start_coordinate = random.between(4.5, 4.8);
+                }
+            }
+        }
+        if driver && index == 1 {
+            pulley.half_angle = Some(random.between(0.25, 0.5));
+        }
+    }
+    belt_loop
+}
+
+fn choice_of_two(random: &mut Random) -> bool {
+    random.between(0.0, 1.0) < 0.5
+}
+
+#[test]
+fn random_loops_are_solved_or_refused_for_a_reason() {
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let mut solved = 0;
+    let mut reasons = std::collections::BTreeMap::new();
+    for _ in 0..LOOPS {
+        let belt_loop = random_loop(&mut random);
+        match solve(&belt_loop) {
+            Ok(state) => {
+                solved += 1;
+                let text = format!("{state:?}");
+                assert!(
+                    !text.contains("NaN") && !text.contains("inf,"),
+                    "{belt_loop:?}"
+                );
+                for (pulley, stated) in state.pulleys.iter().zip(&belt_loop.pulleys) {
+                    if let Duty::Torque(torque) = stated.duty {
+                        close("M", pulley.torque, torque, 1e-12);
+                    }
+                    assert!(pulley.friction_loss >= -1e-6 * state.power_in.max(1.0));
+                }
+                let balance = state.power_in - state.power_out - state.power_loss;
+                let stored = state
+                    .pulleys
+                    .iter()
+                    .filter_map(|pulley| pulley.groove.as_ref());
+                let stored: f64 = stored.map(|groove| groove.transverse_loss).sum();
+                close("power", balance, stored, 1e-4);
+            }
+            Err(error) => {
+                let message = error.to_string();
+                assert!(
+                    !message.contains("NaN") && !message.contains('\n'),
+                    "{message}"
+                );
+                let name = format!("{error:?}");
+                let name = name.split([' ', '(', '{']).next().unwrap_or_default();
+                if name == "NotConverged" || name == "Violated" {
+                    println!("{message}\n{belt_loop:?}");
+                }
+                *reasons.entry(name.to_owned()).or_insert(0) += 1;
+            }
+        }
+    }
+    println!("solved {solved}, refused {reasons:?}");
+    assert!(solved > LOOPS / 3, "{solved} {reasons:?}");
+}
+
+/// Number of random loops.
+const LOOPS: usize = 60;
