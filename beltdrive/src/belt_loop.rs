@@ -96,6 +96,10 @@
 //! # Ok::<(), beltdrive::belt_loop::LoopError>(())
 //! ```
 
+pub use crate::answers::{
+    LoopBranch, LoopEnd, LoopLimit, LoopLimitCurve, LoopLimitPoint, LoopLimits, LoopPoint, Refusal,
+    Varied, limit_curve, limits, trace,
+};
 pub use crate::drive::belt_loop::{
     BeltLoop, Closure, Duty, Guide, LoopPulley, Mount, Tensioner, TensionerLoad,
 };

@@ -97,6 +97,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod answers;
 pub mod belt_loop;
 mod branch;
 mod difficulty;
@@ -107,7 +108,6 @@ pub mod input;
 mod limit_curve;
 mod limits;
 pub mod plot;
-mod possible;
 pub mod quantity;
 pub mod report;
 mod solve;
@@ -121,7 +121,6 @@ pub use branch::{Branch, BranchEnd, BranchEvent, EventKind, TraceConvergence, Tr
 pub use drive::{Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SpanTension, VBelt};
 pub use limit_curve::{LimitCurve, LimitCurvePoint, limit_curve};
 pub use limits::{Limit, LimitReason, Limits, RangeEnd, limits};
-pub use possible::Impossible;
 pub use solve::{SolveError, SolveOptions, solve, solve_from};
 pub use stability::{
     AxialMode, FormStability, LinearisedForm, Onset, PulleyStability, ShapePoint, Stability,

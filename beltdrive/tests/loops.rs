@@ -193,10 +193,9 @@ fn every_example_of_a_loop_is_solved_in_every_form() {
             let points = rows
                 .lines()
                 .filter(|row| row.starts_with(&format!("{name},")));
-            assert_eq!(
-                points.count(),
-                pulley["angle_deg"].as_array().unwrap().len()
-            );
+            let profile = pulley.get("angle_deg");
+            let profile = profile.unwrap_or_else(|| &found["profiles"][name]["angle_deg"]);
+            assert_eq!(points.count(), profile.as_array().unwrap().len());
         }
         for units in ["si", "engineering", "us"] {
             let output = run(&["solve", &example(name), "--units", units]);
@@ -231,4 +230,156 @@ fn what_is_at_fault_decides_the_exit_status() {
     assert!(code == 2 && errors.contains("pulley"), "{errors}");
     let output = run(&["stability", &example("serpentine")]);
     assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn two_pulleys_have_the_keys_of_a_drive_and_those_of_a_loop() {
+    let drive = [
+        "slack_span_m",
+        "driver",
+        "driven",
+        "tension_N",
+        "profiles",
+        "convergence",
+    ];
+    let of_loop = ["pulleys", "spans", "loop"];
+    for name in ["kim2009-bristle", "flat-unequal", "poly-v"] {
+        let found = json(&["solve", &example(name)]);
+        for key in drive.iter().chain(&of_loop) {
+            assert!(found.get(key).is_some(), "{name} {key}");
+        }
+        let [driver, driven] = [0, 1].map(|pulley| &found["pulleys"][pulley]);
+        assert_eq!(driver["name"], "driver");
+        let close = |one: &Value, other: &Value, sign: f64| {
+            let [one, other] = [one, other].map(|value| value.as_f64().unwrap());
+            assert!(
+                (one - sign * other).abs() < 1e-9 * one.abs(),
+                "{name}: {one} {other}"
+            );
+        };
+        close(&driven["torque_N_m"], &found["driven"]["torque_N_m"], 1.0);
+        close(&driver["torque_N_m"], &found["driver"]["torque_N_m"], -1.0);
+        close(
+            &driven["wrap_angle_deg"],
+            &found["driven"]["wrap_angle_deg"],
+            1.0,
+        );
+        close(
+            &found["spans"][0]["tension_N"],
+            &found["tension_N"]["slack"],
+            1.0,
+        );
+        close(&found["loop"]["efficiency"], &found["efficiency"], 1.0);
+        // The forces of the belt on both hubs are in equilibrium.
+        for part in [0, 1] {
+            let [one, other] = [driver, driven].map(|of| of["hub_load_N"][part].as_f64().unwrap());
+            let scale = found["tension_N"]["tight"].as_f64().unwrap();
+            assert!((one + other).abs() < 1e-6 * scale, "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_branch_ends_where_a_pulley_slips() {
+    let file = example("back-side-idler");
+    let range = [
+        "--parameter",
+        "pulley.fan.torque",
+        "--from",
+        "1 N*m",
+        "--to",
+        "90 N*m",
+    ];
+    let found = json(&[&["trace", &file], &range[..]].concat());
+    let points = found["points"].as_array().unwrap();
+    assert_eq!(found["end"]["reason"], "gross slip");
+    let last = points.last().unwrap();
+    // All torques belong to the fan: its limit is that of the load factor.
+    let solved = json(&["solve", &file]);
+    let limit = 20.0 * solved["loop"]["load_factor_limit"].as_f64().unwrap();
+    let torque = last["pulley_fan_torque_N_m"].as_f64().unwrap();
+    assert!((torque / limit - 1.0).abs() < 1e-9, "{torque} {limit}");
+    let limits = json(&["limits", &file]);
+    let factor = limits["largest"]["load_factor"].as_f64().unwrap();
+    assert!((20.0 * factor / limit - 1.0).abs() < 1e-9, "{factor}");
+    assert_eq!(limits["largest"]["reason"], "gross slip");
+    assert_eq!(limits["largest"]["limiting_pulley"], "motor");
+    assert_eq!(limits["smallest"]["reason"], "no load");
+    let over = [
+        "--parameter",
+        "pulley.fan.torque",
+        "--curve",
+        "load.setup_tension",
+    ];
+    let range = ["--from", "250 N", "--to", "300 N"];
+    let curve = json(&[&["trace", &file], &over[..], &range[..]].concat());
+    let first = curve["points"][0]["pulley_fan_torque_N_m"]
+        .as_f64()
+        .unwrap();
+    assert!((first / limit - 1.0).abs() < 1e-9, "{first}");
+    let count = curve["points"].as_array().unwrap().len();
+    assert_eq!(
+        [count, curve["end"]["reason"].as_str().unwrap().len()],
+        [41, 6]
+    );
+}
+
+#[test]
+fn every_number_of_a_loop_has_a_branch_and_limits() {
+    for (name, key, from, to) in [
+        (
+            "serpentine",
+            "tensioner.arm.stiffness",
+            "15 N*m/rad",
+            "30 N*m/rad",
+        ),
+        (
+            "serpentine",
+            "tensioner.arm.rest_angle",
+            "-60 deg",
+            "-50 deg",
+        ),
+        (
+            "serpentine",
+            "pulley.water pump.centre.y",
+            "290 mm",
+            "310 mm",
+        ),
+        (
+            "serpentine",
+            "pulley.crankshaft.diameter",
+            "150 mm",
+            "170 mm",
+        ),
+        ("serpentine", "pulley.alternator.power", "-1 kW", "3 kW"),
+        ("conveyor", "load.belt_length", "19.3 m", "19.4 m"),
+        ("conveyor", "tensioner.slide.weight", "4 kN", "8 kN"),
+        ("back-side-idler", "friction.coefficient", "0.6", "0.8"),
+        ("crossed", "friction.stiffness", "20 N/mm^2", "80 N/mm^2"),
+    ] {
+        let file = example(name);
+        let range = ["--parameter", key, "--from", from, "--to", to];
+        let found = json(&[&["trace", &file], &range[..]].concat());
+        assert_eq!(found["parameter"], key);
+        assert_eq!(found["points"].as_array().unwrap().len(), 41, "{key}");
+        let limits = json(&["limits", &file, "--parameter", key]);
+        for end in ["smallest", "largest"] {
+            assert!(
+                limits[end]["reason"].is_string() && limits[end]["pulleys"].is_array(),
+                "{key}"
+            );
+        }
+    }
+    let output = run(&[
+        "limits",
+        &example("serpentine"),
+        "--parameter",
+        "pulley.alternatr.power",
+    ]);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        errors.contains("did you mean `pulley.alternator.power`?"),
+        "{errors}"
+    );
 }

@@ -5,8 +5,8 @@ use super::origin::Origin;
 use super::output::Output;
 use super::progress::with_bar;
 use super::read::read;
+use beltdrive::SolveOptions;
 use beltdrive::input::DriveFile;
-use beltdrive::{Drive, SolveOptions};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -32,13 +32,6 @@ impl Common {
         let (name, text) = read(&self.file)?;
         let file = DriveFile::read(&name, &text, &self.overrides).map_err(Failure::usage)?;
         Ok((file, Origin::of_drive(name, text)))
-    }
-
-    /// The drive with two pulleys, once it is clear that its results have somewhere to go, and their origin.
-    pub(super) fn drive(&self) -> Result<(Drive, Origin), Failure> {
-        let (file, origin) = self.file()?;
-        let drive = file.drive().map_err(Failure::usage)?;
-        Ok((drive, origin))
     }
 
     /// How steady states are sought.

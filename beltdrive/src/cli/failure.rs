@@ -1,7 +1,7 @@
 //! Why a command fails.
 
 use beltdrive::SolveError;
-use beltdrive::belt_loop::LoopError;
+use beltdrive::belt_loop::{LoopError, Refusal};
 use std::error::Error;
 
 /// Why a command fails: a message for standard error, by exit status.
@@ -31,6 +31,16 @@ impl From<LoopError> for Failure {
                 Self::Usage(format!("error: {error}"))
             }
             _ => Self::Unsolved(format!("error: no steady state: {error}")),
+        }
+    }
+}
+
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        match refusal {
+            Refusal::Loop(error) => Self::from(*error),
+            Refusal::Input(error) => Self::usage(error),
+            Refusal::NoLoop => Self::usage(format!("error: {refusal}")),
         }
     }
 }

@@ -1,7 +1,9 @@
 //! `beltdrive limits`: the smallest and the largest load that a drive carries.
 
-use super::{common::Common, failure::Failure, output::Report, parameter};
-use beltdrive::input::Key;
+use super::{common::Common, failure::Failure, origin::Origin, output::Report, parameter};
+use beltdrive::belt_loop::{self, Varied};
+use beltdrive::input::{DriveFile, Key, Stated};
+use beltdrive::quantity;
 use beltdrive::quantity::UnitSystem;
 use beltdrive::{plot, report};
 use clap::Args;
@@ -18,15 +20,19 @@ Example:
 pub(super) struct Limits {
     #[command(flatten)]
     common: Common,
-    /// Entry of the drive file to look for the limits of, by its dotted path; unless given the load:
-    /// the tight tension or the driven torque
+    /// Entry of the drive file to look for the limits of, by its dotted path; unless given the load: the
+    /// tight tension or the driven torque, and for a loop of pulleys a factor on all torques
     #[arg(long, value_name = "KEY")]
     parameter: Option<String>,
 }
 
 impl Limits {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        let (drive, origin) = self.common.drive()?;
+        let (file, origin) = self.common.file()?;
+        let drive = match file.stated().map_err(Failure::usage)? {
+            Stated::Drive(drive) => drive,
+            Stated::Loop(_) => return self.of_loop(&file, &origin),
+        };
         let key = match &self.parameter {
             Some(value) => parameter::key("--parameter", value, &drive)?,
             None => Key::load(&drive),
@@ -36,6 +42,18 @@ impl Limits {
             .common
             .with_progress(|progress| beltdrive::limits(&drive, &key, &options, progress))?;
         self.common.output.write(&limits, &origin)
+    }
+
+    fn of_loop(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
+        let varied = match &self.parameter {
+            Some(path) => Varied::Key(file.key("--parameter", path).map_err(Failure::usage)?),
+            None => Varied::LoadFactor,
+        };
+        let limits = self
+            .common
+            .with_progress(|progress| belt_loop::limits(file, &varied, progress))?;
+        let answer = quantity::loop_range::limits(&limits);
+        self.common.output.write(&answer, origin)
     }
 }
 

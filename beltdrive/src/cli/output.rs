@@ -3,8 +3,9 @@
 use super::destinations::Destinations;
 use super::failure::Failure;
 use super::origin::Origin;
-use beltdrive::quantity::UnitSystem;
-use beltdrive::{plot, report::write_file};
+use beltdrive::plot;
+use beltdrive::quantity::{Answer, UnitSystem};
+use beltdrive::report::{self, write_file};
 use clap::{Args, ValueEnum};
 use std::{
     io::{self, ErrorKind, Write},
@@ -62,6 +63,24 @@ pub(super) trait Report {
     fn csv(&self) -> String;
     /// Writes the figures with metadata into a directory and lists the files.
     fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error>;
+}
+
+impl Report for Answer {
+    fn table(&self, units: UnitSystem) -> String {
+        report::answer::table(self, units)
+    }
+
+    fn json(&self) -> String {
+        report::answer::json(self)
+    }
+
+    fn csv(&self) -> String {
+        report::answer::csv(self)
+    }
+
+    fn plot(&self, _directory: &Path, _metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
+        Ok(Vec::new())
+    }
 }
 
 impl Output {

@@ -23,12 +23,15 @@ pub(super) fn range(
         let argument = Argument { option, value };
         argument.value(key, drive, free).map_err(Failure::usage)
     });
-    let range = [from?, to?];
-    if range[0] == range[1] {
-        let [from, to] = options.map(|(option, _)| option);
-        return Err(Failure::usage(format!(
+    distinct(options.map(|(option, _)| option), [from?, to?])
+}
+
+/// The range that two options name, if its ends differ.
+pub(super) fn distinct([from, to]: [&str; 2], range: [f64; 2]) -> Result<[f64; 2], Failure> {
+    match range[0] == range[1] {
+        false => Ok(range),
+        true => Err(Failure::usage(format!(
             "error: {from} and {to} are the same value"
-        )));
+        ))),
     }
-    Ok(range)
 }

@@ -3,7 +3,7 @@
 use super::{common::Common, failure::Failure, output::Report};
 use beltdrive::belt_loop::{self, BeltLoop, LoopState};
 use beltdrive::input::Stated;
-use beltdrive::quantity::{Answer, UnitSystem};
+use beltdrive::quantity::{Answer, Group, UnitSystem, two_pulleys};
 use beltdrive::{SteadyState, plot, quantity, report};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -27,10 +27,22 @@ impl Solve {
         match file.stated().map_err(Failure::usage)? {
             Stated::Drive(drive) => {
                 let state = beltdrive::solve(&drive, &self.common.options())?;
-                self.common.output.write(&state, &origin)
+                let groups = two_pulleys::groups(&state);
+                self.common
+                    .output
+                    .write(&SolvedDrive { state, groups }, &origin)
             }
             Stated::Loop(belt_loop) => {
                 let state = belt_loop::solve(&belt_loop)?;
+                // A drive with two pulleys is shown as one.
+                if let Some(drive) = two_pulleys::as_drive(&belt_loop, &state) {
+                    let groups = two_pulleys::of_loop(&belt_loop, &state);
+                    let state = beltdrive::solve(&drive, &self.common.options())?;
+                    return self
+                        .common
+                        .output
+                        .write(&SolvedDrive { state, groups }, &origin);
+                }
                 let solved = SolvedLoop { belt_loop, state };
                 self.common.output.write(&solved, &origin)
             }
@@ -68,20 +80,26 @@ impl Report for SolvedLoop {
     }
 }
 
-impl Report for SteadyState {
-    fn table(&self, _units: UnitSystem) -> String {
-        report::table(self)
+/// The steady state of a drive with two pulleys, and what there is to tell of it as a loop.
+struct SolvedDrive {
+    state: SteadyState,
+    groups: Vec<Group>,
+}
+
+impl Report for SolvedDrive {
+    fn table(&self, units: UnitSystem) -> String {
+        report::table(&self.state, &self.groups, units)
     }
 
     fn json(&self) -> String {
-        report::json(self)
+        report::json(&self.state, &self.groups)
     }
 
     fn csv(&self) -> String {
-        report::csv(self)
+        report::csv(&self.state)
     }
 
     fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_all(self, directory, Some(metadata))
+        plot::write_all(&self.state, directory, Some(metadata))
     }
 }

@@ -1,7 +1,9 @@
 //! `beltdrive trace`: a branch of steady states, or of limits, over one entry of the drive file.
 
 use super::{common::Common, failure::Failure, origin::Origin, output::Report, parameter};
-use beltdrive::input::Key;
+use beltdrive::belt_loop::{self, Varied};
+use beltdrive::input::{DriveFile, FileKey, Key, Stated};
+use beltdrive::quantity;
 use beltdrive::quantity::UnitSystem;
 use beltdrive::{Branch, BranchEnd, Drive, LimitCurve, plot, report};
 use clap::Args;
@@ -18,6 +20,8 @@ row per state.
 A design chart, the largest tight tension for every coefficient of friction from 0.2 to 0.6:
   beltdrive trace kim2009.toml --parameter load.tight_tractive_tension \
     --curve friction.coefficient --from 0.2 --to 0.6 --plot figures";
+
+const SAME: &str = "error: --parameter and --curve are the same entry";
 
 #[derive(Args)]
 #[command(after_help = HELP)]
@@ -40,7 +44,11 @@ pub(super) struct Trace {
 
 impl Trace {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        let (drive, origin) = self.common.drive()?;
+        let (file, origin) = self.common.file()?;
+        let drive = match file.stated().map_err(Failure::usage)? {
+            Stated::Drive(drive) => drive,
+            Stated::Loop(_) => return self.of_loop(&file, &origin),
+        };
         let key = parameter::key("--parameter", &self.parameter, &drive)?;
         match &self.curve {
             None => self.branch(&drive, key, &origin),
@@ -69,8 +77,7 @@ impl Trace {
         origin: &Origin,
     ) -> Result<(), Failure> {
         if second == key {
-            let message = "error: --parameter and --curve are the same entry";
-            return Err(Failure::usage(message));
+            return Err(Failure::usage(SAME));
         }
         let range = self.range(second, Some(key), drive)?;
         let options = self.common.options();
@@ -79,6 +86,43 @@ impl Trace {
         })?;
         self.common.output.write(&curve, origin)?;
         finished(&curve.end)
+    }
+
+    fn of_loop(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
+        let key = |option, path| file.key(option, path).map_err(Failure::usage);
+        let parameter = key("--parameter", &self.parameter)?;
+        let varied = Varied::Key(parameter.clone());
+        let answer = match &self.curve {
+            None => {
+                let range = self.range_of(file, &parameter)?;
+                let branch = self
+                    .common
+                    .with_progress(|progress| belt_loop::trace(file, &varied, range, progress))?;
+                quantity::loop_range::branch(&branch)
+            }
+            Some(path) => {
+                let second = key("--curve", path)?;
+                if second == parameter {
+                    return Err(Failure::usage(SAME));
+                }
+                let range = self.range_of(file, &second)?;
+                let curve = self.common.with_progress(|progress| {
+                    belt_loop::limit_curve(file, &varied, &second, range, progress)
+                })?;
+                quantity::loop_range::limit_curve(&curve)
+            }
+        };
+        self.common.output.write(&answer, origin)
+    }
+
+    /// The range of a number of a loop to be traced over.
+    fn range_of(&self, file: &DriveFile, key: &FileKey) -> Result<[f64; 2], Failure> {
+        let value = |option: &str, text: &str| {
+            let value = file.option_value(option, text, key);
+            value.map_err(Failure::usage)
+        };
+        let range = [value("--from", &self.from)?, value("--to", &self.to)?];
+        parameter::distinct(["--from", "--to"], range)
     }
 
     /// The range of an entry to be traced over, where another one may be free.

@@ -23,6 +23,7 @@ mod diagnostic;
 mod dimension;
 mod document;
 mod file;
+mod file_key;
 mod friction;
 mod key;
 mod load;
@@ -39,6 +40,7 @@ mod values;
 pub use argument::Argument;
 pub use diagnostic::Diagnostic;
 pub use file::Stated;
+pub use file_key::FileKey;
 pub use key::Key;
 
 use crate::Drive;

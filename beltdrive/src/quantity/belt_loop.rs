@@ -2,7 +2,7 @@
 
 use super::precision::six_digits;
 use super::words;
-use super::{Answer, Group, Measure, Quantity, Subject, Value};
+use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value};
 use crate::belt_loop::{
     BeltLoop, Closure, Guide, LoopState, PulleyState, Sense, SpanState, TensionerState,
 };
@@ -38,7 +38,7 @@ pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
 }
 
 /// The title, and what the loop is.
-fn heading(belt_loop: &BeltLoop) -> Vec<String> {
+pub(super) fn heading(belt_loop: &BeltLoop) -> Vec<String> {
     let count = belt_loop.pulleys.len();
     let belt = match (belt_loop.belt.kind, belt_loop.belt.ribs) {
         (BeltKind::V(_), 1) => "V-belt".to_owned(),
@@ -87,31 +87,36 @@ fn coefficient(belt_loop: &BeltLoop) -> Option<f64> {
 /// 1.6e-13.
 const ROUNDING: f64 = 1e-12;
 
+/// Relative error of a state.
+pub(super) fn relative_error(state: &LoopState) -> f64 {
+    state.convergence.as_ref().map_or(ROUNDING, |convergence| {
+        let estimate = convergence.error_estimate;
+        estimate.max(convergence.slip_normalisation_effect)
+    })
+}
+
 /// What the errors of the numbers of a state are relative to.
-struct Scale {
+pub(super) struct Scale {
     /// Relative error of the state.
-    error: f64,
+    pub(super) error: f64,
     /// Largest belt tension, N.
-    tension: f64,
+    pub(super) tension: f64,
     /// Speed of the belt, m/s.
-    speed: f64,
+    pub(super) speed: f64,
 }
 
 impl Scale {
     fn of(state: &LoopState) -> Self {
         let tensions = state.spans.iter().map(|span| span.tension);
         Self {
-            error: state.convergence.as_ref().map_or(ROUNDING, |convergence| {
-                let estimate = convergence.error_estimate;
-                estimate.max(convergence.slip_normalisation_effect)
-            }),
+            error: relative_error(state),
             tension: tensions.fold(0.0, f64::max),
             speed: state.unstretched_speed,
         }
     }
 
     /// A number whose error is relative to itself.
-    fn relative(
+    pub(super) fn relative(
         &self,
         key: &'static str,
         label: &'static str,
@@ -124,7 +129,7 @@ impl Scale {
     }
 
     /// A number whose error is relative to a scale of its own unit, as of a difference.
-    fn against(
+    pub(super) fn against(
         &self,
         key: &'static str,
         label: &'static str,
@@ -136,24 +141,24 @@ impl Scale {
     }
 }
 
-fn single(key: &'static str, subject: Subject) -> Group {
+pub(super) fn single(key: &'static str, subject: Subject) -> Group {
     Group {
         key,
-        is_list: false,
+        layout: Layout::Single,
         subjects: vec![subject],
     }
 }
 
-fn list(key: &'static str, subjects: Vec<Subject>) -> Group {
+pub(super) fn list(key: &'static str, subjects: Vec<Subject>) -> Group {
     Group {
         key,
-        is_list: true,
+        layout: Layout::Columns,
         subjects,
     }
 }
 
 /// What was asked, for programs.
-fn statement(belt_loop: &BeltLoop) -> Subject {
+pub(super) fn statement(belt_loop: &BeltLoop) -> Subject {
     let (belt, normal_force) = match belt_loop.belt.kind {
         BeltKind::V(_) => ("v", None),
         BeltKind::Flat { normal_force } => ("flat", Some(normal_force.name().to_owned())),
@@ -350,7 +355,7 @@ fn along(profile: &Profile) -> [Quantity; 10] {
 }
 
 /// Magnitude and direction from x of a force.
-fn polar([x, y]: [f64; 2]) -> [f64; 2] {
+pub(super) fn polar([x, y]: [f64; 2]) -> [f64; 2] {
     [x.hypot(y), y.atan2(x)]
 }
 

@@ -31,6 +31,12 @@ pub enum Measure {
     Frequency,
     /// A mass flow.
     MassFlow,
+    /// A mass per length.
+    MassPerLength,
+    /// A force per area.
+    ForcePerArea,
+    /// An inverse length.
+    InverseLength,
     /// A stiffness against a displacement.
     Stiffness,
     /// A stiffness against a rotation.
@@ -88,6 +94,9 @@ impl Measure {
             Self::AngularSpeed => ("_rad_per_s", 1.0),
             Self::Frequency => ("_Hz", 1.0),
             Self::MassFlow => ("_kg_per_s", 1.0),
+            Self::MassPerLength => ("_kg_per_m", 1.0),
+            Self::ForcePerArea => ("_N_per_m2", 1.0),
+            Self::InverseLength => ("_per_m", 1.0),
             Self::AngularStiffness => ("_N_m_per_rad", 1.0),
         }
     }
@@ -128,6 +137,17 @@ impl Measure {
                 unit("kg/s", 1.0),
                 unit("lb/s", 1.0 / POUND_MASS),
             ],
+            Self::MassPerLength => [
+                unit("kg/m", 1.0),
+                unit("kg/m", 1.0),
+                unit("lb/ft", FOOT / POUND_MASS),
+            ],
+            Self::ForcePerArea => [
+                unit("N/m²", 1.0),
+                unit("N/mm²", 1e-6),
+                unit("psi", INCH * INCH / POUND),
+            ],
+            Self::InverseLength => [unit("1/m", 1.0), unit("1/m", 1.0), unit("1/in", INCH)],
             Self::AngularStiffness => [
                 unit("N·m/rad", 1.0),
                 unit("N·m/rad", 1.0),

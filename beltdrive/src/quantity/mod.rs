@@ -5,11 +5,15 @@
 //! [`crate::report`]; a new quantity is one line where the answer is described.
 
 pub mod belt_loop;
+pub mod loop_range;
 mod measure;
 pub(crate) mod precision;
+pub mod two_pulleys;
 pub(crate) mod words;
 
 pub use measure::{Measure, UnitSystem};
+
+use std::borrow::Cow;
 
 /// A whole answer, in the order in which it is shown.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,10 +33,23 @@ pub struct Answer {
 pub struct Group {
     /// Key in JSON.
     pub key: &'static str,
-    /// Whether there may be several subjects, which are then an array in JSON and columns of a table.
-    pub is_list: bool,
+    /// How the subjects stand beside each other.
+    pub layout: Layout,
     /// The subjects, each with the same quantities in the same order.
     pub subjects: Vec<Subject>,
+}
+
+/// How the subjects of a group stand beside each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Layout {
+    /// There is one: an object in JSON, and lines of a table.
+    Single,
+    /// An array in JSON, and columns of a table.
+    Columns,
+    /// An array in JSON, and rows of a table.
+    Rows,
+    /// Each an entry of its own in JSON, under its head, and columns of a table.
+    Named,
 }
 
 /// Something that has quantities: a pulley, a span, the whole loop.
@@ -48,9 +65,9 @@ pub struct Subject {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {
     /// Key in JSON and CSV, without its unit.
-    pub key: &'static str,
+    pub key: Cow<'static, str>,
     /// What it is called in a table; empty for one that only programs read.
-    pub label: &'static str,
+    pub label: Cow<'static, str>,
     /// What is measured.
     pub measure: Measure,
     /// Its value, SI.
@@ -76,18 +93,35 @@ pub enum Value {
     List(Vec<Subject>),
 }
 
+impl Answer {
+    /// The quantities of other keys than these, for a table that has shown these already.
+    #[must_use]
+    pub fn without(groups: &[Group], keys: &[&str]) -> Self {
+        let mut groups = groups.to_vec();
+        for subject in groups.iter_mut().flat_map(|group| &mut group.subjects) {
+            subject
+                .quantities
+                .retain(|quantity| !keys.contains(&&*quantity.key));
+        }
+        Self {
+            groups,
+            ..Self::default()
+        }
+    }
+}
+
 impl Quantity {
     /// A number with an error.
     pub fn number(
-        key: &'static str,
-        label: &'static str,
+        key: impl Into<Cow<'static, str>>,
+        label: impl Into<Cow<'static, str>>,
         measure: Measure,
         value: impl Into<Option<f64>>,
         error: f64,
     ) -> Self {
         Self {
-            key,
-            label,
+            key: key.into(),
+            label: label.into(),
             measure,
             value: Value::Number(value.into()),
             error,
@@ -97,8 +131,8 @@ impl Quantity {
     /// What only programs read.
     pub fn data(key: &'static str, measure: Measure, value: Value) -> Self {
         Self {
-            key,
-            label: "",
+            key: key.into(),
+            label: "".into(),
             measure,
             value,
             error: 0.0,
@@ -108,8 +142,8 @@ impl Quantity {
     /// A word or a name.
     pub fn word(key: &'static str, label: &'static str, word: Option<String>) -> Self {
         Self {
-            key,
-            label,
+            key: key.into(),
+            label: label.into(),
             measure: Measure::Number,
             value: Value::Word(word),
             error: 0.0,

@@ -1,9 +1,11 @@
 //! The steady state as JSON: complete, at full precision, every key with its unit.
 
+use super::answer::Groups;
 use super::belt::BeltReport;
 use super::columns::COLUMNS;
 use super::scalars::Scalars;
 use super::warning;
+use crate::quantity::Group;
 use crate::{Convergence, Profile, Pulley, StateSummary, SteadyState, Warning};
 use serde::{Serialize, Serializer};
 
@@ -12,8 +14,22 @@ use serde::{Serialize, Serializer};
 ///
 /// # Panics
 /// Never: strings and numbers always have a representation.
-pub fn json(state: &SteadyState) -> String {
-    pretty(&Report::from(state))
+///
+/// `groups` are the pulleys, the spans and the loop, as of any loop of pulleys.
+pub fn json(state: &SteadyState, groups: &[Group]) -> String {
+    pretty(&Whole {
+        report: Report::from(state),
+        groups: Groups(groups),
+    })
+}
+
+/// A state with its pulleys, spans and loop as those of any loop.
+#[derive(Serialize)]
+struct Whole<'a> {
+    #[serde(flatten)]
+    report: Report<'a>,
+    #[serde(flatten)]
+    groups: Groups<'a>,
 }
 
 /// A report as text.
@@ -80,9 +96,8 @@ impl Serialize for ProfileReport<'_> {
     }
 }
 
-/// A remark on the validity of a state.
 #[derive(Serialize)]
-pub(super) struct WarningReport {
+struct WarningReport {
     kind: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     pulley: Option<Pulley>,
@@ -90,50 +105,24 @@ pub(super) struct WarningReport {
     inclination_deg: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     strain: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    penetration_m: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    height_m: Option<f64>,
     message: String,
 }
 
 impl From<&Warning> for WarningReport {
     fn from(remark: &Warning) -> Self {
-        let blank = Self {
-            kind: "",
-            pulley: None,
-            inclination_deg: None,
-            strain: None,
-            penetration_m: None,
-            height_m: None,
-            message: warning(remark),
-        };
-        match *remark {
+        let (kind, pulley, inclination, strain) = match *remark {
             Warning::Overhang {
                 pulley,
                 inclination,
-            } => Self {
-                kind: "overhang",
-                pulley: Some(pulley),
-                inclination_deg: Some(inclination.to_degrees()),
-                ..blank
-            },
-            Warning::LargeStrain { strain } | Warning::LargeStretch { strain } => Self {
-                kind: "large strain",
-                strain: Some(strain),
-                ..blank
-            },
-            Warning::Sunk {
-                pulley,
-                penetration,
-                height,
-            } => Self {
-                kind: "belt height",
-                pulley: Some(pulley),
-                penetration_m: Some(penetration),
-                height_m: Some(height),
-                ..blank
-            },
+            } => ("overhang", Some(pulley), Some(inclination), None),
+            Warning::LargeStrain { strain } => ("large strain", None, None, Some(strain)),
+        };
+        Self {
+            kind,
+            pulley,
+            inclination_deg: inclination.map(f64::to_degrees),
+            strain,
+            message: warning(remark),
         }
     }
 }
@@ -248,7 +237,7 @@ mod tests {
     ];
 
     fn parsed(state: &SteadyState) -> Value {
-        serde_json::from_str(&json(state)).unwrap()
+        serde_json::from_str(&json(state, &[])).unwrap()
     }
 
     #[test]

@@ -34,7 +34,6 @@ mod state;
 mod steps;
 mod trace;
 mod tracer;
-mod warnings;
 mod watched;
 mod zones;
 
@@ -52,7 +51,6 @@ pub(crate) use limit_curve::limit_curve;
 pub(crate) use limits::limits;
 pub(crate) use solve::{solve, solve_from};
 pub(crate) use trace::trace;
-pub(crate) use warnings::beyond_model;
 
 /// Index of the driven pulley, which comes first.
 pub(crate) const DRIVEN: usize = 0;

@@ -150,6 +150,24 @@ pub enum LoopError {
     },
 }
 
+impl LoopError {
+    /// One word for programs.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Statement { .. } => "statement",
+            Self::Layout(_) => "layout",
+            Self::Slack { .. } => "slack at rest",
+            Self::LiftsOff { .. } => "lift-off",
+            Self::TensionerBeyondTravel { .. } => "tensioner beyond travel",
+            Self::NoEquilibrium { .. } => "no equilibrium",
+            Self::GrossSlip { .. } => "gross slip",
+            Self::Stalls { .. } => "stall",
+            Self::Overstretched { .. } => "overstretched",
+            _ => "not found",
+        }
+    }
+}
+
 /// A state of the loop under load with rigid friction; lists are in belt order.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]

@@ -1,6 +1,6 @@
 //! An answer as JSON: complete, at full precision, every key with its unit.
 
-use crate::quantity::{Answer, Group, Quantity, Subject, Value};
+use crate::quantity::{Answer, Group, Layout, Quantity, Subject, Value};
 use crate::report::json::pretty;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
@@ -18,17 +18,23 @@ impl Serialize for Groups<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(None)?;
         for group in self.0 {
-            match (group.key, group.is_list, &group.subjects[..]) {
-                ("", _, subjects) => {
+            match (group.key, group.layout, &group.subjects[..]) {
+                ("", Layout::Single, subjects) => {
                     let quantities = subjects.iter().flat_map(|subject| &subject.quantities);
                     for quantity in quantities {
                         entry(&mut map, quantity)?;
                     }
                 }
-                (key, true, subjects) => map.serialize_entry(key, &List(subjects))?,
-                (key, false, subjects) => {
+
+                (key, Layout::Single, subjects) => {
                     map.serialize_entry(key, &subjects.first().map(Object))?;
                 }
+                (_, Layout::Named, subjects) => {
+                    for subject in subjects {
+                        map.serialize_entry(&subject.head, &Object(subject))?;
+                    }
+                }
+                (key, _, subjects) => map.serialize_entry(key, &List(subjects))?,
             }
         }
         map.end()

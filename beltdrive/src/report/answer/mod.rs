@@ -5,6 +5,7 @@ mod json;
 mod table;
 
 pub use self::csv::csv;
+pub(super) use json::Groups;
 pub use json::json;
 pub use table::table;
 

@@ -1,7 +1,7 @@
 //! An answer as a table for a terminal.
 
 use crate::quantity::precision::known;
-use crate::quantity::{Answer, Group, Quantity, Subject, UnitSystem, Value};
+use crate::quantity::{Answer, Group, Layout, Quantity, Subject, UnitSystem, Value};
 use crate::report::lines::{self, single};
 
 /// Most significant digits shown; fewer where the error does not leave them.
@@ -10,6 +10,9 @@ const DIGITS: f64 = 6.0;
 /// Columns beside each other, and their width: with labels and units they take 100 characters.
 const COLUMNS: usize = 5;
 const WIDTH: usize = 12;
+
+/// Width of two columns.
+const WIDE: usize = 28;
 
 /// Width of the labels.
 const LABEL: usize = 26;
@@ -27,23 +30,61 @@ pub fn table(answer: &Answer, units: UnitSystem) -> String {
 
 /// The blocks of a group: its subjects as columns, a few at a time.
 fn blocks(group: &Group, units: UnitSystem) -> Vec<Vec<String>> {
-    if !group.is_list {
-        let quantities = group
-            .subjects
-            .iter()
-            .flat_map(|subject| &subject.quantities);
-        let lines = quantities.filter_map(|quantity| {
-            let text = cell(quantity, units)?;
-            Some(single(quantity.label, text, unit(quantity, units)))
-        });
-        return vec![lines.collect()];
+    match group.layout {
+        Layout::Single => {
+            let subjects = group.subjects.iter();
+            let quantities = subjects.flat_map(|subject| &subject.quantities);
+            let lines = quantities.filter_map(|quantity| {
+                let text = cell(quantity, units)?;
+                Some(single(&quantity.label, text, unit(quantity, units)))
+            });
+            vec![lines.collect()]
+        }
+        Layout::Columns | Layout::Named => {
+            let beside = group.subjects.chunks(COLUMNS);
+            beside.map(|subjects| columns(subjects, units)).collect()
+        }
+        Layout::Rows => vec![rows(&group.subjects, units)],
     }
-    let beside = group.subjects.chunks(COLUMNS);
-    beside.map(|subjects| block(subjects, units)).collect()
+}
+
+/// Subjects below each other, under the labels and units of their quantities.
+fn rows(subjects: &[Subject], units: UnitSystem) -> Vec<String> {
+    let line = |cells: Vec<String>| -> String {
+        let cells = cells.into_iter().map(|cell| format!("{cell:>WIDTH$}"));
+        cells.collect()
+    };
+    let Some(first) = subjects.first() else {
+        return Vec::new();
+    };
+    let shown = || {
+        let quantities = first.quantities.iter();
+        quantities.filter(|quantity| cell(quantity, units).is_some())
+    };
+    let heads: Vec<_> = shown()
+        .map(|quantity| lines::folded(&quantity.label, WIDTH - 1, 0))
+        .collect();
+    let height = heads.iter().map(Vec::len).max().unwrap_or(0);
+    // The last lines stand above the units.
+    let head = |row: usize| {
+        let place = |head: &Vec<String>| (row + head.len()).checked_sub(height);
+        let of = heads
+            .iter()
+            .map(|head| place(head).map_or("", |place| &head[place]));
+        line(of.map(str::to_owned).collect())
+    };
+    let symbols = shown().map(|quantity| unit(quantity, units).to_owned());
+    let symbols = line(symbols.collect());
+    let rows = subjects.iter().map(|subject| {
+        let quantities = subject.quantities.iter();
+        let cells = quantities.filter_map(|quantity| cell(quantity, units));
+        line(cells.collect())
+    });
+    (0..height).map(head).chain([symbols]).chain(rows).collect()
 }
 
 /// Subjects beside each other.
-fn block(subjects: &[Subject], units: UnitSystem) -> Vec<String> {
+fn columns(subjects: &[Subject], units: UnitSystem) -> Vec<String> {
     let heads = subjects.iter().map(|subject| short(&subject.head));
     let mut lines = vec![row("", heads, "")];
     let [first, ..] = subjects else {
@@ -58,14 +99,17 @@ fn block(subjects: &[Subject], units: UnitSystem) -> Vec<String> {
             .any(|cell| cell.as_ref().is_some_and(|cell| cell != NONE))
         {
             let cells = cells.into_iter().map(Option::unwrap_or_default);
-            lines.push(row(quantity.label, cells, unit(quantity, units)));
+            lines.push(row(&quantity.label, cells, unit(quantity, units)));
         }
     }
     lines
 }
 
 fn row(label: &str, cells: impl Iterator<Item = String>, unit: &str) -> String {
-    let cells: String = cells.map(|cell| format!("{cell:>WIDTH$}")).collect();
+    let cells: Vec<_> = cells.collect();
+    // Two columns take the room of more.
+    let width = if cells.len() == 2 { WIDE } else { WIDTH };
+    let cells: String = cells.iter().map(|cell| format!("{cell:>width$}")).collect();
     format!("{label:<LABEL$}{cells}  {unit}")
 }
 

@@ -1,5 +1,5 @@
 use super::{csv, json, table};
-use crate::quantity::{Answer, Group, Measure, Quantity, Subject, UnitSystem, Value};
+use crate::quantity::{Answer, Group, Layout, Measure, Quantity, Subject, UnitSystem, Value};
 use crate::report::lines::WIDTH;
 use serde_json::json;
 
@@ -25,9 +25,9 @@ fn answer(count: usize) -> Answer {
         ],
     };
     let pulleys = (0..count).map(|index| pulley(&format!("pulley number {index}"), 1.0));
-    let group = |key, is_list, subjects| Group {
+    let group = |key, layout, subjects| Group {
         key,
-        is_list,
+        layout,
         subjects,
     };
     let zones = vec![Subject {
@@ -42,9 +42,9 @@ fn answer(count: usize) -> Answer {
         heading: vec!["Title".to_owned()],
         remarks: vec!["a long remark ".repeat(12)],
         groups: vec![
-            group("", false, vec![root]),
-            group("pulleys", true, pulleys.collect()),
-            group("loop", false, vec![whole]),
+            group("", Layout::Single, vec![root]),
+            group("pulleys", Layout::Columns, pulleys.collect()),
+            group("loop", Layout::Single, vec![whole]),
         ],
         notes: vec!["a note".to_owned()],
     }

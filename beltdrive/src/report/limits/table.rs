@@ -8,8 +8,7 @@ use crate::report::{
     rpm, slip_arc, torque_scale, value, words,
 };
 use crate::{
-    BeltKind, BranchEnd, Drive, Limit, Limits, PulleyErrors, PulleySummary, RangeEnd, StateErrors,
-    StateSummary,
+    BeltKind, Drive, Limit, Limits, PulleyErrors, PulleySummary, StateErrors, StateSummary,
 };
 
 /// Most significant digits of a scalar.
@@ -25,30 +24,12 @@ pub fn table(limits: &Limits) -> String {
     title.push(format!("Limits of {}", key.path()));
     let reasons = [("smallest", ends[0]), ("largest", ends[1])].map(|(name, limit)| {
         let place = value::quantity(key, limit.value, limit.value_error);
-        match (&branch.end, limit.reason) {
-            (end @ BranchEnd::NotConverged { .. }, RangeEnd::NotFound) if name == "largest" => {
-                format!("{name} {place}: {}; {end}", limit.reason)
-            }
-            (_, reason) => format!("{name} {place}: {reason}"),
-        }
+        format!("{name} {place}: {}", limit.reason)
     });
-    let remarks = [("smallest", ends[0]), ("largest", ends[1])]
-        .into_iter()
-        .flat_map(|(name, limit)| {
-            let warnings = limit.warnings(&branch.drive, &key).into_iter();
-            warnings.flat_map(move |remark| {
-                let text = format!("{name}: {}", report::warning(&remark));
-                lines::wrapped("WARNING: ", &text)
-            })
-        });
     let columns = ends.map(|limit| Column::of(limits, limit));
     lines::text([
         title,
-        reasons
-            .iter()
-            .flat_map(|text| lines::wrapped("", text))
-            .chain(remarks)
-            .collect(),
+        reasons.to_vec(),
         parameter(limits, ends),
         states(&branch.drive, &columns),
         convergence(&branch.drive, &branch.convergence),

@@ -1,0 +1,68 @@
+//! The limit of one number of a loop over a second one.
+
+use super::limits::{LoopEnd, LoopLimit, limits};
+use super::members::{Refusal, Varied};
+use super::trace::samples;
+use crate::input::{DriveFile, FileKey};
+
+/// The largest value of a number over a second one.
+#[derive(Clone, Debug)]
+pub struct LoopLimitCurve {
+    /// The number that has a limit.
+    pub varied: Varied,
+    /// The number over which the limit is sought.
+    pub second: FileKey,
+    /// The limits, in the order of the range.
+    pub points: Vec<LoopLimitPoint>,
+    /// Why the curve ends before the end of the range.
+    pub end: Option<LoopEnd>,
+}
+
+/// A limit.
+#[derive(Clone, Debug)]
+pub struct LoopLimitPoint {
+    /// The value of the second number, SI.
+    pub second: f64,
+    /// The largest value of the first one, and why it is.
+    pub limit: LoopLimit,
+}
+
+/// The largest value of a number with which the loop has a steady state, at 41 values of the number `second`
+/// from `range[0]` to `range[1]` in SI units, each sought as by [`limits`].
+///
+/// # Errors
+/// There is no state at the beginning of the range from which to search.
+pub fn limit_curve(
+    file: &DriveFile,
+    varied: &Varied,
+    second: &FileKey,
+    range: [f64; 2],
+    progress: &mut dyn FnMut(f64, &str),
+) -> Result<LoopLimitCurve, Refusal> {
+    let at = |value: f64| {
+        let limits = limits(&file.with(second, value), varied, &mut |_, _| {})?;
+        Ok(LoopLimitPoint {
+            second: value,
+            limit: limits.largest,
+        })
+    };
+    let [from, to] = range;
+    let mut points = vec![at(from)?];
+    let mut end = None;
+    for value in samples(range) {
+        progress((value - from) / (to - from), "limits");
+        match at(value) {
+            Ok(point) => points.push(point),
+            Err(refusal) => {
+                end = Some(LoopEnd::Limit(refusal));
+                break;
+            }
+        }
+    }
+    Ok(LoopLimitCurve {
+        varied: varied.clone(),
+        second: second.clone(),
+        points,
+        end,
+    })
+}

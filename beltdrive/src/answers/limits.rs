@@ -1,0 +1,147 @@
+//! Both ends of the range of a number over which a loop has steady states.
+
+use super::members::{Members, Refusal, Varied};
+use super::trace::LoopPoint;
+use crate::belt_loop::LoopError;
+use crate::input::DriveFile;
+
+/// Factor between the values, or the distances from the first one, at which an end is looked for.
+const STEP: f64 = 1.1;
+
+/// Most of these steps: up to 1e6 times the first value or distance, and down to a millionth.
+const STEPS: i32 = 145;
+
+/// The first distance of a number that may be 0 or negative, relative to its value or to 1 in its SI unit.
+const FIRST: f64 = 1e-2;
+
+/// The smallest and the largest value with which a loop has a steady state.
+#[derive(Clone, Debug)]
+pub struct LoopLimits {
+    /// What varies.
+    pub varied: Varied,
+    /// The lower end.
+    pub smallest: LoopLimit,
+    /// The upper end.
+    pub largest: LoopLimit,
+}
+
+/// One end of the range.
+#[derive(Clone, Debug)]
+pub struct LoopLimit {
+    /// The last value with a state, its error, and the state.
+    pub point: LoopPoint,
+    /// Why the range ends there.
+    pub end: LoopEnd,
+}
+
+/// Why a range ends.
+#[derive(Clone, Debug)]
+pub enum LoopEnd {
+    /// No steady state lies beyond.
+    Limit(Refusal),
+    /// No torque: the loop runs idle.
+    NoLoad,
+    /// The search ended at a value with a state.
+    NotFound,
+}
+
+impl LoopEnd {
+    /// One word for programs.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Limit(refusal) => refusal.kind(),
+            Self::NoLoad => "no load",
+            Self::NotFound => "none found",
+        }
+    }
+}
+
+/// In words, on one line.
+impl std::fmt::Display for LoopEnd {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Limit(Refusal::Loop(error)) => match &**error {
+                // At the limit there is nothing to say of a load beyond.
+                LoopError::GrossSlip { pulley, .. } => write!(f, "pulley `{pulley}` slips grossly"),
+                error => error.fmt(f),
+            },
+            Self::Limit(refusal) => refusal.fmt(f),
+            Self::NoLoad => f.write_str("no torque: the loop runs idle"),
+            Self::NotFound => f.write_str("no limit was found up to here"),
+        }
+    }
+}
+
+/// The smallest and the largest value of a number with which the loop that a drive file states has a steady
+/// state. The search goes from the value of the file by growing steps, so that a gap between two values that
+/// both have a state is only seen where it is wider than a tenth of the value, or of the way to it.
+///
+/// # Errors
+/// There is no state with the value of the file; of the load factor, without load.
+pub fn limits(
+    file: &DriveFile,
+    varied: &Varied,
+    progress: &mut dyn FnMut(f64, &str),
+) -> Result<LoopLimits, Refusal> {
+    let members = Members::new(file, varied);
+    let given = members.given();
+    let start = match (members.at(given), varied) {
+        (Ok(_), _) => given,
+        (Err(_), Varied::LoadFactor) => 0.0,
+        (Err(refusal), Varied::Key(_)) => easier(&members, given).ok_or(refusal)?,
+    };
+    let smallest = end(&members, varied, start, -1.0)?;
+    progress(0.5, "smallest");
+    let largest = end(&members, varied, start, 1.0)?;
+    Ok(LoopLimits {
+        varied: varied.clone(),
+        smallest,
+        largest,
+    })
+}
+
+/// The value nearest to one without a state that has one: of those that are smaller or larger by the factor
+/// between two steps of the search.
+fn easier(members: &Members<'_>, given: f64) -> Option<f64> {
+    let steps = (1..=STEPS).map(|step| STEP.powi(step));
+    let mut near = steps.flat_map(|factor| [given / factor, given * factor]);
+    near.find(|&value| members.at(value).is_ok())
+}
+
+/// The end of the range from a value that has a state, upwards or downwards.
+pub(super) fn end(
+    members: &Members<'_>,
+    varied: &Varied,
+    start: f64,
+    direction: f64,
+) -> Result<LoopLimit, Refusal> {
+    let found = |value: f64, error: f64, end: LoopEnd| {
+        Ok(LoopLimit {
+            point: LoopPoint::new(value, error, members.at(value)?),
+            end,
+        })
+    };
+    let is_factor = *varied == Varied::LoadFactor;
+    if is_factor && direction < 0.0 {
+        return found(0.0, 0.0, LoopEnd::NoLoad);
+    }
+    let first = FIRST * start.abs().max(if start == 0.0 { 1.0 } else { 0.0 });
+    let mut inside = start;
+    let mut distance = first;
+    for _ in 0..STEPS {
+        let next = match varied.is_positive() {
+            true if direction > 0.0 => inside * STEP,
+            true => inside / STEP,
+            false => start + direction * distance,
+        };
+        match members.at(next) {
+            Ok(_) => inside = next,
+            Err(_) => {
+                let (value, error, refusal) = members.end_between(inside, next);
+                return found(value, error, LoopEnd::Limit(refusal));
+            }
+        }
+        distance *= STEP;
+    }
+    found(inside, 0.0, LoopEnd::NotFound)
+}

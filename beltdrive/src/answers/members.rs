@@ -1,0 +1,161 @@
+//! The loops that differ in one number, and which of them have a steady state.
+
+use crate::belt_loop::{BeltLoop, Duty, LoopError, LoopState, solve};
+use crate::input::{Diagnostic, DriveFile, FileKey, Stated};
+use crate::quantity::Measure;
+use std::fmt;
+
+/// What varies.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Varied {
+    /// A number of the drive file.
+    Key(FileKey),
+    /// A factor on the torques and powers of all pulleys; 1 is the drive file.
+    LoadFactor,
+}
+
+/// Why there is no state with a value.
+#[derive(Clone, Debug)]
+pub enum Refusal {
+    /// The drive file would be at fault: a value out of its range, a belt that cannot be laid round the
+    /// pulleys.
+    Input(Box<Diagnostic>),
+    /// The loop has no steady state.
+    Loop(Box<LoopError>),
+    /// The file does not state a loop of pulleys.
+    NoLoop,
+}
+
+impl Refusal {
+    /// One word for programs.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Input(_) | Self::NoLoop => "impossible input",
+            Self::Loop(error) => error.kind(),
+        }
+    }
+}
+
+/// In words, on one line.
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input(error) => f.write_str(error.message()),
+            Self::Loop(error) => error.fmt(f),
+            Self::NoLoop => f.write_str("the drive file states no loop of pulleys"),
+        }
+    }
+}
+
+/// A loop and its steady state.
+#[derive(Clone, Debug)]
+pub(super) struct Member {
+    pub(super) belt_loop: BeltLoop,
+    pub(super) state: LoopState,
+}
+
+/// Bisections that bring a located value to 1e-12 of the step in which it lies.
+const BISECTIONS: usize = 40;
+
+/// The loops that differ in one number of a drive file.
+pub(super) struct Members<'f> {
+    file: &'f DriveFile,
+    varied: &'f Varied,
+}
+
+impl<'f> Members<'f> {
+    pub(super) fn new(file: &'f DriveFile, varied: &'f Varied) -> Self {
+        Self { file, varied }
+    }
+
+    /// The loop with a value, SI.
+    pub(super) fn belt_loop(&self, value: f64) -> Result<BeltLoop, Refusal> {
+        let stated = match self.varied {
+            Varied::Key(key) => self.file.with(key, value).stated(),
+            Varied::LoadFactor => self.file.stated(),
+        };
+        let mut belt_loop = match stated {
+            Ok(Stated::Loop(belt_loop)) => belt_loop,
+            Ok(Stated::Drive(_)) => return Err(Refusal::NoLoop),
+            Err(error) => return Err(Refusal::Input(Box::new(error))),
+        };
+        if *self.varied == Varied::LoadFactor {
+            for pulley in &mut belt_loop.pulleys {
+                if let Duty::Torque(load) | Duty::Power(load) = &mut pulley.duty {
+                    *load *= value;
+                }
+            }
+        }
+        Ok(belt_loop)
+    }
+
+    /// The loop and its steady state with a value, SI.
+    pub(super) fn at(&self, value: f64) -> Result<Member, Refusal> {
+        let belt_loop = self.belt_loop(value)?;
+        match solve(&belt_loop) {
+            Ok(state) => Ok(Member { belt_loop, state }),
+            Err(error) => Err(Refusal::Loop(Box::new(error))),
+        }
+    }
+
+    /// The last value that has a state between one that has one and one that has none, SI, how far it may be
+    /// off, and why there is none beyond.
+    pub(super) fn end_between(&self, inside: f64, outside: f64) -> (f64, f64, Refusal) {
+        let [mut inside, mut outside] = [inside, outside];
+        let mut refusal = self.at(outside).err();
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (inside + outside);
+            if middle == inside || middle == outside {
+                break;
+            }
+            match self.at(middle) {
+                Ok(_) => inside = middle,
+                Err(error) => (outside, refusal) = (middle, Some(error)),
+            }
+        }
+        let error = (outside - inside).abs();
+        (inside, error, refusal.unwrap_or(Refusal::NoLoop))
+    }
+
+    /// The value in the drive file, SI.
+    pub(super) fn given(&self) -> f64 {
+        match self.varied {
+            Varied::Key(key) => self.file.value(key).unwrap_or(f64::NAN),
+            Varied::LoadFactor => 1.0,
+        }
+    }
+}
+
+impl Varied {
+    /// What it is called in text.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Key(key) => key.path().to_owned(),
+            Self::LoadFactor => "load factor".to_owned(),
+        }
+    }
+
+    /// Its key in JSON and CSV, without the unit.
+    pub fn key(&self) -> String {
+        match self {
+            Self::Key(key) => key.path().replace(['.', ' ', '-', '/'], "_"),
+            Self::LoadFactor => "load_factor".to_owned(),
+        }
+    }
+
+    /// What it measures.
+    pub fn measure(&self) -> Measure {
+        match self {
+            Self::Key(key) => key.measure(),
+            Self::LoadFactor => Measure::Number,
+        }
+    }
+
+    /// Whether it cannot be 0 or negative.
+    pub(super) fn is_positive(&self) -> bool {
+        match self {
+            Self::Key(key) => key.is_positive(),
+            Self::LoadFactor => false,
+        }
+    }
+}
