@@ -28,7 +28,8 @@
 //! Pulleys inside the loop are grooves, each with a half angle and a coefficient of friction of its own;
 //! pulleys outside are flat and touch the back of the belt, which bends round them at their stated radius.
 //! The belt sinks into every groove, so that it leaves a pulley at the pitch radius R with an inclination θ,
-//! tangent to the circle R cos θ. The loop is one boundary value problem, of Coulomb or bristle friction:
+//! tangent to the circle R cos θ. The loop is one boundary value problem, with the laws of friction of
+//! the two-pulley V-belt:
 //!
 //! ```text
 //! torque            R_i (F_i cos θ_out − F_{i−1} cos θ_in) = M_i       so that Σ M_i/R_i is not 0
@@ -45,8 +46,10 @@
 //! the load limit ([`load_limit`]), all torques are raised together from a small share. A state whose
 //! invariants fail is an error ([`LoopState::checks`], [`LoopError::Violated`]).
 //!
-//! Not there: elastic/perfectly-plastic friction on V-belts round n pulleys, torque margins of single
-//! pulleys (`None`).
+//! With elastic/perfectly-plastic friction the displacement grows from the tension `T_o` of the slackest span
+//! on every pulley (its tractive tension where the closure gives one), as in a drive with two pulleys. The
+//! scalar displacement knows no direction, and with soft friction the way to a state is not always found
+//! ([`LoopError::NotConverged`]). Torque margins of single pulleys are not computed (`None`).
 //!
 //! Sources: M. B. Rubin, An exact solution for steady motion of an extensible belt in multipulley belt
 //! drive systems, J. Mech. Des. 122 (2000); S. E. Bechtel, S. Vohra, K. I. Jacob and C. D. Carlson, J.

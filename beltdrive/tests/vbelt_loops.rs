@@ -75,15 +75,17 @@ fn close(name: &str, found: f64, known: f64, tolerance: f64) {
 
 #[test]
 fn two_pulleys_are_the_drive_with_two_pulleys() {
-    let options = SolveOptions { tolerance: 1e-8 };
-    for (law, tight, tolerance) in [
+    for (law, tight, asked) in [
         ("bristle", 105.0, 1e-8),
         ("bristle", 700.0, 1e-8),
         ("bristle", 3000.0, 1e-8),
-        ("coulomb", 400.0, 1e-7),
-        ("coulomb", 700.0, 1e-7),
-        ("coulomb", 3000.0, 1e-7),
+        ("coulomb", 400.0, 1e-8),
+        ("coulomb", 700.0, 1e-8),
+        ("coulomb", 3000.0, 1e-8),
+        ("epp", 700.0, 1e-6),
+        ("epp", 3000.0, 1e-6),
     ] {
+        let (options, tolerance) = (SolveOptions { tolerance: asked }, 10.0 * asked);
         let drive = thesis(law, tight);
         let known = beltdrive::solve(&drive, &options).unwrap();
         let belt_loop = as_loop(&drive, known.driven.torque);
@@ -121,7 +123,7 @@ fn two_pulleys_are_the_drive_with_two_pulleys() {
             close("exit", groove.inclination[1], known.inclination[1]);
             // The deepest of points that depend on the mesh.
             let deepest = groove.max_penetration / known.max_penetration;
-            assert!((deepest - 1.0).abs() < 1e-4, "{name} {deepest}");
+            assert!((deepest - 1.0).abs() < 1e-3, "{name} {deepest}");
         }
     }
 }
@@ -311,6 +313,73 @@ fn cold_starts_take_few_newton_steps() {
         assert!(work.newton_steps <= most, "{} of {most}", work.newton_steps);
         assert!(state.checks.len() > 8);
     }
+}
+
+/// The laws with sharper friction, in grooves and on the back of the belt.
+#[test]
+fn sharper_friction_slips_less() {
+    let mut belt_loop = tensioned(Closure::SetupTension(500.0));
+    belt_loop.pulleys[3].mount = Mount::Fixed([0.18, 0.17]);
+    belt_loop.pulleys[3].duty = Duty::Torque(1.0);
+    let state = |law| {
+        let state = solve(&with_law(belt_loop.clone(), law));
+        let state = state.unwrap_or_else(|error| panic!("{law:?}: {error}"));
+        let work = state.convergence.as_ref().unwrap();
+        println!(
+            "{law:?} {} Newton steps, {} problems, speed losses {:?}, slip {:?}",
+            work.newton_steps,
+            work.problems,
+            state
+                .pulleys
+                .iter()
+                .map(|pulley| pulley.speed_loss)
+                .collect::<Vec<_>>(),
+            state
+                .pulleys
+                .iter()
+                .map(|pulley| pulley.slip_arc)
+                .collect::<Vec<_>>(),
+        );
+        state
+    };
+    let coulomb = state(FrictionLaw::Coulomb);
+    let soft = state(FrictionLaw::Bristle { stiffness: 1500.0 });
+    let stiff = state(FrictionLaw::Bristle { stiffness: 15e3 });
+    let back = |state: &LoopState| state.pulleys[3].angular_speed;
+    let off = |state: &LoopState| (back(state) / back(&coulomb) - 1.0).abs();
+    assert!(
+        off(&stiff) < 0.3 * off(&soft),
+        "{} {}",
+        off(&stiff),
+        off(&soft)
+    );
+}
+
+/// Elastic/perfectly-plastic friction tends to Coulomb friction as it gets stiffer.
+#[test]
+fn elastic_plastic_friction_tends_to_coulomb_friction() {
+    let belt_loop = accessories(Closure::SetupTension(500.0));
+    let solved = |law| {
+        let belt_loop = with_law(belt_loop.clone(), law);
+        let state = solve(&belt_loop).unwrap_or_else(|error| panic!("{law:?}: {error}"));
+        let work = state.convergence.as_ref().unwrap();
+        println!(
+            "{law:?} {} Newton steps, {} problems",
+            work.newton_steps, work.problems
+        );
+        numbers(&belt_loop, &state)
+    };
+    let coulomb = solved(FrictionLaw::Coulomb);
+    let mut last = f64::INFINITY;
+    for stiffness in [1e8, 4e8] {
+        let epp = solved(FrictionLaw::Epp { stiffness });
+        let off = |(epp, coulomb): (&f64, &f64)| (epp - coulomb).abs() / (1.0 + coulomb.abs());
+        let deviation = epp.iter().zip(&coulomb).map(off).fold(0.0, f64::max);
+        println!("{stiffness:e}: {deviation:e}");
+        assert!(deviation < 0.6 * last);
+        last = deviation;
+    }
+    assert!(last < 0.1, "{last}");
 }
 
 /// The closures are different questions about the same loop.

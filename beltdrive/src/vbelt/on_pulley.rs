@@ -1,7 +1,7 @@
 //! A V-belt on one pulley of a solution: integrals, profile and friction zones.
 
 use super::groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
-use super::{Contact, EndAngles, Groove, Law, Regime, Units};
+use super::{Contact, EndAngles, Groove, Law, Regime, Units, limit_excess};
 use crate::{Profile, Zone, ZoneKind};
 use bvp::Solution;
 
@@ -185,9 +185,17 @@ impl OnPulley<'_> {
             let ends = [self.solution.start(segment), self.solution.end(segment)].map(angle);
             let kind = match (self.groove.law, stretch.regime) {
                 (Law::Epp { .. }, Regime::Elastic) => ZoneKind::Elastic,
+                (Law::Epp { .. }, Regime::Either) => {
+                    let is_elastic =
+                        |y: &[f64]| limit_excess(self.groove, y, self.omega, self.flow) < 0.0;
+                    self.sampled_zones(segment, is_elastic, &mut zones);
+                    continue;
+                }
                 (Law::Coulomb | Law::Epp { .. }, _) => ZoneKind::Slip,
                 (Law::Bristle { .. }, _) => {
-                    self.bristle_zones(segment, &mut zones);
+                    let limit = SLIPPING_BRISTLES * self.groove.friction_coefficient;
+                    let is_elastic = |y: &[f64]| y[LAW].hypot(y[LAW + 1]) < limit;
+                    self.sampled_zones(segment, is_elastic, &mut zones);
                     continue;
                 }
             };
@@ -200,9 +208,13 @@ impl OnPulley<'_> {
         zones
     }
 
-    /// Adds the zones of a segment with bristle friction.
-    fn bristle_zones(&self, segment: usize, zones: &mut Vec<Zone>) {
-        let limit = SLIPPING_BRISTLES * self.groove.friction_coefficient;
+    /// Adds the zones of a segment that are told apart at samples.
+    fn sampled_zones(
+        &self,
+        segment: usize,
+        is_elastic: impl Fn(&[f64]) -> bool,
+        zones: &mut Vec<Zone>,
+    ) {
         let mut y = [0.0; MAX_STATES];
         let y = &mut y[..self.solution.segments()[segment].states];
         let mut from = self.solution.start(segment)[ANGLE];
@@ -210,7 +222,7 @@ impl OnPulley<'_> {
             for part in 1..=4 {
                 let s = pair[0] + (pair[1] - pair[0]) * f64::from(part) / 4.0;
                 self.solution.state(segment, s, y);
-                let kind = match y[LAW].hypot(y[LAW + 1]) < limit {
+                let kind = match is_elastic(y) {
                     true => ZoneKind::Elastic,
                     false => ZoneKind::Slip,
                 };

@@ -56,12 +56,6 @@ pub(crate) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
     let is_flat = matches!(belt.kind, BeltKind::Flat { .. });
     match belt_loop.law {
         FrictionLaw::Coulomb => {}
-        FrictionLaw::Epp { .. } if !is_flat => {
-            return refuse(
-                "friction",
-                "on V-belts only `coulomb` and `bristle` are modelled",
-            );
-        }
         FrictionLaw::Bristle { .. } | FrictionLaw::CreepRate { .. } if is_flat => {
             return refuse(
                 "friction",
@@ -76,7 +70,7 @@ pub(crate) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
         FrictionLaw::CreepRate { .. } => {
             return refuse(
                 "friction",
-                "on V-belts only `coulomb` and `bristle` are modelled",
+                "on V-belts only `coulomb`, `epp` and `bristle` are modelled",
             );
         }
     }

@@ -6,6 +6,7 @@
 //!
 //! ```text
 //! Coulomb   q = μ p e/|e|,  |e| = sqrt(e² + ε²)
+//! EPP       q = min(k_f |u|, μ p) e/|e|,  du/ds = (T − T_o)/EA
 //! bristle   q = p B,        dB/ds = κ (e − |e| B/μ)
 //! ```
 
@@ -47,8 +48,8 @@ impl Back {
     /// Number of states of the contact but for the elongation.
     pub(super) fn states(&self) -> usize {
         match self.law {
-            Law::Coulomb | Law::Epp { .. } => LAW,
-            Law::Bristle { .. } => LAW + 1,
+            Law::Coulomb => LAW,
+            Law::Epp { .. } | Law::Bristle { .. } => LAW + 1,
         }
     }
 
@@ -66,7 +67,14 @@ impl Back {
         let size = (slip * slip + epsilon.powi(2)).sqrt();
         let friction = match self.law {
             Law::Bristle { .. } => tractive * state[LAW],
-            Law::Coulomb | Law::Epp { .. } => tractive * (slip / size) * self.friction_coefficient,
+            Law::Coulomb => tractive * (slip / size) * self.friction_coefficient,
+            Law::Epp {
+                stiffness, weight, ..
+            } => {
+                let limit = tractive * self.friction_coefficient;
+                let elastic = state[LAW].abs() * stiffness;
+                limit.min(limit + (elastic - limit) * weight) * (slip / size)
+            }
         };
         Rubbing {
             tension,
@@ -80,9 +88,13 @@ impl Back {
     /// Derivatives of the states with respect to the arc length.
     pub(super) fn rates<T: Real>(&self, at: &Rubbing<T>, state: &[T], rates: &mut [T]) {
         rates[TENSION] = at.friction;
-        if let Law::Bristle { stiffness } = self.law {
-            let saturation = at.size / self.friction_coefficient;
-            rates[LAW] = (at.slip - saturation * state[LAW]) * stiffness;
+        match self.law {
+            Law::Coulomb => {}
+            Law::Epp { unstretched, .. } => rates[LAW] = at.tension - unstretched,
+            Law::Bristle { stiffness } => {
+                let saturation = at.size / self.friction_coefficient;
+                rates[LAW] = (at.slip - saturation * state[LAW]) * stiffness;
+            }
         }
     }
 }

@@ -3,7 +3,8 @@
 use super::super::Regime;
 use super::super::on_pulley::{Integrals, OnPulley, Stretch, points};
 use super::back::Back;
-use super::problem::{FLOW, LoopProblem, Seat};
+use super::problem::{FLOW, LoopProblem};
+use super::seat::Seat;
 use super::solve::Solved;
 use crate::{Profile, Zone, ZoneKind};
 use std::f64::consts::FRAC_PI_2;
@@ -41,7 +42,7 @@ impl Solved {
                 groove,
                 stretches: vec![Stretch {
                     segment,
-                    regime: Regime::Slip,
+                    regime: Regime::Either,
                     length: p[problem.length_index(segment)],
                 }],
                 omega: problem.omega(segment, p),

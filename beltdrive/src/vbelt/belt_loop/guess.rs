@@ -10,8 +10,9 @@
 //! ```
 
 use super::super::guess::Contacting;
-use super::problem::{FLOW, LoopProblem, Seat, Target};
+use super::problem::{FLOW, LoopProblem, Target};
 use super::rest::Rest;
+use super::seat::Seat;
 use crate::drive::belt_loop::BeltLoop;
 use crate::drive::layout::Layout;
 

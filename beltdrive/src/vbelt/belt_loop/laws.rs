@@ -3,6 +3,7 @@
 //!
 //! ```text
 //! frictionless guess ──▶ soft bristles ──▶ Coulomb, ε falling
+//!          │                    │                └──▶ EPP blended in, ε falling
 //!          │                    └─────────▶ the bristles of the loop, κ rising
 //!          └───────────▶ the bristles of the loop
 //! ```
@@ -18,7 +19,6 @@ use super::problem::{LoopProblem, Target};
 use super::solve::{Search, Solved};
 use crate::FrictionLaw;
 use crate::drive::layout::Layout;
-use bvp::Solution;
 
 /// A loop under a share of its load, before it is solved.
 pub(super) struct Start<'s> {
@@ -59,7 +59,19 @@ impl Search<'_> {
                 outcome = self.enter_coulomb(&soft, start, *epsilon);
             }
         }
-        let sharp = self.lower_epsilon(outcome?)?;
+        let coulomb = outcome?;
+        let sharp = match self.belt_loop.law {
+            FrictionLaw::Epp { .. } => {
+                let blended = self.enter_epp(&coulomb, start);
+                blended
+                    .and_then(|blended| self.lower_epsilon(blended))
+                    .or_else(|_| {
+                        let sharp = self.lower_epsilon(coulomb)?;
+                        self.enter_epp(&sharp, start)
+                    })?
+            }
+            _ => self.lower_epsilon(coulomb)?,
+        };
         match effort {
             Effort::Final => self.finish(sharp),
             _ => Ok(sharp),
@@ -94,7 +106,18 @@ impl Search<'_> {
         epsilon: f64,
     ) -> Result<Solved, bvp::Error> {
         let problem = self.problem(start, FrictionLaw::Coulomb, epsilon);
-        self.attempt(problem, &Unbent(&soft.solution), Effort::Rough)
+        self.attempt(problem, &OtherLaw(soft), Effort::Rough)
+    }
+
+    /// From Coulomb to EPP friction at the same ε, by growing its share, across its kinks: the mesh resolves
+    /// them.
+    fn enter_epp(&mut self, coulomb: &Solved, start: &Start<'_>) -> Result<Solved, bvp::Error> {
+        let epp = self.problem(start, self.belt_loop.law, coulomb.problem.epsilon());
+        // With no share of it the law only adds the displacement.
+        let unblended = epp.clone().with_epp_weight(0.0);
+        let unblended = self.attempt(unblended, &OtherLaw(coulomb), Effort::Rough)?;
+        let member = |_: &LoopProblem, share: f64| epp.clone().with_epp_weight(share);
+        self.follow(unblended, [0.0, 1.0], 1.0, Effort::Rough, member)
     }
 
     /// Lowers ε roughly in great steps, or carefully in small ones where the slip is too small for that.
@@ -177,24 +200,32 @@ impl Search<'_> {
     }
 }
 
-/// A solution with bristles as the guess of one with Coulomb friction, which has no states of its own.
-struct Unbent<'a>(&'a Solution);
+/// A solution as the guess of one with another friction law: states and parameters that the law does not have
+/// are left out, states that it adds begin at zero.
+struct OtherLaw<'a>(&'a Solved);
 
-impl bvp::Guess for Unbent<'_> {
+impl bvp::Guess for OtherLaw<'_> {
     fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
-        let known = self.0.segments()[segment].states;
+        let solution = &self.0.solution;
+        let known = solution.segments()[segment].states;
         let mut states = [0.0; super::super::MAX_STATES];
-        self.0.state(segment, s, &mut states[..known]);
+        solution.state(segment, s, &mut states[..known]);
+        let own = self.0.problem.mechanical_states(segment);
         let last = y.len() - 1;
-        y[..last].copy_from_slice(&states[..last]);
+        y.fill(0.0);
+        y[..own].copy_from_slice(&states[..own]);
         y[last] = states[known - 1];
     }
 
     fn parameters(&self, p: &mut [f64]) {
-        p.copy_from_slice(self.0.parameters());
+        let known = self.0.solution.parameters();
+        let common = known.len().min(p.len());
+        p[..common].copy_from_slice(&known[..common]);
+        let slackest = self.0.with_ends(|at, p| self.0.problem.slackest(at, p));
+        p[common..].fill(slackest);
     }
 
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {
-        bvp::Guess::mesh(self.0)
+        bvp::Guess::mesh(&self.0.solution)
     }
 }

@@ -14,6 +14,7 @@ mod plane;
 mod problem;
 mod rest;
 mod rest_guess;
+mod seat;
 mod seating;
 mod solve;
 mod state;

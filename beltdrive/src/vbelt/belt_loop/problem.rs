@@ -4,7 +4,7 @@
 //! of the belt needs none, since the tension passes it unchanged. The last state of every segment is the
 //! elongation e of the belt from the entry, de/ds = (T/EA)/(1 + T/EA). Unknown parameters are G, the
 //! coordinate q of the tensioner, the speeds of all pulleys with a segment but the driver, and the length L
-//! of every segment.
+//! of every segment; with EPP friction also the tension `T_o` at which the displacement does not grow.
 //!
 //! ```text
 //! conditions of a segment with n states                                           number
@@ -15,33 +15,25 @@
 //! R (F_out cos θ_out − F_in cos θ_in) = M on every pulley but the driver          speeds
 //! closure                                                                         1
 //! tensioner   Q(q) + H·dC/dq = 0 with the hub load H                              0 or 1
+//! T_o of EPP friction is the tension of the slackest span                         0 or 1
 //! ```
 //!
 //! A groove has two conditions more than states, the back of the belt one more: together as many as there
 //! are parameters.
 
 use super::super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
-use super::super::{Contact, EndAngles, Groove, Law, Regime, Units};
-use super::back::{self, Back};
+use super::super::{Contact, EndAngles, Law, Regime, Units};
+use super::back;
 use super::plane::{Laid, Plane};
+use super::seat::{Seat, scaled_law};
+use super::tensioner::{coordinate_unit, unbalanced};
 use crate::FrictionLaw;
-use crate::drive::belt_loop::{BeltLoop, Duty, Guide, Tensioner};
-use crate::drive::layout::{Layout, Side};
+use crate::drive::belt_loop::{BeltLoop, Duty, Tensioner};
+use crate::drive::layout::Layout;
 use bvp::{Ends, Problem, Real, Segment};
 
 /// Index of G among the parameters.
 pub(super) const FLOW: usize = 0;
-
-/// How the belt touches a pulley.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Seat {
-    /// In a groove.
-    Groove(Groove),
-    /// With its back, under a torque.
-    Back(Back),
-    /// With its back, on an idler.
-    Idle,
-}
 
 /// What a pulley does, scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,6 +71,9 @@ pub(super) struct LoopProblem {
     pub(super) pulley_of: Vec<usize>,
     driver: usize,
     segments: Vec<Segment>,
+    epsilon: f64,
+    /// Whether friction is elastic/perfectly-plastic.
+    has_reference: bool,
 }
 
 impl LoopProblem {
@@ -92,43 +87,18 @@ impl LoopProblem {
         law: FrictionLaw,
         epsilon: f64,
     ) -> Self {
-        let seat = |pulley: &crate::drive::belt_loop::LoopPulley| {
-            let radius = pulley.radius;
-            let strand = units.strand();
-            let law = scaled_law(law, radius);
-            let friction_coefficient = pulley.friction_coefficient;
-            match (pulley.side, pulley.duty) {
-                (Side::Inside, _) => Seat::Groove(Groove {
-                    strand,
-                    law,
-                    epsilon,
-                    ..frictionless(belt_loop, pulley, units)
-                })
-                .with_friction(friction_coefficient),
-                (Side::Outside, Duty::Torque(0.0) | Duty::Power(0.0)) => Seat::Idle,
-                (Side::Outside, _) => Seat::Back(Back {
-                    strand,
-                    friction_coefficient,
-                    law,
-                    epsilon,
-                }),
-            }
-        };
-        let seats: Vec<_> = belt_loop.pulleys.iter().map(seat).collect();
+        let pulleys = belt_loop.pulleys.iter();
+        let seats = pulleys.map(|pulley| Seat::new(belt_loop, pulley, units, law, epsilon));
+        let seats: Vec<_> = seats.collect();
         let loads = belt_loop.pulleys.iter().map(|pulley| match pulley.duty {
             Duty::Driver(_) => Load::Driver,
             Duty::Torque(torque) => Load::Torque(torque / units.torque(pulley.radius)),
             Duty::Power(power) => Load::Power(power / units.power()),
         });
-        let touching = |seat: &Seat| match seat {
-            Seat::Groove(groove) => Some(groove.states() + 1),
-            Seat::Back(back) => Some(back.states() + 1),
-            Seat::Idle => None,
-        };
         let mut segment_of = Vec::with_capacity(seats.len());
         let (mut pulley_of, mut segments) = (vec![], vec![]);
         for (pulley, seat) in seats.iter().enumerate() {
-            segment_of.push(touching(seat).map(|states| {
+            segment_of.push(seat.states().map(|states| {
                 pulley_of.push(pulley);
                 segments.push(Segment::new(states));
                 segments.len() - 1
@@ -148,6 +118,8 @@ impl LoopProblem {
             driver: belt_loop.driver(),
             segments,
             seats,
+            epsilon,
+            has_reference: matches!(law, FrictionLaw::Epp { .. }),
         }
     }
 
@@ -165,24 +137,28 @@ impl LoopProblem {
 
     /// The same loop with the slip direction normalised by another ε.
     pub(super) fn with_epsilon(mut self, epsilon: f64) -> Self {
-        for seat in &mut self.seats {
-            match seat {
-                Seat::Groove(groove) => groove.epsilon = epsilon,
-                Seat::Back(back) => back.epsilon = epsilon,
-                Seat::Idle => {}
-            }
+        for normalisation in self.seats.iter_mut().filter_map(Seat::epsilon_mut) {
+            *normalisation = epsilon;
         }
+        self.epsilon = epsilon;
         self
     }
 
     /// The same loop with bristles of the stiffness κ, 1/m.
     pub(super) fn with_bristles(mut self, stiffness: f64) -> Self {
         for (seat, spot) in self.seats.iter_mut().zip(&self.plane.spots) {
-            let stiffer = scaled_law(FrictionLaw::Bristle { stiffness }, spot.radius);
-            match seat {
-                Seat::Groove(groove) => groove.law = stiffer,
-                Seat::Back(back) => back.law = stiffer,
-                Seat::Idle => {}
+            if let Some(law) = seat.law_mut() {
+                *law = scaled_law(FrictionLaw::Bristle { stiffness }, self.units, spot.radius);
+            }
+        }
+        self
+    }
+
+    /// The same loop with EPP friction blended into Coulomb friction by `share` in \[0, 1\].
+    pub(super) fn with_epp_weight(mut self, share: f64) -> Self {
+        for law in self.seats.iter_mut().filter_map(Seat::law_mut) {
+            if let Law::Epp { weight, .. } = law {
+                *weight = share;
             }
         }
         self
@@ -190,23 +166,46 @@ impl LoopProblem {
 
     /// The normalisation ε of the slip direction.
     pub(super) fn epsilon(&self) -> f64 {
-        let mut epsilons = self.seats.iter().filter_map(|seat| match seat {
-            Seat::Groove(groove) => Some(groove.epsilon),
-            Seat::Back(back) => Some(back.epsilon),
-            Seat::Idle => None,
-        });
-        epsilons.next().unwrap_or(0.0)
+        self.epsilon
+    }
+
+    /// Index of the tension at which the displacement of EPP friction does not grow, among the parameters.
+    fn reference_index(&self) -> Option<usize> {
+        self.has_reference
+            .then(|| self.length_index(self.segments.len()))
+    }
+
+    /// Number of parameters but for the factor.
+    fn constants(&self) -> usize {
+        self.length_index(self.segments.len()) + usize::from(self.has_reference)
+    }
+
+    /// The tension of the slackest span, scaled: the tractive one where the closure gives such a tension.
+    pub(super) fn slackest<T: Real>(&self, at: &Ends<'_, T>, p: &[T]) -> T {
+        let spans = (0..self.seats.len()).map(|span| self.leaving(span, at));
+        let slackest = spans.fold(T::from_f64(f64::INFINITY), Real::min);
+        match self.target {
+            Target::Tractive { .. } => slackest,
+            _ => self.units.strand().tension(slackest, p[FLOW]),
+        }
     }
 
     /// The factor on all torques and powers.
     pub(super) fn factor<T: Real>(&self, p: &[T]) -> T {
-        let unknown = self.length_index(self.segments.len());
-        self.factor.map_or_else(|| p[unknown], T::from_f64)
+        self.factor.map_or_else(|| p[self.constants()], T::from_f64)
     }
 
     /// The index of the driver.
     pub(super) fn driver(&self) -> usize {
         self.driver
+    }
+
+    /// Number of states of a segment before those of the friction law.
+    pub(super) fn mechanical_states(&self, segment: usize) -> usize {
+        match self.seats[self.pulley_of[segment]] {
+            Seat::Groove(_) => LAW,
+            Seat::Back(_) | Seat::Idle => back::TENSION + 1,
+        }
     }
 
     /// The segment of a pulley.
@@ -329,90 +328,25 @@ impl LoopProblem {
     }
 }
 
-impl Seat {
-    fn with_friction(mut self, coefficient: f64) -> Self {
-        if let Self::Groove(groove) = &mut self {
-            groove.friction_coefficient = coefficient;
-        }
-        self
-    }
-}
-
-/// The groove of a pulley without friction, in a belt without inertia.
-pub(super) fn frictionless(
-    belt_loop: &BeltLoop,
-    pulley: &crate::drive::belt_loop::LoopPulley,
-    units: Units,
-) -> Groove {
-    let belt = belt_loop.belt.v();
-    let (sin_beta, cos_beta) = pulley.half_angle.unwrap_or(belt.half_angle).sin_cos();
-    Groove {
-        strand: super::super::Strand {
-            inertia: 0.0,
-            ..units.strand()
-        },
-        sin_beta,
-        cos_beta,
-        friction_coefficient: 0.0,
-        radial_stiffness: units.radial_stiffness(belt.radial_stiffness, pulley.radius),
-        law: Law::Coulomb,
-        epsilon: 1.0,
-    }
-}
-
-/// A friction law on a pulley of a radius in m.
-fn scaled_law(law: FrictionLaw, radius: f64) -> Law {
-    match law {
-        FrictionLaw::Bristle { stiffness } => Law::Bristle {
-            stiffness: stiffness * radius,
-        },
-        _ => Law::Coulomb,
-    }
-}
-
-/// Unit of the coordinate of a tensioner whose idler has a radius: rad, or that radius in m.
-pub(super) fn coordinate_unit(tensioner: &Tensioner, radius: f64) -> f64 {
-    match tensioner.guide {
-        Guide::Rotary { .. } => 1.0,
-        Guide::Translating { .. } => radius,
-    }
-}
-
-/// Load of a tensioner and its idler along the coordinate, in units of a force; 0 in equilibrium.
-pub(super) fn unbalanced<T: Real>(
-    tensioner: &Tensioner,
-    force: f64,
-    coordinate: T,
-    hub_load: [T; 2],
-) -> T {
-    let arm = match tensioner.guide {
-        Guide::Rotary { arm_length, .. } => arm_length,
-        Guide::Translating { .. } => 1.0,
-    };
-    let [_, velocity, _] = tensioner.guide.centre(coordinate);
-    let [load, _] = tensioner.load_at(coordinate);
-    (hub_load[0] * velocity[0] + hub_load[1] * velocity[1]) / arm + load / (arm * force)
-}
-
 impl Problem for LoopProblem {
     fn segments(&self) -> Vec<Segment> {
         self.segments.clone()
     }
 
     fn parameters(&self) -> usize {
-        self.length_index(self.segments.len()) + usize::from(self.factor.is_none())
+        self.constants() + usize::from(self.factor.is_none())
     }
 
     fn condition_count(&self) -> usize {
         let states: usize = self.segments.iter().map(|segment| segment.states).sum();
-        states + self.length_index(self.segments.len())
+        states + self.constants()
     }
 
     fn rhs<T: Real>(&self, segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
         let (omega, flow) = (self.omega(segment, p), p[FLOW]);
         let tension = match &self.seats[self.pulley_of[segment]] {
             Seat::Groove(groove) => {
-                let contact = Contact::new(groove, Regime::Slip, y, omega, flow);
+                let contact = Contact::new(groove, Regime::Either, y, omega, flow);
                 contact.rates(groove, y, dy);
                 contact.tension
             }
@@ -424,6 +358,9 @@ impl Problem for LoopProblem {
             Seat::Idle => y[TENSION],
         };
         let strain = self.units.strand().strain(tension);
+        if let Some(index) = self.reference_index() {
+            dy[y.len() - 2] -= p[index];
+        }
         dy[y.len() - 1] = strain / (strain + 1.0);
         let length = p[self.length_index(segment)];
         for rate in dy {
@@ -475,6 +412,9 @@ impl Problem for LoopProblem {
             }
         }
         zero(self.closing(&at, p, &laid));
+        if let Some(index) = self.reference_index() {
+            zero(p[index] - self.slackest(&at, p));
+        }
         if let Some((pulley, tensioner)) = &self.tensioner {
             let tractive =
                 [self.plane.arriving(*pulley), *pulley].map(|span| self.leaving(span, &at));

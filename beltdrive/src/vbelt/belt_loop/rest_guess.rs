@@ -1,8 +1,8 @@
 //! Guesses of the belt at rest: from nothing, and from a solved one.
 
-use super::problem::coordinate_unit;
 use super::rest::{Rest, RestProblem};
 use super::seating::Seating;
+use super::tensioner::coordinate_unit;
 
 /// The belt at rest before it is solved: pressed into every groove as if the contact were long.
 pub(super) struct RestGuess<'a> {

@@ -1,15 +1,39 @@
 //! How a tensioner is held by a V-belt.
 
-use super::plane::Laid;
-use super::plane::Plane;
+use super::plane::{Laid, Plane};
 use super::rest::{Known, Rest, RestProblem};
 use super::rest_guess::RestNear;
 use super::solve::Search;
-use crate::drive::belt_loop::Tensioner;
+use crate::drive::belt_loop::{Guide, Tensioner};
 use crate::flat::belt_loop::Held;
+use bvp::Real;
 
 /// Share of the tension over which the compliance of the belt is a difference.
 const DIFFERENCE: f64 = 1e-3;
+
+/// Unit of the coordinate of a tensioner whose idler has a radius: rad, or that radius in m.
+pub(super) fn coordinate_unit(tensioner: &Tensioner, radius: f64) -> f64 {
+    match tensioner.guide {
+        Guide::Rotary { .. } => 1.0,
+        Guide::Translating { .. } => radius,
+    }
+}
+
+/// Load of a tensioner and its idler along the coordinate, in units of a force; 0 in equilibrium.
+pub(super) fn unbalanced<T: Real>(
+    tensioner: &Tensioner,
+    force: f64,
+    coordinate: T,
+    hub_load: [T; 2],
+) -> T {
+    let arm = match tensioner.guide {
+        Guide::Rotary { arm_length, .. } => arm_length,
+        Guide::Translating { .. } => 1.0,
+    };
+    let [_, velocity, _] = tensioner.guide.centre(coordinate);
+    let [load, _] = tensioner.load_at(coordinate);
+    (hub_load[0] * velocity[0] + hub_load[1] * velocity[1]) / arm + load / (arm * force)
+}
 
 /// First and second derivative of the length of the belt with the coordinate at held tension: its
 /// inclinations at the ends of the contacts then stay as they are.
