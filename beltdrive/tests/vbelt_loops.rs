@@ -547,6 +547,12 @@ fn statements_out_of_range_are_refused() {
         slack.contains("slack") || slack.contains("idler"),
         "{slack}"
     );
+    let fast = solve(&{
+        let mut belt_loop = accessories(Closure::SetupTension(20.0));
+        belt_loop.pulleys[0].duty = Duty::Driver(400.0);
+        belt_loop
+    });
+    assert!(matches!(fast, Err(LoopError::LiftsOff { .. })), "{fast:?}");
     let tolerance = SolveOptions { tolerance: 0.1 };
     let tolerance = solve_to(&accessories(Closure::SetupTension(500.0)), &tolerance);
     assert!(matches!(tolerance, Err(LoopError::Tolerance { .. })));

@@ -14,7 +14,7 @@ use super::problem::{FLOW, LoopProblem, Target};
 use super::rest::Rest;
 use super::seat::Seat;
 use crate::drive::belt_loop::BeltLoop;
-use crate::drive::layout::Layout;
+use crate::drive::layout::{Layout, Side};
 
 /// A first approximation to the solution of a [`LoopProblem`].
 #[derive(Clone, Debug)]
@@ -26,6 +26,21 @@ pub(super) struct LoopGuess<'a> {
     coordinate: f64,
 }
 
+/// About how much the belt sinks round each pulley, as length of the loop per tractive tension, m/N; 0 on its
+/// back.
+pub(super) fn groove_compliances(belt_loop: &BeltLoop, layout: &Layout) -> Vec<f64> {
+    let groove = belt_loop.belt.v();
+    let pulleys = belt_loop.pulleys.iter().zip(layout.wraps());
+    let compliances = pulleys.map(|(pulley, wrap)| match pulley.side {
+        Side::Inside => {
+            let half_angle = pulley.half_angle.unwrap_or(groove.half_angle);
+            wrap / (groove.radial_stiffness * half_angle.tan())
+        }
+        Side::Outside => 0.0,
+    });
+    compliances.collect()
+}
+
 /// Tractive tensions of the spans of a loop that the friction of its pulleys does not limit, N.
 pub(super) fn tractive_tensions(
     belt_loop: &BeltLoop,
@@ -35,7 +50,6 @@ pub(super) fn tractive_tensions(
     factor: f64,
 ) -> Vec<f64> {
     let belt = belt_loop.belt;
-    let groove = belt.v();
     let rim = belt_loop.rim_speed();
     let count = belt_loop.pulleys.len();
     let driver = belt_loop.driver();
@@ -54,19 +68,14 @@ pub(super) fn tractive_tensions(
         (Target::Length(_), Some(rest), Some((idler, _))) => rest.tension - offsets[idler],
         (Target::Length(_), Some(rest), None) => {
             let [mut by_tension, mut by_pressure, mut moment] = [0.0; 3];
+            let grooves = groove_compliances(belt_loop, layout);
             for (index, pulley) in belt_loop.pulleys.iter().enumerate() {
+                let sinking = grooves[index];
                 let behind = offsets[(index + count - 1) % count];
                 let mean = 0.5 * (behind + offsets[index]);
                 let wrap = layout.wraps()[index];
                 let span = layout.spans()[index].length / belt.axial_stiffness;
                 let arc = pulley.radius * wrap / belt.axial_stiffness;
-                let half_angle = pulley.half_angle.unwrap_or(groove.half_angle);
-                let sinking = match pulley.side {
-                    crate::drive::layout::Side::Inside => {
-                        wrap / (groove.radial_stiffness * half_angle.tan())
-                    }
-                    crate::drive::layout::Side::Outside => 0.0,
-                };
                 by_tension += span + arc;
                 by_pressure += sinking;
                 moment += span * offsets[index] + (arc + sinking) * mean;

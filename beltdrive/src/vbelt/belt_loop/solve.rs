@@ -2,7 +2,7 @@
 
 use super::super::path::Effort;
 use super::climb::{Climbed, Top};
-use super::guess::tractive_tensions;
+use super::guess::{groove_compliances, tractive_tensions};
 use super::laws::Start;
 use super::problem::{LoopProblem, Target};
 use super::rest::{Cost, Known, Rest, RestProblem};
@@ -10,7 +10,7 @@ use super::rest_guess::RestGuess;
 use super::state::state;
 use crate::difficulty;
 use crate::drive::belt_loop::{BeltLoop, Closure};
-use crate::drive::layout::{Layout, Side};
+use crate::drive::layout::Layout;
 use crate::flat::belt_loop::{
     LoadLimit, LoopError, LoopState, Towards, equilibrium, length_derivatives, within_travel,
 };
@@ -182,20 +182,6 @@ impl<'l> Search<'l> {
         })
     }
 
-    /// About how much the belt yields in all grooves, m/N.
-    fn groove_compliance(&self, layout: &Layout) -> f64 {
-        let groove = self.belt_loop.belt.v();
-        let pulleys = self.belt_loop.pulleys.iter().zip(layout.wraps());
-        let seats = pulleys.map(|(pulley, wrap)| match pulley.side {
-            Side::Inside => {
-                let half_angle = pulley.half_angle.unwrap_or(groove.half_angle);
-                wrap / (groove.radial_stiffness * half_angle.tan())
-            }
-            Side::Outside => 0.0,
-        });
-        seats.sum()
-    }
-
     /// The belt at rest, from where its pitch line would be with grooves that yield.
     pub(super) fn rest(
         &mut self,
@@ -207,7 +193,8 @@ impl<'l> Search<'l> {
         let axial = belt_loop.belt.axial_stiffness;
         let (coordinate, tension) = match known {
             Known::Length(length) => {
-                let compliance = length / axial + self.groove_compliance(layout);
+                let grooves = groove_compliances(belt_loop, layout);
+                let compliance = length / axial + grooves.iter().sum::<f64>();
                 let tension = |layout: &Layout| (layout.length() - length) / compliance;
                 let found = equilibrium(belt_loop, start, Towards::Force, "at rest", |layout| {
                     Ok(tension(layout))
@@ -275,6 +262,7 @@ impl<'l> Search<'l> {
         coordinate: f64,
     ) -> Result<Solved, LoopError> {
         let layout = self.belt_loop.layout(coordinate)?;
+        self.presses(target, &layout)?;
         let start = |factor: f64| {
             let tractive = tractive_tensions(self.belt_loop, &layout, target, rest, factor);
             Start {
@@ -310,6 +298,25 @@ impl<'l> Search<'l> {
             _ => Err(LoopError::NotConverged {
                 reached: 0.0,
                 cause: "the belt would have to push in a span even under hardly any load",
+            }),
+        }
+    }
+
+    /// Whether a belt between fixed centres presses on its pulleys without torques. Where it hardly presses
+    /// it does not sink either: the tension of its pitch line decides.
+    fn presses(&self, target: Target, layout: &Layout) -> Result<(), LoopError> {
+        let (Target::Length(length), None) = (target, self.belt_loop.tensioner()) else {
+            return Ok(());
+        };
+        let (belt, rim) = (self.belt_loop.belt, self.belt_loop.rim_speed());
+        let strain = (layout.length() - length) / length;
+        let flow = belt.mass_per_length * rim / (1.0 + strain);
+        let tractive_tension = belt.axial_stiffness * strain - flow * rim;
+        match tractive_tension > 0.0 {
+            true => Ok(()),
+            false => Err(LoopError::LiftsOff {
+                tractive_tension,
+                speed: rim,
             }),
         }
     }
