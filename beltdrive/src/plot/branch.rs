@@ -2,9 +2,10 @@
 
 use super::axis::{Axis, Scale};
 use super::diagrams::{self, Curve, DRIVEN, DRIVER, Diagram};
+use super::header::{Header, Legend};
 use super::labels::{self, Frame, Label};
 use super::panel::{Chart, Panel};
-use super::style::{self, Canvas, Drawn, Header, Legend, Stroke, px};
+use super::style::{self, Canvas, Drawn, Stroke, px};
 use crate::input::Key;
 use crate::report::{value, words};
 use crate::{Branch, TracePoint};
@@ -24,17 +25,12 @@ const BELOW: f64 = 16.0;
 pub(super) fn figure(branch: &Branch) -> String {
     let key = branch.key;
     let caption = format!("Branch over the {}", key.name());
-    let header = Header {
-        drive: &branch.drive,
-        varied: &[key],
-        caption: &caption,
-        warnings: &[],
-    };
+    let header = Header::new(&branch.drive, &[key], &caption);
     let top = header.height(WIDTH);
     let height = top + PANELS + LINE * branch.events.len() as f64 + BELOW;
     let view = View::of(branch);
     style::render([WIDTH, height], |canvas| {
-        style::header(canvas, &header, &view.legend())?;
+        header.draw(canvas, &view.legend())?;
         let (_, below) = canvas.split_vertically(px(top));
         let (panels, list) = below.split_vertically(px(PANELS));
         for (panel, diagram) in panels

@@ -24,6 +24,8 @@ pub(super) struct Circle {
     pub(super) centre: Point,
     /// Pitch radius, m.
     pub(super) radius: f64,
+    /// Sense in which it turns: +1 counter-clockwise, −1 clockwise.
+    pub(super) sense: f64,
     /// Polar angle of the entry seen from the centre, rad.
     entry: f64,
     /// Polar angle of the exit, rad.
@@ -51,6 +53,7 @@ impl Geometry {
         let circle = |pulley: &PulleyState, radius, centre, entry: f64| Circle {
             centre,
             radius,
+            sense: 1.0,
             entry: entry + turn,
             exit: entry + turn + pulley.wrap_angle,
         };
@@ -81,7 +84,7 @@ impl Geometry {
 impl Circle {
     /// The point at an angle φ swept from the entry and a penetration x into the groove.
     pub(super) fn point(&self, swept: f64, penetration: f64) -> Point {
-        self.centre + polar(self.entry + swept, self.radius - penetration)
+        self.centre + polar(self.entry + self.sense * swept, self.radius - penetration)
     }
 
     /// The point where the belt enters.

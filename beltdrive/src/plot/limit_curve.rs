@@ -1,8 +1,9 @@
 //! The chart of a limit over a second parameter.
 
 use super::axis::{Axis, Scale};
+use super::header::{Header, Legend};
 use super::panel::Panel;
-use super::style::{self, Canvas, Drawn, Header, Legend, Stroke, px};
+use super::style::{self, Canvas, Drawn, Stroke, px};
 use crate::report::{value, words};
 use crate::{LimitCurve, LimitCurvePoint, LimitReason, Pulley};
 use plotters::prelude::*;
@@ -17,14 +18,9 @@ const WIDTH: f64 = 2.5;
 pub(super) fn figure(curve: &LimitCurve) -> String {
     let LimitCurve { key, second, .. } = *curve;
     let caption = format!("Limit of the {} over the {}", key.name(), second.name());
-    let header = Header {
-        drive: &curve.drive,
-        varied: &[key, second],
-        caption: &caption,
-        warnings: &[],
-    };
+    let header = Header::new(&curve.drive, &[key, second], &caption);
     style::render(SIZE, |canvas| {
-        style::header(canvas, &header, &legend(curve))?;
+        header.draw(canvas, &legend(curve))?;
         let (_, below) = canvas.split_vertically(px(header.height(SIZE[0])));
         chart(&below, curve)
     })

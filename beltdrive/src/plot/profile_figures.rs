@@ -2,7 +2,7 @@
 
 use super::axis::Scale;
 use super::style::{self, Stroke};
-use crate::{BeltKind, Drive, Profile};
+use crate::{Belt, BeltKind, Profile};
 
 /// A figure: one or two quantities of one unit.
 pub(super) struct Figure {
@@ -22,8 +22,8 @@ pub(super) struct Figure {
 pub(super) struct Curve {
     /// What it is.
     pub(super) label: &'static str,
-    /// Its values along a pulley in the unit of the figure.
-    pub(super) values: fn(&Drive, &Profile) -> Vec<f64>,
+    /// Its values along a pulley with a coefficient of friction, in the unit of the figure.
+    pub(super) values: fn(f64, &Profile) -> Vec<f64>,
     /// How it is drawn.
     pub(super) stroke: Stroke,
 }
@@ -31,9 +31,9 @@ pub(super) struct Curve {
 const FIRST: Stroke = Stroke::solid(style::INK, 2.0);
 const SECOND: Stroke = Stroke::dashed(style::WINE, 2.0);
 
-/// The figures of a drive.
-pub(super) fn of(drive: &Drive) -> &'static [Figure] {
-    match drive.belt.kind {
+/// The figures of a belt.
+pub(super) fn of(belt: &Belt) -> &'static [Figure] {
+    match belt.kind {
         BeltKind::V(_) => &V_BELT,
         BeltKind::Flat { .. } => &FLAT_BELT,
     }
@@ -136,9 +136,9 @@ const FLAT_BELT: [Figure; 4] = [
             },
             Curve {
                 label: "its limit μ n",
-                values: |drive, profile| {
+                values: |coefficient, profile| {
                     let normal = profile.normal_force.iter();
-                    normal.map(|n| drive.friction_coefficient * n).collect()
+                    normal.map(|n| coefficient * n).collect()
                 },
                 stroke: SECOND,
             },

@@ -1,9 +1,10 @@
 //! Quantities along the belt on both pulleys, one figure each.
 
 use super::axis::{Axis, Scale};
+use super::header::{Header, Legend};
 use super::panel::Panel;
 use super::profile_figures::{self, Curve, Figure};
-use super::style::{self, Canvas, Drawn, Header, Legend, px};
+use super::style::{self, Canvas, Drawn, px};
 use crate::{Drive, Profile, PulleyState, SteadyState};
 use plotters::prelude::*;
 
@@ -12,7 +13,7 @@ const SIZE: [f64; 2] = [900.0, 760.0];
 
 /// The figures of all quantities, each with the name of its file.
 pub(super) fn figures(state: &SteadyState) -> impl Iterator<Item = (&'static str, String)> {
-    profile_figures::of(&state.drive)
+    profile_figures::of(&state.drive.belt)
         .iter()
         .map(|figure| (figure.file, figure.draw(state)))
 }
@@ -28,7 +29,7 @@ impl Figure {
             .into_iter()
             .flat_map(|profile| {
                 let curves = self.curves.iter();
-                curves.flat_map(|curve| (curve.values)(&state.drive, profile))
+                curves.flat_map(|curve| (curve.values)(state.drive.friction_coefficient, profile))
             })
             .collect();
         let axes = [
@@ -37,7 +38,7 @@ impl Figure {
         ];
         style::render(SIZE, |canvas| {
             let header = Header::of(state, self.title);
-            style::header(canvas, &header, &self.legend(state))?;
+            header.draw(canvas, &self.legend(state))?;
             let (_, below) = canvas.split_vertically(px(header.height(SIZE[0])));
             let panels = below.split_evenly((2, 1));
             let pulleys = [("driver", &state.driver), ("driven pulley", &state.driven)];
@@ -90,7 +91,7 @@ impl Figure {
     /// The points of a curve, parted where a value is missing or an angle jumps by a full turn.
     fn pieces(&self, curve: &Curve, drive: &Drive, profile: &Profile) -> Vec<Vec<(f64, f64)>> {
         let points: Vec<_> = degrees(&profile.angle)
-            .zip((curve.values)(drive, profile))
+            .zip((curve.values)(drive.friction_coefficient, profile))
             .collect();
         points
             .chunk_by(|(_, before), (_, after)| {
@@ -116,7 +117,7 @@ mod tests {
     fn a_curve_is_parted_where_it_jumps() {
         let state = sample::loaded();
         let mut profile = state.driver.profile;
-        let [tension, inclination, ..] = profile_figures::of(&state.drive) else {
+        let [tension, inclination, ..] = profile_figures::of(&state.drive.belt) else {
             panic!("five figures");
         };
         profile.inclination[100..].fill(4.0);

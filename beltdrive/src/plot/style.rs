@@ -1,8 +1,6 @@
-//! What all figures have in common: canvas, colours, text, header and legend.
+//! What all figures have in common: canvas, colours and text.
 
-use crate::input::Key;
-use crate::report::{convention, folded, heading, law, warning};
-use crate::{Drive, SteadyState, Warning, ZoneKind};
+use crate::{SteadyState, ZoneKind};
 use plotters::coord::{CoordTranslate, Shift};
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::element::DashedPathElement;
@@ -39,9 +37,6 @@ pub(super) const SMALL: f64 = 12.0;
 /// Empty space at the left and right edges of a figure, px.
 pub(super) const MARGIN: f64 = 24.0;
 
-/// Height of a further line of the header, px.
-const LINE: f64 = 20.0;
-
 /// Radius of a dot that marks a point of a curve, px.
 pub(super) const DOT: f64 = 4.5;
 
@@ -60,6 +55,12 @@ pub(super) fn px(length: f64) -> i32 {
 /// A place in px from one in units of the backend.
 pub(super) fn in_px((across, down): (i32, i32)) -> [f64; 2] {
     [across, down].map(|length| f64::from(length) / UNITS)
+}
+
+/// Width and height of a sheet or a part of it, px.
+pub(super) fn size(canvas: &Canvas<'_>) -> [f64; 2] {
+    let (width, height) = canvas.dim_in_pixel();
+    [width, height].map(|length| f64::from(length) / UNITS)
 }
 
 /// A sheet of a width and height in px with what `draw` puts on it, as SVG.
@@ -181,178 +182,10 @@ pub(super) fn text_width(characters: usize, size: f64) -> f64 {
     0.55 * size * characters as f64
 }
 
-/// An entry of the legend.
-pub(super) enum Legend {
-    /// A shaded background.
-    Shade(&'static str, ShapeStyle),
-    /// A line.
-    Line(&'static str, Stroke),
-    /// A dot.
-    Dot(&'static str, RGBColor),
-}
-
-/// What stands above a figure.
-pub(super) struct Header<'a> {
-    /// The drive.
-    pub(super) drive: &'a Drive,
-    /// The entries of the drive that vary in the figure.
-    pub(super) varied: &'a [Key],
-    /// What the figure shows.
-    pub(super) caption: &'a str,
-    /// What to beware of.
-    pub(super) warnings: &'a [Warning],
-}
-
-impl<'a> Header<'a> {
-    /// The header of a figure of one state.
-    pub(super) fn of(state: &'a SteadyState, caption: &'a str) -> Self {
-        Self {
-            drive: &state.drive,
-            varied: &[],
-            caption,
-            warnings: &state.warnings,
-        }
-    }
-
-    /// Its height with the legend on a sheet of a width, px.
-    pub(super) fn height(&self, width: f64) -> f64 {
-        let lines = self.lines(width);
-        46.0 + lines.iter().map(|line| line.advance).sum::<f64>()
-    }
-
-    /// Its lines of text on a sheet of a width, px.
-    fn lines(&self, width: f64) -> Vec<HeaderLine> {
-        let room = width - 2.0 * MARGIN;
-        let title = broken(&heading(self.drive), TITLE, room);
-        let law = law(self.drive, self.varied);
-        let together = format!("{} — {law}", self.caption);
-        let captions = if text_width(together.chars().count(), BODY) <= room {
-            vec![together]
-        } else {
-            [self.caption, &law]
-                .map(|text| broken(text, BODY, room))
-                .concat()
-        };
-        let convention = convention(self.drive).map(|text| broken(text, BODY, room));
-        let warnings = self.warnings.iter();
-        let warnings = warnings.map(|remark| format!("Warning: {}", warning(remark)));
-        let line = |size, color, advance| {
-            move |text| HeaderLine {
-                text,
-                size,
-                color,
-                advance,
-            }
-        };
-        let mut lines: Vec<_> = title.into_iter().map(line(TITLE, INK, 26.0)).collect();
-        let first = lines.len();
-        lines.extend(captions.into_iter().map(line(BODY, GREY, LINE)));
-        lines[first].advance = 26.0;
-        lines.extend(convention.into_iter().flatten().map(line(BODY, GREY, LINE)));
-        let warnings = warnings.flat_map(|text| broken(&text, BODY, room));
-        lines.extend(warnings.map(line(BODY, VERMILION, LINE)));
-        lines
-    }
-}
-
-/// A line of a header: text, its size, its colour, and how far below the last one it stands, px.
-struct HeaderLine {
-    text: String,
-    size: f64,
-    color: RGBColor,
-    advance: f64,
-}
-
-/// Writes what the drive is, what the figure shows, what to beware of, and the legend.
-pub(super) fn header(canvas: &Canvas<'_>, header: &Header<'_>, legend: &[Legend]) -> Drawn {
-    let width = f64::from(canvas.dim_in_pixel().0) / UNITS;
-    let mut bottom = 0.0;
-    for line in header.lines(width) {
-        bottom += line.advance;
-        let face = face(line.size, line.color, HPos::Left);
-        write(canvas, &line.text, &face, [MARGIN, bottom])?;
-    }
-    bottom += 26.0;
-    let mut left = MARGIN;
-    for item in legend {
-        left = entry(canvas, item, [left, bottom])?;
-    }
-    Ok(())
-}
-
-/// Draws an entry of the legend and returns where the next one begins, px.
-fn entry(
-    canvas: &Canvas<'_>,
-    legend: &Legend,
-    [left, middle]: [f64; 2],
-) -> Result<f64, DrawingAreaErrorKind<io::Error>> {
-    let right = left + 30.0;
-    let label = match legend {
-        Legend::Shade(label, style) => {
-            let corners = [[left, middle - 7.0], [right, middle + 7.0]];
-            canvas.draw(&Rectangle::new(
-                corners.map(|corner| corner.map(px).into()),
-                *style,
-            ))?;
-            label
-        }
-        Legend::Line(label, stroke) => {
-            stroke.draw(
-                canvas,
-                vec![(px(left), px(middle)), (px(right), px(middle))],
-            )?;
-            label
-        }
-        Legend::Dot(label, color) => {
-            let centre = [0.5 * (left + right), middle].map(px);
-            canvas.draw(&Circle::new(centre.into(), px(DOT), color.filled()))?;
-            label
-        }
-    };
-    write(
-        canvas,
-        label,
-        &face(BODY, INK, HPos::Left),
-        [right + 8.0, middle],
-    )?;
-    Ok(right + 32.0 + text_width(label.chars().count(), BODY))
-}
-
-/// The text on lines that are no wider than the room, px.
-fn broken(text: &str, size: f64, room: f64) -> Vec<String> {
-    let fits = (1..=text.chars().count()).take_while(|&count| text_width(count, size) <= room);
-    folded(text, fits.last().unwrap_or(1), 0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::report::{sample, sample_flat};
-
-    #[test]
-    fn long_titles_are_broken() {
-        assert_eq!(broken("drive", 10.0, 100.0), ["drive"]);
-        let text = "a drive with a very long title";
-        let lines = ["a drive", "with a", "very long", "title"];
-        assert_eq!(broken(text, 10.0, 55.0), lines);
-        assert_eq!(broken("", 10.0, 55.0), [""]);
-    }
-
-    #[test]
-    fn no_line_of_a_header_is_lost() {
-        let mut state = sample_flat::epp();
-        let caption = "Limit of the tight tractive tension over the friction stiffness";
-        let header = Header::of(&state, caption);
-        let [wide, narrow] = [1100.0, 900.0].map(|width| header.lines(width));
-        let texts: Vec<_> = narrow.iter().map(|line| line.text.as_str()).collect();
-        assert_eq!(texts[1], caption);
-        assert_eq!(texts[2], law(&state.drive, &[]));
-        assert_eq!((wide.len(), narrow.len()), (3, 4));
-        assert_eq!(header.height(900.0), header.height(1100.0) + LINE);
-        state.warnings = vec![Warning::LargeStrain { strain: 0.1 }];
-        let lines = Header::of(&state, caption).lines(700.0);
-        assert!(lines.last().unwrap().text.ends_with("\"exact\""));
-    }
 
     #[test]
     fn the_sheet_has_its_size_in_pixels() {

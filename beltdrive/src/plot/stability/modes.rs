@@ -1,8 +1,9 @@
 //! The shapes of the first modes along both pulleys, in the form of the thesis.
 
 use super::super::axis::{Axis, Scale};
+use super::super::header::{Header, Legend};
 use super::super::panel::Panel;
-use super::super::style::{self, Canvas, Drawn, Header, Legend, Stroke, px};
+use super::super::style::{self, Canvas, Drawn, Stroke, px};
 use crate::report::stability::{complex, outcome};
 use crate::{AxialMode, Drive, FrictionLaw, PulleyStability, ShapePoint, Stability, ZoneKind};
 use plotters::prelude::*;
@@ -17,12 +18,7 @@ const MODULUS: Stroke = Stroke::dashed(style::WINE, 1.5);
 /// The figure: the driver on the left, the driven pulley on the right.
 pub(super) fn figure(stability: &Stability) -> String {
     let drive = &stability.drive;
-    let header = Header {
-        drive,
-        varied: &[],
-        caption: "Axial modes, outlet f' = 0 (thesis)",
-        warnings: &[],
-    };
+    let header = Header::new(drive, &[], "Axial modes, outlet f' = 0 (thesis)");
     let pulleys = [
         ("driver", &stability.driver, drive.driver_radius),
         ("driven", &stability.driven, drive.driven_radius),
@@ -31,11 +27,7 @@ pub(super) fn figure(stability: &Stability) -> String {
     let rows = rows.unwrap_or(0);
     let top = header.height(WIDTH);
     style::render([WIDTH, top + ROW * rows.max(1) as f64], |canvas| {
-        style::header(
-            canvas,
-            &header,
-            &legend(drive, pulleys.map(|(_, on, _)| on)),
-        )?;
+        header.draw(canvas, &legend(drive, pulleys.map(|(_, on, _)| on)))?;
         let (_, below) = canvas.split_vertically(px(top));
         let panels = below.split_evenly((rows.max(1), 2));
         for (column, (name, on, radius)) in pulleys.into_iter().enumerate() {

@@ -1,8 +1,9 @@
 //! The eigenvalues of all forms in the complex plane.
 
 use super::super::axis::{Axis, Scale};
+use super::super::header::Header;
 use super::super::panel::Panel;
-use super::super::style::{self, Canvas, Drawn, Header, MARGIN, Stroke, px};
+use super::super::style::{self, Canvas, Drawn, MARGIN, Stroke, px};
 use crate::report::stability::form_label;
 use crate::{FormStability, LinearisedForm, PulleyStability, Stability};
 use plotters::coord::CoordTranslate;
@@ -25,15 +26,10 @@ const SIZE: f64 = 5.0;
 
 /// The figure: the driver on the left, the driven pulley on the right.
 pub(super) fn figure(stability: &Stability) -> String {
-    let header = Header {
-        drive: &stability.drive,
-        varied: &[],
-        caption: "Eigenvalues λ of the axial motion",
-        warnings: &[],
-    };
+    let header = Header::new(&stability.drive, &[], "Eigenvalues λ of the axial motion");
     let top = header.height(WIDTH);
     style::render([WIDTH, top + PANELS], |canvas| {
-        style::header(canvas, &header, &[])?;
+        header.draw(canvas, &[])?;
         legend(canvas, top - LEGEND)?;
         let (_, below) = canvas.split_vertically(px(top));
         let panels = below.split_evenly((1, 2));
