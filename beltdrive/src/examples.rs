@@ -12,7 +12,7 @@ pub struct Example {
 }
 
 /// Every shipped drive file.
-pub const EXAMPLES: [Example; 11] = [
+pub const EXAMPLES: [Example; 12] = [
     Example {
         name: "kim2009",
         text: include_str!("../examples/kim2009.toml"),
@@ -52,6 +52,10 @@ pub const EXAMPLES: [Example; 11] = [
     Example {
         name: "back-side-idler",
         text: include_str!("../examples/back-side-idler.toml"),
+    },
+    Example {
+        name: "v-power",
+        text: include_str!("../examples/v-power.toml"),
     },
     Example {
         name: "conveyor",

@@ -180,6 +180,7 @@ fn every_example_of_a_loop_is_solved_in_every_form() {
         "serpentine",
         "crossed",
         "poly-v",
+        "v-power",
         "back-side-idler",
         "conveyor",
     ] {
@@ -204,7 +205,7 @@ fn every_example_of_a_loop_is_solved_in_every_form() {
                 table.lines().all(|line| line.chars().count() <= 100),
                 "{table}"
             );
-            assert!(table.contains("load factor limit") && !table.contains("NaN"));
+            assert!(table.contains("belt tension at rest") && !table.contains("NaN"));
         }
     }
 }
@@ -243,7 +244,7 @@ fn two_pulleys_have_the_keys_of_a_drive_and_those_of_a_loop() {
         "convergence",
     ];
     let of_loop = ["pulleys", "spans", "loop"];
-    for name in ["kim2009-bristle", "flat-unequal", "poly-v"] {
+    for name in ["kim2009-bristle", "flat-unequal", "poly-v", "v-power"] {
         let found = json(&["solve", &example(name)]);
         for key in drive.iter().chain(&of_loop) {
             assert!(found.get(key).is_some(), "{name} {key}");
@@ -252,10 +253,10 @@ fn two_pulleys_have_the_keys_of_a_drive_and_those_of_a_loop() {
         assert_eq!(driver["name"], "driver");
         let close = |one: &Value, other: &Value, sign: f64| {
             let [one, other] = [one, other].map(|value| value.as_f64().unwrap());
-            assert!(
-                (one - sign * other).abs() < 1e-9 * one.abs(),
-                "{name}: {one} {other}"
-            );
+            // A V-belt is solved as a loop and as a drive, each to 1e-6.
+            let within = if name == "v-power" { 1e-6 } else { 1e-9 };
+            let off = (one - sign * other).abs();
+            assert!(off < within * one.abs(), "{name}: {one} {other}");
         };
         close(&driven["torque_N_m"], &found["driven"]["torque_N_m"], 1.0);
         close(&driver["torque_N_m"], &found["driver"]["torque_N_m"], -1.0);

@@ -183,6 +183,9 @@ fn as_loop(groups: &[Group], units: UnitSystem) -> Vec<String> {
         "efficiency",
         "speed_loss",
         "friction_coefficient",
+        "max_penetration",
+        "entry_inclination",
+        "exit_inclination",
     ];
     let answer = Answer::without(groups, &shown);
     let text = answer::table(&answer, units);
