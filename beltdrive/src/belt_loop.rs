@@ -12,13 +12,18 @@
 //!
 //! ```text
 //! belt              V = c (1 + T/EA)        F = T − G V = T D/EA − m c²
-//! torque            (F_i − F_{i−1}) R_i = M_i                    M > 0 where power leaves the belt
+//! torque            (P_i − P_{i−1}) R_i = M_i                    M > 0 where power leaves the belt
 //! friction law      R_i ω_i = c (1 + T_o,i/EA)                   T_o: reference tension of the contact
 //! tensioner         Q(q) − F_t dL/dq = 0                         F_t: tractive tension of its idler
 //! ```
 //!
 //! with the load Q of the tensioner, −k (q − q₀) of a spring, and the closure. Contacts are those of the
-//! two-pulley flat belt with the normal force n = (T − G V)/R ([`crate::NormalForce::Inertia`]).
+//! two-pulley flat belt, with its friction laws and conventions for the normal force. The traction P is the
+//! tractive tension F with [`crate::NormalForce::Inertia`] and [`crate::NormalForce::Exact`]. With
+//! [`crate::NormalForce::Thesis`] it is T (1 − m v²/EA), where v is the speed of the slackest span of the
+//! loop: friction then leaves out that momentum takes pressure off the pulleys. Hub loads, the equilibrium
+//! of the tensioner and the frequencies of spans take the momentum of the belt into account with every
+//! convention; a torque differs from that change of F times R by a share of m (v² − c²)/EA with `thesis`.
 //!
 //! Assumptions: those of the flat belt; no friction in bearings and in the tensioner; the belt at rest has
 //! one tension everywhere.

@@ -9,10 +9,10 @@ use bvp::Real;
 pub struct BeltLoop {
     /// A name for outputs and figures.
     pub title: Option<String>,
-    /// The belt; a flat one with the convention [`crate::NormalForce::Inertia`], or a V-belt.
+    /// The belt.
     pub belt: Belt,
-    /// How friction depends on slip: [`FrictionLaw::Coulomb`], [`FrictionLaw::Epp`], or
-    /// [`FrictionLaw::Bristle`] on V-belts.
+    /// How friction depends on slip: [`FrictionLaw::Bristle`] on V-belts only, [`FrictionLaw::CreepRate`] on
+    /// flat belts with a normal force other than [`crate::NormalForce::Thesis`] only.
     pub law: FrictionLaw,
     /// Sense in which the belt runs round the loop.
     pub sense: Sense,

@@ -3,7 +3,7 @@
 use super::contact::{Arc, Contact};
 use super::geometry::OpenBelt;
 use super::root::bracketed;
-use super::traction::Traction;
+use super::traction::{Traction, convention};
 use super::{DRIVEN, DRIVER, coulomb, creep_rate, epp};
 use crate::{BeltKind, Drive, FrictionLaw, LimitReason, NormalForce, Pulley, SpanTension};
 
@@ -157,11 +157,7 @@ impl<'d> Statement<'d> {
         Self {
             drive,
             geometry: OpenBelt::new(drive),
-            convention: match drive.law {
-                // Friction that depends on speeds and forces alone is the same in both.
-                FrictionLaw::CreepRate { .. } => NormalForce::Inertia,
-                _ => normal_force,
-            },
+            convention: convention(normal_force, drive.law),
         }
     }
 

@@ -1,6 +1,6 @@
 //! The belt in steady motion: how tension, traction, stretch and normal force belong together.
 
-use crate::NormalForce;
+use crate::{FrictionLaw, NormalForce};
 
 /// A flat belt that moves with a given speed, under one convention for its normal force.
 ///
@@ -21,7 +21,8 @@ use crate::NormalForce;
 /// exact      T − G V        c    μ/R          EA/D   1/D    length of the unstretched belt
 /// ```
 ///
-/// with `V_L` the speed of the slack span. Source: Kim (2009), equations 3, 52-58 (thesis); the balance of
+/// with `V_L` the speed of the slack span: of the slackest one where there are more than two, so that one D
+/// serves all pulleys and their torques balance. Source: Kim (2009), equations 3, 52-58 (thesis); the balance of
 /// momentum of an element, Bechtel, Vohra, Jacob and Carlson (2000), for the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Traction {
@@ -35,6 +36,15 @@ pub(super) struct Traction {
     slip_rate: f64,
     /// The stretch ds/dσ = α + β P.
     stretch: [f64; 2],
+}
+
+/// The convention in whose equations the friction of a law is stated: friction that depends on speeds and
+/// forces alone is the same with small and with finite strains.
+pub(super) fn convention(stated: NormalForce, law: FrictionLaw) -> NormalForce {
+    match law {
+        FrictionLaw::CreepRate { .. } => NormalForce::Inertia,
+        _ => stated,
+    }
 }
 
 impl Traction {
@@ -78,6 +88,17 @@ impl Traction {
     /// The strain T/EA of the belt at a traction P.
     pub(super) fn strain(&self, traction: f64) -> f64 {
         (traction + self.inertia) / self.stiffness
+    }
+
+    /// Elongation 1 − 1/(1 + T/EA) per length of the stretched belt, at a traction P: (P + m c²)/(P + S)
+    /// with S of [`Self::offset`].
+    pub(super) fn elongation(&self, traction: f64) -> f64 {
+        (traction + self.inertia) / (self.offset() + traction)
+    }
+
+    /// S = D (1 + T/EA) − P, N.
+    pub(super) fn offset(&self) -> f64 {
+        self.stiffness + self.inertia
     }
 
     /// Slip rate a on a pulley, 1/m: traction grows in a slip zone as exp(± a s).

@@ -1,7 +1,7 @@
 //! What holds in every steady state of a belt loop.
 
-use beltdrive::FrictionLaw;
 use beltdrive::belt_loop::{BeltLoop, Closure, Duty, Guide, LoopState, Mount, TensionerLoad};
+use beltdrive::{BeltKind, FrictionLaw, NormalForce};
 use std::f64::consts::TAU;
 
 /// Whether two numbers agree, relative.
@@ -28,6 +28,8 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
         .fold(0.0, f64::max);
     let small = 1e-11 * largest;
     let flow = state.mass_flow;
+    let is_thesis = normal_force(belt_loop) == NormalForce::Thesis;
+    let traction = |index: usize| traction(belt_loop, state, index);
     close("L", state.layout.length(), state.length, 1e-15);
     close(
         "rest",
@@ -45,7 +47,10 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
         let behind = &state.spans[(index + count - 1) % count];
         let stated = &belt_loop.pulleys[index];
         // Torque, and the belt on the way.
-        let change = span.tractive_tension - behind.tractive_tension;
+        let change = match is_thesis {
+            true => traction(index) - traction((index + count - 1) % count),
+            false => span.tractive_tension - behind.tractive_tension,
+        };
         assert!((change * stated.radius - pulley.torque).abs() <= small * stated.radius);
         assert!(span.tractive_tension > 0.0 && span.tension > span.tractive_tension - small);
         let speed = state.unstretched_speed * (1.0 + span.tension / axial);
@@ -97,6 +102,14 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
             .zip(on_pulley)
             .map(|(sum, arc)| sum + arc + on_span);
     }
+    // With the friction force as the slope of the tension on every interval, and as fine as that allows.
+    let on_pulleys = (0..count).map(|index| by_profile(belt_loop, state, index));
+    let on_spans = state
+        .spans
+        .iter()
+        .map(|span| span.length / (1.0 + span.tension / axial));
+    let by_profile = on_pulleys.sum::<f64>() + on_spans.sum::<f64>();
+    close("L_0", by_profile, state.unstretched_length, 1e-9);
     let scale = state.length;
     assert!(
         polygon.iter().all(|part| part.abs() < 1e-13 * scale),
@@ -188,10 +201,56 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
     }
 }
 
+fn normal_force(belt_loop: &BeltLoop) -> NormalForce {
+    match belt_loop.belt.kind {
+        BeltKind::Flat { normal_force } => normal_force,
+        BeltKind::V(_) => panic!("a flat belt"),
+    }
+}
+
+/// The traction of a span with the convention `thesis`, N.
+fn traction(belt_loop: &BeltLoop, state: &LoopState, index: usize) -> f64 {
+    state.spans[index].tension * dynamic_stiffness(belt_loop, state)
+        / belt_loop.belt.axial_stiffness
+}
+
+/// D = EA − m v², N.
+fn dynamic_stiffness(belt_loop: &BeltLoop, state: &LoopState) -> f64 {
+    let speeds = state.spans.iter().map(|span| span.speed);
+    let speed = match normal_force(belt_loop) {
+        NormalForce::Thesis => speeds.fold(f64::INFINITY, f64::min),
+        NormalForce::Inertia | NormalForce::Exact => state.unstretched_speed,
+    };
+    let belt = belt_loop.belt;
+    belt.axial_stiffness - belt.mass_per_length * speed * speed
+}
+
+/// Unstretched length of the belt on a pulley from its profile, m, by the trapezoidal rule with end
+/// corrections: the slope of the tension is EA f/D.
+fn by_profile(belt_loop: &BeltLoop, state: &LoopState, index: usize) -> f64 {
+    let profile = state.profile(index);
+    let stiffness = dynamic_stiffness(belt_loop, state);
+    let sense = state.pulleys[index].torque.signum();
+    let stretch = |point: usize| 1.0 + profile.tension[point] / belt_loop.belt.axial_stiffness;
+    let slope = |point: usize| {
+        -sense * profile.friction_force[point] / (stiffness * stretch(point).powi(2))
+    };
+    let panel = |point: usize| {
+        let step = profile.arc_length[point + 1] - profile.arc_length[point];
+        let mean = 0.5 * (stretch(point).recip() + stretch(point + 1).recip());
+        step * mean + step * step / 12.0 * (slope(point) - slope(point + 1))
+    };
+    (0..profile.angle.len() - 1).map(panel).sum()
+}
+
 /// Unstretched length of the belt on a pulley by its closed form, m: adhesion or elastic friction, then
-/// slip. `None` where soft bristles let the belt stick again after it has slipped, and where the strain at
-/// the entry is below the smallest number.
+/// slip. `None` for other friction and other conventions than `inertia`, where soft bristles let the belt
+/// stick again after it has slipped, and where the strain at the entry is below the smallest number.
 fn unstretched_on(belt_loop: &BeltLoop, state: &LoopState, index: usize) -> Option<f64> {
+    let is_inertia = normal_force(belt_loop) == NormalForce::Inertia;
+    if !is_inertia || matches!(belt_loop.law, FrictionLaw::CreepRate { .. }) {
+        return None;
+    }
     let count = state.spans.len();
     let (stated, pulley) = (&belt_loop.pulleys[index], &state.pulleys[index]);
     let axial = belt_loop.belt.axial_stiffness;

@@ -1,11 +1,11 @@
 //! Random loops: solved with all invariants, or refused for a reason.
 
 use super::invariants::hold;
-use super::{belt, pulley};
+use super::pulley;
 use beltdrive::belt_loop::{
     BeltLoop, Closure, Duty, Guide, LoopError, Mount, Sense, Side, Tensioner, TensionerLoad, solve,
 };
-use beltdrive::{Belt, FrictionLaw};
+use beltdrive::{Belt, BeltKind, FrictionLaw, NormalForce};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
@@ -23,11 +23,20 @@ impl Random {
 
 fn random_loop(random: &mut Random) -> BeltLoop {
     let count = random.between(2.0, 10.0).floor();
-    let law = match random.between(0.0, 1.0) < 0.5 {
-        true => FrictionLaw::Coulomb,
-        false => FrictionLaw::Epp {
+    let law = match random.between(0.0, 5.0) {
+        choice if choice < 2.0 => FrictionLaw::Coulomb,
+        choice if choice < 4.0 => FrictionLaw::Epp {
             stiffness: random.between(15.0, 23.0).exp(),
         },
+        _ => FrictionLaw::CreepRate {
+            velocity: random.between(-9.0, 0.0).exp(),
+        },
+    };
+    let normal_force = match (law, random.between(0.0, 4.0)) {
+        (_, choice) if choice < 2.0 => NormalForce::Inertia,
+        (FrictionLaw::CreepRate { .. }, _) => NormalForce::Exact,
+        (_, choice) if choice < 3.0 => NormalForce::Exact,
+        _ => NormalForce::Thesis,
     };
     let driver = random.between(0.0, count).floor();
     let held = random.between(0.0, 2.0 * count).floor();
@@ -119,7 +128,7 @@ fn random_loop(random: &mut Random) -> BeltLoop {
             ribs: 1,
             mass_per_length: random.between(0.02, 0.3),
             axial_stiffness: random.between(9.0, 14.0).exp(),
-            ..belt()
+            kind: BeltKind::Flat { normal_force },
         },
         law,
         sense,
@@ -225,7 +234,8 @@ fn absurd_loops_have_finite_answers_or_a_reason() {
                 }
             },
             choice if choice < 6.0 => match &mut belt_loop.law {
-                FrictionLaw::Epp { stiffness } => *stiffness *= factor,
+                FrictionLaw::Epp { stiffness: number }
+                | FrictionLaw::CreepRate { velocity: number } => *number *= factor,
                 _ => continue,
             },
             _ => match &mut belt_loop.closure {

@@ -35,43 +35,42 @@ pub(crate) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
         );
     }
     let half_angle = |angle: f64| angle > SMALLEST_ANGLE && angle < FRAC_PI_2 - SMALLEST_ANGLE;
-    match belt.kind {
-        BeltKind::Flat {
-            normal_force: NormalForce::Inertia,
-        } => {}
-        BeltKind::Flat { .. } => {
-            return refuse(
-                "belt",
-                "of flat belts only those with the normal force `inertia` are modelled",
-            );
-        }
-        BeltKind::V(v) if positive(v.radial_stiffness) && half_angle(v.half_angle) => {}
+    let normal_force = match belt.kind {
+        BeltKind::Flat { normal_force } => Some(normal_force),
+        BeltKind::V(v) if positive(v.radial_stiffness) && half_angle(v.half_angle) => None,
         BeltKind::V(_) => {
             return refuse(
                 "belt",
                 "the radial stiffness must be positive, and the half angle between 0 and 90°",
             );
         }
-    }
-    let is_flat = matches!(belt.kind, BeltKind::Flat { .. });
+    };
+    let is_flat = normal_force.is_some();
     match belt_loop.law {
         FrictionLaw::Coulomb => {}
-        FrictionLaw::Bristle { .. } | FrictionLaw::CreepRate { .. } if is_flat => {
-            return refuse(
-                "friction",
-                "on flat belts only `coulomb` and `epp` are modelled",
-            );
+        FrictionLaw::Bristle { .. } if is_flat => {
+            return refuse("friction", "`bristle` is the friction of V-belts");
         }
         FrictionLaw::Epp { stiffness } | FrictionLaw::Bristle { stiffness }
             if positive(stiffness) => {}
         FrictionLaw::Epp { .. } | FrictionLaw::Bristle { .. } => {
             return refuse("friction", "the stiffness must be positive");
         }
-        FrictionLaw::CreepRate { .. } => {
+        FrictionLaw::CreepRate { .. } if !is_flat => {
             return refuse(
                 "friction",
                 "on V-belts only `coulomb`, `epp` and `bristle` are modelled",
             );
+        }
+        FrictionLaw::CreepRate { .. } if normal_force == Some(NormalForce::Thesis) => {
+            return refuse(
+                "friction",
+                "`creep-rate` needs a normal force with the inertia of the belt, which `thesis` leaves out",
+            );
+        }
+        FrictionLaw::CreepRate { velocity } if positive(velocity) => {}
+        FrictionLaw::CreepRate { .. } => {
+            return refuse("friction", "the slip velocity must be positive");
         }
     }
     let [mut drivers, mut tensioners] = [0, 0];

@@ -40,16 +40,20 @@ pub enum LoopError {
         /// The largest belt tension that the groove carries at rest, N: k R² tan β/6.
         largest: f64,
     },
-    /// The belt does not press on the pulleys even without torques.
+    /// The belt does not press on the pulleys: even without torques; or under them with
+    /// [`crate::NormalForce::Thesis`], whose friction does not know of it.
     #[error(
-        "the belt lifts off even without load: its tractive tension would be {tractive_tension:.4} N \
-         at {speed:.4} m/s"
+        "the belt lifts off{}: its tractive tension would be {tractive_tension:.4} N at {speed:.4} m/s",
+        if *.is_loaded { "" } else { " even without load" }
     )]
     LiftsOff {
-        /// Uniform tractive tension F = T − G V without torques, N; not positive.
+        /// Tractive tension F = T − G V, N; not positive. That of the whole belt without torques, or of the
+        /// slackest span.
         tractive_tension: f64,
         /// Belt speed V there, m/s.
         speed: f64,
+        /// Whether the torques are at work.
+        is_loaded: bool,
     },
     /// The tensioner would have to go beyond one of its stops.
     #[error(

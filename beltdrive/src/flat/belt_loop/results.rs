@@ -61,13 +61,14 @@ impl Found<'_> {
         let RunningBelt {
             speed,
             belt,
+            tractions,
             tractive,
             ..
         } = &self.belt;
         let stated = self.belt_loop.belt;
         let [span, rest] = [&self.layout, &self.rest.layout].map(|layout| layout.spans()[index]);
-        let tension = belt.tension(tractive[index]);
-        let moving = speed * (1.0 + belt.strain(tractive[index]));
+        let tension = belt.tension(tractions[index]);
+        let moving = speed * (1.0 + belt.strain(tractions[index]));
         let flow = stated.mass_per_length * speed;
         let deflection = DEFLECTION * rest.length;
         let deflected = self.rest.layout.deflected(index, deflection);
@@ -99,11 +100,10 @@ impl Found<'_> {
             ..
         } = &self.belt;
         let (stated, contact) = (&self.belt_loop.pulleys[index], &contacts[index]);
-        let axial = self.belt_loop.belt.axial_stiffness;
         let radius = stated.radius;
         let torque = changes[index] * radius;
         let reference = contact.reference();
-        let driving = axial + contacts[driver].reference();
+        let driving = belt.offset() + contacts[driver].reference();
         let angular_speed = match stated.duty {
             Duty::Driver(angular_speed) => angular_speed,
             Duty::Torque(_) | Duty::Power(_) => speed * (1.0 + belt.strain(reference)) / radius,
@@ -118,7 +118,7 @@ impl Found<'_> {
                 / radius
                 + 0.0
         };
-        let load = stated.friction_coefficient * self.layout.wraps()[index];
+        let load = self.belt.largest_load(stated, self.layout.wraps()[index]);
         let capacity = radius * contact.arc.low * load.exp_m1();
         let hub_load = |layout: &Layout, tensions: [f64; 2]| {
             let [entering, leaving] = layout.spans_of(index).map(|span| span.tangent());
@@ -145,7 +145,7 @@ impl Found<'_> {
             hub_load: hub_load(&self.layout, ends),
             rest_hub_load: hub_load(&self.rest.layout, [self.rest.tension; 2]),
             speed_loss: (contacts[driver].reference() - reference) / driving,
-            // c/D [(F_out² − F_in²)/2 − F_o (F_out − F_in)]
+            // c/D [(P_out² − P_in²)/2 − P_o (P_out − P_in)]
             friction_loss: speed / belt.stiffness
                 * changes[index]
                 * (before_reference + 0.5 * changes[index]),

@@ -18,8 +18,13 @@ const LARGEST_STRAIN: f64 = 1.0;
 const POWER: f64 = 1e-14;
 
 /// Most iterations for the torques of given powers. Each divides the error by about EA over the change of
-/// tension, at least 10 for any belt; 30 leave room for one about to stall.
+/// tension, at least 10 for any belt, or by the belt speed over the creep; 30 leave room for one about to
+/// stall.
 const POWERS: usize = 30;
+
+/// The slope of the torque asked for with the torque is taken from changes above this, relative, far above
+/// rounding errors; it is no more than the second number, which limits a step to ten times the change.
+const SLOPE: (f64, f64) = (1e-10, 0.9);
 
 /// The belt at rest: uniform tension, no friction.
 #[derive(Clone, Debug)]
@@ -68,14 +73,23 @@ pub(crate) fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
         Duty::Power(power) => power * pulley.radius / rim,
     };
     let mut torques: Vec<_> = belt_loop.pulleys.iter().map(torque).collect();
+    // The last torque of each pulley, what its power asked for there, and the slope of that.
+    let mut last = vec![[f64::NAN, f64::NAN, 0.0]; torques.len()];
     for _ in 0..POWERS {
         let state = with_torques(belt_loop, &torques)?;
         let mut change = 0.0;
         for (index, pulley) in belt_loop.pulleys.iter().enumerate() {
             if let Duty::Power(power) = pulley.duty {
-                let torque = power / state.pulleys[index].angular_speed;
-                change = f64::max(change, ((torque - torques[index]) / torque).abs());
-                torques[index] = torque;
+                let (torque, [before, asked_before, slope]) = (torques[index], last[index]);
+                let asked = power / state.pulleys[index].angular_speed;
+                change = f64::max(change, ((asked - torque) / asked).abs());
+                let moved = torque - before;
+                let slope = match moved.abs() > SLOPE.0 * torque.abs() {
+                    true => ((asked - asked_before) / moved).clamp(-SLOPE.1, SLOPE.1),
+                    false => slope,
+                };
+                last[index] = [torque, asked, slope];
+                torques[index] = torque + (asked - torque) / (1.0 - slope);
             }
         }
         if change.is_nan() || change < POWER {
@@ -128,11 +142,11 @@ fn with_torques(belt_loop: &BeltLoop, torques: &[f64]) -> Result<LoopState, Loop
     let limit = load_limit(&problem, &rigid)?;
     let weakest = most_used(&problem, &rigid);
     let loaded = match belt_loop.law {
-        FrictionLaw::Epp { .. } => {
+        FrictionLaw::Coulomb => rigid,
+        _ => {
             problem.start = rigid.coordinate;
             problem.loaded(1.0, belt_loop.law)?
         }
-        _ => rigid,
     };
     let rest = match belt_loop.closure {
         Closure::SpanTension { .. } | Closure::SpanTractiveTension { .. } => {
@@ -157,13 +171,14 @@ fn with_torques(belt_loop: &BeltLoop, torques: &[f64]) -> Result<LoopState, Loop
     within_travel(belt_loop, coordinate)?;
     within_travel(belt_loop, rest.coordinate)?;
     let axial = belt_loop.belt.axial_stiffness;
-    let tractive = belt.tractive.iter();
-    let strains = tractive.map(|&force| belt.belt.strain(force));
+    presses(&belt)?;
+    let tractions = belt.tractions.iter();
+    let strains = tractions.map(|&traction| belt.belt.strain(traction));
     let strain = strains.fold(rest.tension / axial, f64::max);
     if strain > LARGEST_STRAIN {
         return Err(LoopError::Overstretched { strain });
     }
-    let stalled = |pulley: &usize| axial + belt.contacts[*pulley].reference() <= 0.0;
+    let stalled = |pulley: &usize| belt.belt.offset() + belt.contacts[*pulley].reference() <= 0.0;
     if let Some(pulley) = (0..belt.contacts.len()).find(stalled) {
         return Err(stalls(pulley));
     }
@@ -177,6 +192,21 @@ fn with_torques(belt_loop: &BeltLoop, torques: &[f64]) -> Result<LoopState, Loop
     };
     found.stable()?;
     Ok(state(found))
+}
+
+/// Whether a running belt presses on all pulleys: with the convention `thesis` friction does not ask for it.
+fn presses(belt: &RunningBelt) -> Result<(), LoopError> {
+    let spans = belt.tractive.iter().zip(&belt.tractions);
+    match spans.min_by(|(one, _), (other, _)| one.total_cmp(other)) {
+        Some((&tractive_tension, &traction)) if tractive_tension <= 0.0 => {
+            Err(LoopError::LiftsOff {
+                tractive_tension,
+                speed: belt.speed * (1.0 + belt.belt.strain(traction)),
+                is_loaded: true,
+            })
+        }
+        _ => Ok(()),
+    }
 }
 
 /// The belt at rest where its length or its tension at rest is given.
@@ -301,6 +331,7 @@ impl Problem<'_> {
                 false => Err(LoopError::LiftsOff {
                     tractive_tension,
                     speed: rim,
+                    is_loaded: false,
                 }),
             }
         };
@@ -328,8 +359,10 @@ impl Problem<'_> {
         let closed = |layout: &Layout| {
             let running = Running::new(self, layout, law, factor);
             let belt = running.closed().map_err(|()| lost.clone())?;
-            let none = running.offset(pulley);
-            let tractive = belt.as_ref().map_or(none, |belt| belt.tractive[pulley]);
+            let tractive = match &belt {
+                Some(belt) => belt.tractive[pulley],
+                None => running.loosest(pulley),
+            };
             Ok::<_, LoopError>((tractive, belt))
         };
         let idler = |layout: &Layout| closed(layout).map(|(tractive, _)| tractive);

@@ -144,8 +144,8 @@ pub struct PulleyState {
     pub wrap: f64,
     /// Wrap angle at rest, rad.
     pub rest_wrap: f64,
-    /// Arc on which the belt does not slip, rad: of adhesion or of elastic friction, from the entry. With
-    /// very soft friction it includes a last zone in which the belt sticks again.
+    /// Arc on which friction is not at its limit, rad: of adhesion, of elastic friction or of creep, from
+    /// the entry. With very soft elastic friction it includes a last zone in which the belt sticks again.
     pub no_slip_arc: f64,
     /// Arc on which the belt slips, rad.
     pub slip_arc: f64,
@@ -164,10 +164,10 @@ pub struct PulleyState {
     pub speed_loss: f64,
     /// Power lost in friction on this pulley, W.
     pub friction_loss: f64,
-    /// Share of the contact that slips with Coulomb friction, `|ln(F_out/F_in)|`/(μ φ); below 1. `None` for
-    /// V-belts.
+    /// Share of the contact that slips with Coulomb friction, `|ln(P_out/P_in)|`/(a R φ) with the traction P
+    /// and the slip rate a of the convention (a R = μ but with `thesis`); below 1. `None` for V-belts.
     pub friction_utilisation: Option<f64>,
-    /// Torque at which it would slip at the slacker of its tensions, N·m: R F (exp(μ φ) − 1). `None` for
+    /// Torque at which it would slip at the slacker of its tensions, N·m: R P (exp(a R φ) − 1). `None` for
     /// V-belts, which this formula does not describe.
     pub torque_capacity: Option<f64>,
     /// Torque capacity over torque; `None` for an idler and for V-belts. It holds the slacker tension, where

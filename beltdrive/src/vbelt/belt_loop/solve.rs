@@ -317,6 +317,7 @@ impl<'l> Search<'l> {
             false => Err(LoopError::LiftsOff {
                 tractive_tension,
                 speed: rim,
+                is_loaded: false,
             }),
         }
     }
