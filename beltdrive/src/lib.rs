@@ -108,6 +108,7 @@ pub mod input;
 mod limit_curve;
 mod limits;
 pub mod plot;
+mod possible;
 pub mod quantity;
 pub mod report;
 mod solve;
@@ -121,6 +122,7 @@ pub use branch::{Branch, BranchEnd, BranchEvent, EventKind, TraceConvergence, Tr
 pub use drive::{Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SpanTension, VBelt};
 pub use limit_curve::{LimitCurve, LimitCurvePoint, limit_curve};
 pub use limits::{Limit, LimitReason, Limits, RangeEnd, limits};
+pub use possible::Impossible;
 pub use solve::{SolveError, SolveOptions, solve, solve_from};
 pub use stability::{
     AxialMode, FormStability, LinearisedForm, Onset, PulleyStability, ShapePoint, Stability,

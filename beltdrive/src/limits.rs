@@ -2,8 +2,8 @@
 
 use crate::input::Key;
 use crate::{
-    BeltKind, Branch, Drive, Pulley, SolveError, SolveOptions, StateErrors, StateSummary, flat,
-    solve, vbelt,
+    BeltKind, Branch, Drive, Pulley, SolveError, SolveOptions, StateErrors, StateSummary, Warning,
+    flat, solve, vbelt,
 };
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
@@ -32,6 +32,18 @@ pub struct Limit {
     pub state: StateSummary,
     /// Estimated absolute errors of the state.
     pub errors: Option<StateErrors>,
+}
+
+impl Limit {
+    /// Remarks on the validity of the state at this end of the range of `drive` over `key`.
+    pub fn warnings(&self, drive: &Drive, key: &Key) -> Vec<Warning> {
+        let mut drive = drive.clone();
+        key.set(&mut drive, self.value);
+        match drive.belt.kind {
+            BeltKind::V(_) => vbelt::beyond_model(&drive, &self.state),
+            BeltKind::Flat { .. } => Vec::new(),
+        }
+    }
 }
 
 /// Why the range of a parameter ends.

@@ -2,7 +2,9 @@
 
 use crate::difficulty;
 use crate::report::six_digits;
-use crate::{BeltKind, Check, Drive, FrictionLaw, LimitReason, SpanTension, SteadyState};
+use crate::{
+    BeltKind, Check, Drive, FrictionLaw, Impossible, LimitReason, SpanTension, SteadyState,
+};
 use crate::{flat, vbelt};
 
 /// How a steady state is sought.
@@ -116,6 +118,9 @@ pub enum SolveError {
         /// Why it was not followed further.
         cause: String,
     },
+    /// The state found is that of no drive.
+    #[error("no possible steady state was found: {0}")]
+    Impossible(Impossible),
     /// A state was found that violates an invariant.
     #[error(
         "the state found violates an invariant, {}: relative deviation {:.1e}, limit {:.1e}",

@@ -28,6 +28,8 @@ pub struct StateSummary {
     pub efficiency: f64,
     /// Power lost in friction, W.
     pub friction_loss: f64,
+    /// Power spent on compressing the belt, W, as in [`SteadyState`].
+    pub compression_power: f64,
     /// The driver.
     pub driver: PulleySummary,
     /// The driven pulley.
@@ -136,6 +138,7 @@ impl From<&SteadyState> for StateSummary {
             },
             efficiency: state.efficiency,
             friction_loss: state.friction_loss,
+            compression_power: state.compression_power,
             driver: PulleySummary::from(&state.driver),
             driven: PulleySummary::from(&state.driven),
             error_estimate: Some(

@@ -1,7 +1,7 @@
 //! The steady state of a drive: everything that reports, tables and figures show.
 
-use crate::Drive;
 use crate::vbelt::Solved;
+use crate::{Drive, SolveError, possible};
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -31,6 +31,10 @@ pub struct SteadyState {
     pub efficiency: f64,
     /// Power lost in friction, W; not negative.
     pub friction_loss: f64,
+    /// Power spent on compressing the belt where it sinks into the grooves less the power that it gives back
+    /// where it rises, W; either sign, 0 on flat belts. With the friction loss it is the power lost. It is
+    /// not 0 since the belt speed differs between entry and exit.
+    pub compression_power: f64,
     /// State of the driver.
     pub driver: PulleyState,
     /// State of the driven pulley.
@@ -46,9 +50,21 @@ pub struct SteadyState {
 }
 
 impl SteadyState {
-    /// The first invariant that the state violates.
-    pub(crate) fn violated(&self) -> Option<&Check> {
-        self.checks.iter().find(|check| check.is_violated())
+    /// The state if it passes all of its checks, first those of what no drive does.
+    ///
+    /// # Errors
+    /// [`SolveError::Impossible`] or [`SolveError::Violated`], with the first check that it fails.
+    pub(crate) fn verified(&self) -> Result<(), SolveError> {
+        if self.checks.iter().all(Check::holds) {
+            return Ok(());
+        }
+        if let Some(reason) = possible::fault(self) {
+            return Err(SolveError::Impossible(reason));
+        }
+        match self.checks.iter().find(|check| !check.holds()) {
+            Some(check) => Err(SolveError::Violated(check.clone())),
+            None => Ok(()),
+        }
     }
 }
 
@@ -186,10 +202,24 @@ pub enum Warning {
         /// Largest inclination, rad.
         inclination: f64,
     },
-    /// The belt is stretched by more than a model of small strains stands for.
+    /// The belt is stretched by more than a model of small strains stands for (flat belts).
     LargeStrain {
         /// The largest of the strain T/EA of the tight span and those of the belt against the rims.
         strain: f64,
+    },
+    /// The belt is stretched by more than the model of V-belts stands for.
+    LargeStretch {
+        /// Strain T/EA of the tight span.
+        strain: f64,
+    },
+    /// The belt sinks into the groove of a pulley by more than its height (V-belts of known height).
+    Sunk {
+        /// The pulley on which it happens.
+        pulley: Pulley,
+        /// Largest penetration, m.
+        penetration: f64,
+        /// Height of the belt, m.
+        height: f64,
     },
 }
 
@@ -205,9 +235,9 @@ pub struct Check {
 }
 
 impl Check {
-    /// Whether the deviation is larger than allowed, or none.
-    pub(crate) fn is_violated(&self) -> bool {
-        self.deviation.is_nan() || self.deviation > self.limit
+    /// Whether the deviation is a number within the limit.
+    pub(crate) fn holds(&self) -> bool {
+        self.deviation <= self.limit
     }
 }
 

@@ -57,7 +57,8 @@ fn coulomb_friction_from_hardly_any_load_to_the_overhang() {
         let state = state(FrictionLaw::Coulomb, tight);
         let overhanging = state.driver.inclination[1] > std::f64::consts::FRAC_PI_2;
         assert_eq!(overhanging, tight > 7700.0);
-        let flagged = matches!(state.warnings.as_slice(), [Warning::Overhang { .. }]);
+        let overhangs = |warning: &Warning| matches!(warning, Warning::Overhang { .. });
+        let flagged = state.warnings.iter().any(overhangs);
         assert_eq!(flagged, overhanging);
     }
     // Kim prints 30.9 rad/s, 230.4° and 293.8° here, which is no converged solution.

@@ -251,10 +251,14 @@ impl<'d> Statement<'d> {
         if driven.change < 0.0 && is_subcritical {
             return Err(Refusal::Backwards { tension });
         }
-        // Overflow is no pressure.
-        let presses = driven.low > 0.0 && driven.change.is_finite() && is_subcritical;
+        // Overflow is no pressure. The convention `thesis` leaves inertia out of the normal force, but a belt
+        // lifts off by it all the same.
+        let belt = self.drive.belt;
+        let kinetic = belt.mass_per_length * loaded.speed * loaded.speed;
+        let tractive = tension[0] * (1.0 - kinetic / belt.axial_stiffness) - kinetic;
+        let presses =
+            driven.low > 0.0 && tractive > 0.0 && driven.change.is_finite() && is_subcritical;
         if !presses {
-            let belt = self.drive.belt;
             let [tension, _] = tension;
             let speed = loaded.speed * (1.0 + tension / belt.axial_stiffness);
             return Err(Refusal::LiftsOff {

@@ -13,10 +13,7 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
     let solved = ClosedForm::find(drive).map_err(|refusal| refused(drive, refusal))?;
     let mut state = steady_state(drive, &solved, start);
     state.convergence.tolerance = options.tolerance;
-    match state.violated() {
-        Some(check) => Err(SolveError::Violated(check.clone())),
-        None => Ok(state),
-    }
+    state.verified().map(|()| state)
 }
 
 /// The reason in engineering words, with the largest load.

@@ -96,8 +96,9 @@ impl Serialize for ProfileReport<'_> {
     }
 }
 
+/// A remark on the validity of a state.
 #[derive(Serialize)]
-struct WarningReport {
+pub(super) struct WarningReport {
     kind: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
     pulley: Option<Pulley>,
@@ -105,24 +106,50 @@ struct WarningReport {
     inclination_deg: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     strain: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    penetration_m: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    height_m: Option<f64>,
     message: String,
 }
 
 impl From<&Warning> for WarningReport {
     fn from(remark: &Warning) -> Self {
-        let (kind, pulley, inclination, strain) = match *remark {
+        let blank = Self {
+            kind: "",
+            pulley: None,
+            inclination_deg: None,
+            strain: None,
+            penetration_m: None,
+            height_m: None,
+            message: warning(remark),
+        };
+        match *remark {
             Warning::Overhang {
                 pulley,
                 inclination,
-            } => ("overhang", Some(pulley), Some(inclination), None),
-            Warning::LargeStrain { strain } => ("large strain", None, None, Some(strain)),
-        };
-        Self {
-            kind,
-            pulley,
-            inclination_deg: inclination.map(f64::to_degrees),
-            strain,
-            message: warning(remark),
+            } => Self {
+                kind: "overhang",
+                pulley: Some(pulley),
+                inclination_deg: Some(inclination.to_degrees()),
+                ..blank
+            },
+            Warning::LargeStrain { strain } | Warning::LargeStretch { strain } => Self {
+                kind: "large strain",
+                strain: Some(strain),
+                ..blank
+            },
+            Warning::Sunk {
+                pulley,
+                penetration,
+                height,
+            } => Self {
+                kind: "belt height",
+                pulley: Some(pulley),
+                penetration_m: Some(penetration),
+                height_m: Some(height),
+                ..blank
+            },
         }
     }
 }

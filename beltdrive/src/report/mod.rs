@@ -97,6 +97,22 @@ pub(crate) fn warning(warning: &Warning) -> String {
              normal_force=\"exact\"",
             100.0 * strain
         ),
+        Warning::LargeStretch { strain } => format!(
+            "the belt is stretched by {} %, more than the model stands for: check the tensions and \
+             axial_stiffness",
+            six_digits(100.0 * strain)
+        ),
+        Warning::Sunk {
+            pulley,
+            penetration,
+            height,
+        } => format!(
+            "the belt sinks into the groove of the {} by {:.2} mm, more than its height of {} mm: not a \
+             usable design",
+            pulley.name(),
+            1e3 * penetration,
+            six_digits(1e3 * height)
+        ),
     }
 }
 

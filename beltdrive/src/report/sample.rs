@@ -111,6 +111,7 @@ fn state([slack, tight]: [f64; 2], overhang: f64) -> SteadyState {
         tight_tractive_tension: tight,
         efficiency: 0.962_380,
         friction_loss: 0.037_620 * torque * speed,
+        compression_power: 0.0,
         driver,
         driven,
         warnings: Vec::new(),

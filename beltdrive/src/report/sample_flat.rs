@@ -160,6 +160,7 @@ fn state(law: FrictionLaw, tight: f64) -> SteadyState {
         tight_tractive_tension: tight,
         efficiency: 1.0 - loss,
         friction_loss: loss * power,
+        compression_power: 0.0,
         driver: driver.pulley(SPEED),
         driven: driven.pulley((1.0 - loss) * rim / DRIVEN_RADIUS),
         warnings: Vec::new(),

@@ -4,7 +4,9 @@ use super::answer;
 use super::lines::{self, row, single, small};
 use super::{Precision, rpm, slip_arc, title, torque_scale, warning};
 use crate::quantity::{Answer, Group, UnitSystem};
-use crate::{BeltKind, Check, Convergence, Entry, PulleySummary, StateSummary, SteadyState, Zone};
+use crate::{
+    BeltKind, Check, Convergence, Drive, Entry, PulleySummary, StateSummary, SteadyState, Zone,
+};
 
 /// Most significant digits shown; fewer where the error estimate does not support them.
 const DIGITS: u8 = 6;
@@ -24,7 +26,7 @@ pub fn table(state: &SteadyState, groups: &[Group], units: UnitSystem) -> String
     let blocks = [
         pulleys(state, &summary, precision),
         spans(state, precision),
-        whole(&summary, precision),
+        whole(&state.drive, &summary, precision),
         as_loop(groups, units),
         match state.drive.belt.kind {
             BeltKind::V(_) => accuracy(&state.convergence),
@@ -193,10 +195,10 @@ fn as_loop(groups: &[Group], units: UnitSystem) -> Vec<String> {
 }
 
 /// The quantities of the drive as a whole.
-fn whole(state: &StateSummary, precision: Precision) -> Vec<String> {
+fn whole(drive: &Drive, state: &StateSummary, precision: Precision) -> Vec<String> {
     // Losses are differences: of two speeds, of two powers.
     let input = state.driver.power();
-    vec![
+    let mut lines = vec![
         single(
             "belt length, unstretched",
             precision.show(state.belt_length),
@@ -218,7 +220,12 @@ fn whole(state: &StateSummary, precision: Precision) -> Vec<String> {
             precision.show_against(state.friction_loss, input),
             "W",
         ),
-    ]
+    ];
+    if let BeltKind::V(_) = drive.belt.kind {
+        let compression = precision.show_against(state.compression_power, input);
+        lines.push(single("compression of the belt", compression, "W"));
+    }
+    lines
 }
 
 /// How far the numbers can be trusted, and what they cost.
@@ -264,11 +271,7 @@ fn closed_form(convergence: &Convergence) -> Vec<String> {
 
 /// A verified invariant, and whether it holds.
 fn check(check: &Check) -> String {
-    let verdict = if check.deviation <= check.limit {
-        "holds"
-    } else {
-        "VIOLATED"
-    };
+    let verdict = if check.holds() { "holds" } else { "VIOLATED" };
     format!(
         "check: {:<45} {:<9} deviation {:.1e}, limit {:.1e}",
         check.name, verdict, check.deviation, check.limit

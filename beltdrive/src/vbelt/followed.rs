@@ -306,9 +306,7 @@ impl<'a> Walk<'a, '_, '_> {
         };
         let drive = self.family.drive(scaled);
         let state = describe(&Path::new(&drive, self.chart.tolerance), &here);
-        if state.violated().is_some() {
-            return None;
-        }
+        state.verified().ok()?;
         let error = point.error.map(|error| error.states);
         let relative = error.filter(|error| error.is_finite());
         let value = scaled[0] * self.from.value;

@@ -34,6 +34,7 @@ mod state;
 mod steps;
 mod trace;
 mod tracer;
+mod warnings;
 mod watched;
 mod zones;
 
@@ -51,6 +52,7 @@ pub(crate) use limit_curve::limit_curve;
 pub(crate) use limits::limits;
 pub(crate) use solve::{solve, solve_from};
 pub(crate) use trace::trace;
+pub(crate) use warnings::beyond_model;
 
 /// Index of the driven pulley, which comes first.
 pub(crate) const DRIVEN: usize = 0;

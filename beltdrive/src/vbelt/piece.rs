@@ -219,8 +219,8 @@ impl Tracer<'_> {
         if regular && here.problem.is_split() && Split::of(here).is_some() {
             return Some(self.next_piece(point, here.clone(), &drive));
         }
-        if let Some(check) = state.violated() {
-            let cause = format!("a state violates an invariant, {}", check.name);
+        if let Err(error) = state.verified() {
+            let cause = error.to_string();
             return Some(PieceEnd::Branch(BranchEnd::NotConverged { cause }));
         }
         let place = self.record(point, kind, &state, effect);

@@ -2,8 +2,8 @@
 
 use super::limit::Found;
 use super::path::{Path, Solved, Stuck};
-use super::state::steady_state;
-use crate::{Drive, SolveError, SolveOptions, SpanTension, SteadyState};
+use super::state::{describe, steady_state};
+use crate::{Drive, SolveError, SolveOptions, SpanTension, SteadyState, possible};
 use std::mem::discriminant;
 use web_time::Instant;
 
@@ -42,7 +42,7 @@ pub(crate) fn solve_from(
         Ok(solved) => {
             let found = path.classify(solved);
             match conclude(path, found, start) {
-                Err(SolveError::Violated(_)) => solve(drive, options),
+                Err(SolveError::Violated(_) | SolveError::Impossible(_)) => solve(drive, options),
                 answer => answer,
             }
         }
@@ -58,10 +58,8 @@ fn conclude(
 ) -> Result<SteadyState, SolveError> {
     let solved = carried(&path, found)?;
     let state = steady_state(&path, solved, start);
-    match state.violated() {
-        Some(check) => Err(SolveError::Violated(check.clone())),
-        None => forwards(path.drive, &state).map(|()| state),
-    }
+    state.verified()?;
+    forwards(path.drive, &state).map(|()| state)
 }
 
 /// Refuses a state in which the tight span is the slacker one. Where one tension is stated as tractive and
@@ -92,6 +90,9 @@ pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<So
         Found::State(solved) => Ok(*solved),
         Found::Beyond(limit) => {
             let state = &limit.state;
+            if let Some(fault) = possible::fault(&describe(path, state)) {
+                return Err(SolveError::Impossible(fault));
+            }
             Err(SolveError::NoSteadyState {
                 quantity: match drive.load.tight {
                     SpanTension::Tractive(_) => "tight tractive tension",

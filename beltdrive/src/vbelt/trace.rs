@@ -1,6 +1,7 @@
 //! Traces of V-belt drives: a drive and a range of one entry in, a branch out.
 
 use super::solve::{carried, find};
+use super::state::describe;
 use super::tracer::{Tracer, Until};
 use crate::input::Key;
 use crate::{Branch, Drive, SolveError, SolveOptions};
@@ -24,6 +25,7 @@ pub(crate) fn trace(
     let first = tracer.drive_at(from);
     let (path, found) = find(&first, tolerance);
     let solved = carried(&path, found)?;
+    describe(&path, &solved).verified()?;
     let direction = if to > from {
         Direction::Increasing
     } else {

@@ -1,11 +1,11 @@
 //! Both limits of a drive as JSON: complete, at full precision, every key with its unit.
 
-use crate::input::Key;
 use crate::report::branch::ConvergenceReport;
 use crate::report::{
-    belt::BeltReport, errors::ErrorReport, json::pretty, scalars::Scalars, value::Named, words,
+    belt::BeltReport, errors::ErrorReport, json::WarningReport, json::pretty, scalars::Scalars,
+    value::Named, words,
 };
-use crate::{Limit, Limits, Pulley};
+use crate::{Branch, Limit, Limits, Pulley};
 use serde::Serialize;
 
 /// Both limits as pretty-printed JSON, each with the state there under the keys of the report of a
@@ -19,8 +19,8 @@ pub fn json(limits: &Limits) -> String {
         friction_law: branch.drive.law.name(),
         parameter: key.path(),
         unit: key.unit(),
-        smallest: LimitReport::of(key, &limits.smallest),
-        largest: LimitReport::of(key, &limits.largest),
+        smallest: LimitReport::of(branch, &limits.smallest),
+        largest: LimitReport::of(branch, &limits.largest),
         convergence: ConvergenceReport::from(&branch.convergence),
     })
 }
@@ -47,6 +47,7 @@ struct LimitReport {
     reason: &'static str,
     pulley: Option<Pulley>,
     description: String,
+    warnings: Vec<WarningReport>,
     #[serde(flatten)]
     scalars: Scalars,
     error_estimate: Option<f64>,
@@ -54,7 +55,9 @@ struct LimitReport {
 }
 
 impl LimitReport {
-    fn of(key: Key, limit: &Limit) -> Self {
+    fn of(branch: &Branch, limit: &Limit) -> Self {
+        let key = branch.key;
+        let warnings = limit.warnings(&branch.drive, &key);
         Self {
             parameter: Named(key, limit.value),
             value: key.reported(limit.value),
@@ -62,6 +65,7 @@ impl LimitReport {
             reason: words::range_end_kind(limit.reason),
             pulley: words::range_end_pulley(limit.reason),
             description: limit.reason.to_string(),
+            warnings: warnings.iter().map(WarningReport::from).collect(),
             scalars: Scalars::from(&limit.state),
             error_estimate: limit.state.error_estimate,
             errors: limit.errors.as_ref().map(ErrorReport::from),

@@ -8,7 +8,8 @@ use crate::report::{
     rpm, slip_arc, torque_scale, value, words,
 };
 use crate::{
-    BeltKind, Drive, Limit, Limits, PulleyErrors, PulleySummary, StateErrors, StateSummary,
+    BeltKind, BranchEnd, Drive, Limit, Limits, PulleyErrors, PulleySummary, RangeEnd, StateErrors,
+    StateSummary,
 };
 
 /// Most significant digits of a scalar.
@@ -24,12 +25,30 @@ pub fn table(limits: &Limits) -> String {
     title.push(format!("Limits of {}", key.path()));
     let reasons = [("smallest", ends[0]), ("largest", ends[1])].map(|(name, limit)| {
         let place = value::quantity(key, limit.value, limit.value_error);
-        format!("{name} {place}: {}", limit.reason)
+        match (&branch.end, limit.reason) {
+            (end @ BranchEnd::NotConverged { .. }, RangeEnd::NotFound) if name == "largest" => {
+                format!("{name} {place}: {}; {end}", limit.reason)
+            }
+            (_, reason) => format!("{name} {place}: {reason}"),
+        }
     });
+    let remarks = [("smallest", ends[0]), ("largest", ends[1])]
+        .into_iter()
+        .flat_map(|(name, limit)| {
+            let warnings = limit.warnings(&branch.drive, &key).into_iter();
+            warnings.flat_map(move |remark| {
+                let text = format!("{name}: {}", report::warning(&remark));
+                lines::wrapped("WARNING: ", &text)
+            })
+        });
     let columns = ends.map(|limit| Column::of(limits, limit));
     lines::text([
         title,
-        reasons.to_vec(),
+        reasons
+            .iter()
+            .flat_map(|text| lines::wrapped("", text))
+            .chain(remarks)
+            .collect(),
         parameter(limits, ends),
         states(&branch.drive, &columns),
         convergence(&branch.drive, &branch.convergence),
