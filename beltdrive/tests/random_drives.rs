@@ -2,7 +2,8 @@
 //! with the reason why no steady state carries its load.
 
 use beltdrive::{
-    Belt, BeltKind, Drive, FrictionLaw, Load, SolveError, SolveOptions, SpanTension, VBelt, solve,
+    Belt, BeltKind, Drive, FrictionLaw, Load, SolveError, SolveOptions, SpanTension, SteadyState,
+    VBelt, ZoneKind, solve,
 };
 use std::f64::consts::PI;
 
@@ -71,6 +72,26 @@ fn drive(random: &mut Random, law: FrictionLaw) -> Drive {
     }
 }
 
+/// What the user reads of a state is that of a drive.
+fn assert_possible(state: &SteadyState) {
+    let powers = [&state.driver, &state.driven].map(|on| on.torque * on.angular_speed);
+    assert!((0.0..=1.0).contains(&state.efficiency) && state.friction_loss >= 0.0);
+    let explained = state.friction_loss + state.compression_power;
+    assert!((powers[0] - powers[1] - explained).abs() < 1e-4 * powers[0]);
+    let lengths = [state.belt_length, state.slack_span, state.tight_span];
+    assert!(lengths.into_iter().all(|length| length > 0.0));
+    for pulley in [&state.driver, &state.driven] {
+        let profile = &pulley.profile;
+        let largest = profile.normal_force.iter().copied().fold(0.0, f64::max);
+        let mu = state.drive.friction_coefficient;
+        for (p, f) in profile.normal_force.iter().zip(&profile.friction_force) {
+            assert!(*p >= -1e-12 * largest && *f <= mu * p + 1e-5 * largest);
+        }
+        let tensions = profile.tension.iter().chain(&profile.tractive_tension);
+        assert!(tensions.into_iter().all(|tension| *tension > 0.0));
+    }
+}
+
 /// Solves `count` random drives, prints the score and returns how many failed.
 fn survey(law: FrictionLaw, count: usize, seed: u64) -> usize {
     let mut random = Random(seed);
@@ -81,6 +102,7 @@ fn survey(law: FrictionLaw, count: usize, seed: u64) -> usize {
         match solve(&drive, &SolveOptions::default()) {
             Ok(state) => {
                 assert!(state.driven.angular_speed > 0.0);
+                assert_possible(&state);
                 seconds.push(state.convergence.seconds);
             }
             Err(SolveError::NoSteadyState { asked, limit, .. }) => {
@@ -127,6 +149,23 @@ fn epp_friction() {
     // since the steps of a branch have changed.
     let failed = survey(FrictionLaw::Epp { stiffness: 8e6 }, 20, 20_260_003);
     assert!(failed <= 3, "{failed} of 20");
+}
+
+#[test]
+fn a_belt_that_sticks_up_to_its_exit_slips_at_the_very_end() {
+    // Where it leaves it presses no longer. The slip zones are shorter than the distance of two looks at the
+    // friction; without them the normal force at the exits is negative.
+    let mut random = Random(12);
+    let law = FrictionLaw::Epp { stiffness: 1e6 };
+    let mut drive = (0..3).map(|_| drive(&mut random, law)).last().unwrap();
+    drive.load.tight = SpanTension::Tractive(57.0);
+    let state = solve(&drive, &SolveOptions::default()).unwrap();
+    assert_possible(&state);
+    for pulley in [&state.driver, &state.driven] {
+        let last = pulley.zones.last().unwrap();
+        assert_eq!(last.kind, ZoneKind::Slip);
+        assert!(last.to - last.from < 0.01);
+    }
 }
 
 #[test]

@@ -53,8 +53,14 @@ impl Path<'_> {
             }
             return self
                 .epp_by_zones(&coulomb, tight)
-                .or_else(|_| self.epp_at_last(&coulomb, tight))
-                .or_else(|_| self.epp_as_a_whole(&coulomb, tight));
+                .or_else(|stuck| {
+                    let other = self.epp_at_last(&coulomb, tight);
+                    self.farther(stuck, other)
+                })
+                .or_else(|stuck| {
+                    let other = self.epp_as_a_whole(&coulomb, tight);
+                    self.farther(stuck, other)
+                });
         };
         if let Ok(solved) = self.cold(bristles(self, stiffness), Effort::Final) {
             return Ok(solved);
@@ -66,6 +72,17 @@ impl Path<'_> {
         self.finish(stiffer)
     }
 
+    /// The steady state as by [`Path::at_load`], but at the smallest ε that was reached where its effect is
+    /// not below the tolerance: good enough to follow a branch from it.
+    pub(super) fn start(&mut self, tight: f64) -> Result<Solved, Stuck> {
+        match self.at_load(tight) {
+            Err(Stuck {
+                last: Some(last), ..
+            }) if last.is_resolved(self.drive.law, self.tolerance) => Ok(*last),
+            outcome => outcome,
+        }
+    }
+
     /// The steady state of the drive from that of a neighbouring drive with a law of the same kind,
     /// at the same ε and with the same zones.
     pub(super) fn neighbour(&mut self, solved: &Solved) -> Result<Solved, bvp::Error> {
@@ -74,6 +91,18 @@ impl Path<'_> {
         let problem = DriveProblem::new(self.drive, self.scales, solved.problem.epsilon())
             .with_zones(driven, driver);
         self.attempt(problem, &Carried(solved), Effort::Final)
+    }
+
+    /// The outcome of another way, or the way that came farther: to a state that only lacks a smaller ε.
+    fn farther(&self, stuck: Stuck, other: Result<Solved, Stuck>) -> Result<Solved, Stuck> {
+        let resolved = |stuck: &Stuck| {
+            let last = stuck.last.as_ref();
+            last.is_some_and(|last| last.is_resolved(self.drive.law, self.tolerance))
+        };
+        match other {
+            Err(other) if resolved(&stuck) && !resolved(&other) => Err(stuck),
+            outcome => outcome,
+        }
     }
 
     /// From bristles to Coulomb friction with a large ε.
@@ -159,7 +188,8 @@ impl Path<'_> {
             return self.again(rough, Effort::Final);
         }
         let solved = self.again(rough, Effort::Final)?;
-        let mut here = self.keep_zones(solved, Effort::Final)?;
+        let here = self.keep_zones(solved, Effort::Final)?;
+        let mut here = self.slip_at_exits(here);
         loop {
             let epsilon = here.problem.epsilon();
             let range = [epsilon.ln(), (0.1 * epsilon).ln()];
@@ -180,6 +210,23 @@ impl Path<'_> {
                 return self.with_estimate(finer);
             }
             here = finer;
+        }
+    }
+
+    /// The solution with a slip zone at the exits that elastic friction reached, if there is one. Without it
+    /// the normal force is negative at the exit, which the checks refuse.
+    fn slip_at_exits(&mut self, here: Solved) -> Solved {
+        if !here.problem.is_split() {
+            return here;
+        }
+        let Some(split) = Split::with_exits(&here) else {
+            return here;
+        };
+        let problem = split.problem(&here);
+        let outcome = self.attempt(problem, &split.guess(&here), Effort::Final);
+        match outcome {
+            Ok(slipping) if Split::of(&slipping).is_none() => slipping,
+            _ => here,
         }
     }
 

@@ -92,6 +92,13 @@ impl Path<'_> {
         self.classify(solved)
     }
 
+    /// A state at the scaled tight tension `target` from which the branch can be followed up to its limit,
+    /// unless that is hard to find.
+    pub(super) fn below_limit(&mut self, target: f64) -> Option<Solved> {
+        let solved = self.start(target).ok()?;
+        (solved.driven_speed() > 0.0 && self.is_before_limit(&solved)).then_some(solved)
+    }
+
     /// Whether the tension rises with the contact length of the driver, as it does from no load to
     /// the first limit point. Looked at only where a limit point can be near.
     fn is_before_limit(&mut self, solved: &Solved) -> bool {

@@ -8,7 +8,7 @@ use super::watched::RATIOS;
 use crate::input::Key;
 use crate::{
     Branch, BranchEnd, BranchEvent, Drive, EventKind, Limit, LimitReason, Limits, RangeEnd,
-    SolveError, SolveOptions, StateErrors, StateSummary, TracePoint,
+    SolveError, SolveOptions, StateErrors, StateSummary, TracePoint, possible,
 };
 use continuation::Direction;
 use std::f64::consts::PI;
@@ -105,21 +105,28 @@ pub(super) fn first_state(
     key: &Key,
     tolerance: f64,
 ) -> Result<(Drive, Solved), SolveError> {
-    let tight = Key::load(drive);
-    let mut first = drive.clone();
-    let ratio = tight.get(drive) / drive.load.slack.value();
-    let mut attempt = |share: f64| {
-        tight.set(&mut first, drive.load.slack.value() * ratio.powf(share));
-        let (path, found) = find(&first, tolerance);
-        carried(&path, found).map(|solved| (first.clone(), solved))
-    };
-    let mut outcome = attempt(1.0);
-    for share in EASIER {
-        if outcome.is_err() && *key == tight {
-            outcome = attempt(share);
+    let load = Key::load(drive);
+    if *key == load {
+        let ratio = load.get(drive) / drive.load.slack.value();
+        for share in [1.0].into_iter().chain(EASIER) {
+            let mut first = drive.clone();
+            load.set(&mut first, drive.load.slack.value() * ratio.powf(share));
+            let mut path = Path::new(&first, tolerance);
+            let Some(solved) = path.below_limit(first.load.tight.value() / path.scales.units.force)
+            else {
+                continue;
+            };
+            // No load makes the belt slower.
+            return match possible::fault(&describe(&path, &solved)) {
+                Some(fault) => Err(SolveError::Impossible(fault)),
+                None => Ok((first.clone(), solved)),
+            };
         }
     }
-    outcome
+    let (path, found) = find(drive, tolerance);
+    let solved = carried(&path, found)?;
+    describe(&path, &solved).verified()?;
+    Ok((drive.clone(), solved))
 }
 
 /// Follows the branch towards larger values until it ends.

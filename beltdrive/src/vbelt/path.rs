@@ -3,7 +3,7 @@
 
 use super::carried::Carried;
 use super::steps::Steps;
-use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, Guess, Scales};
+use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, Guess, Law, Scales};
 use crate::{Drive, FrictionLaw};
 use bvp::{Control, Options, Scheme, Solution, Stats};
 
@@ -92,6 +92,16 @@ impl Solved {
     /// States where the belt leaves a pulley.
     pub(super) fn exit(&self, pulley: usize) -> &[f64] {
         self.solution.end(self.problem.zones(pulley).end - 1)
+    }
+
+    /// Whether it is solved to a tolerance with a law whose slip is normalised.
+    pub(super) fn is_resolved(&self, law: FrictionLaw, tolerance: f64) -> bool {
+        let same = match (law, self.problem.groove(DRIVER).law) {
+            (FrictionLaw::Coulomb, Law::Coulomb) => true,
+            (FrictionLaw::Epp { .. }, Law::Epp { weight, .. }) => weight == 1.0,
+            _ => false,
+        };
+        same && self.solution.defect() <= tolerance
     }
 
     /// The constants of the drive that an engineer reads: speed of the driven pulley, mass flow

@@ -32,7 +32,22 @@ impl Split {
     /// The zones of a solution where they differ from the segments of its problem, or `None` where
     /// every segment is of one kind and known to be.
     pub(super) fn of(solved: &Solved) -> Option<Self> {
-        let pulleys = [DRIVEN, DRIVER].map(|pulley| zones(solved, pulley));
+        Self::of_zones(
+            solved,
+            [DRIVEN, DRIVER].map(|pulley| zones(solved, pulley, false)),
+        )
+    }
+
+    /// As [`Split::of`], with a last slip zone where elastic friction reaches the exit. The belt presses no
+    /// longer there, so that it slips at the very end, on a way that may lie between two samples.
+    pub(super) fn with_exits(solved: &Solved) -> Option<Self> {
+        Self::of_zones(
+            solved,
+            [DRIVEN, DRIVER].map(|pulley| zones(solved, pulley, true)),
+        )
+    }
+
+    fn of_zones(solved: &Solved, pulleys: [Vec<Zone>; 2]) -> Option<Self> {
         let split = Self { pulleys };
         let same = [DRIVEN, DRIVER]
             .into_iter()
@@ -61,8 +76,9 @@ impl Split {
     }
 }
 
-/// The zones of one pulley, from the sign of the excess of elastic over slipping friction.
-fn zones(solved: &Solved, pulley: usize) -> Vec<Zone> {
+/// The zones of one pulley, from the sign of the excess of elastic over slipping friction, sampled at the
+/// exit too if asked for.
+fn zones(solved: &Solved, pulley: usize, at_exit: bool) -> Vec<Zone> {
     let mut zones: Vec<Zone> = Vec::new();
     let p = solved.solution.parameters();
     let total = solved.problem.contact_length(pulley, p);
@@ -73,43 +89,47 @@ fn zones(solved: &Solved, pulley: usize) -> Vec<Zone> {
         let length = p[DriveProblem::length_index(segment)];
         let mut y = [0.0; MAX_STATES];
         let y = &mut y[..solved.solution.segments()[segment].states];
-        for pair in solved.solution.mesh(segment).windows(2) {
-            for sample in 0..SAMPLES {
-                let s = pair[0] + (pair[1] - pair[0]) * (sample as f64 + 0.5) / SAMPLES as f64;
-                solved.solution.state(segment, s, y);
-                let speed = DriveProblem::speed(pulley, p);
-                let groove = solved.problem.groove(pulley);
-                let excess = limit_excess(groove, y, speed, DriveProblem::flow(p));
-                let place = before + s * length;
-                largest = largest.max(excess.abs());
-                if excess.abs() <= 1e-9 * largest {
-                    continue;
-                }
-                let regime = if excess > 0.0 {
-                    Regime::Slip
-                } else {
-                    Regime::Elastic
-                };
-                match zones.last_mut() {
-                    Some(zone) if zone.regime == regime => zone.to = place,
-                    Some(zone) => {
-                        let (at, value) = last.unwrap_or((place, excess));
-                        let crossing = at + (place - at) * value / (value - excess);
-                        zone.to = crossing;
-                        zones.push(Zone {
-                            regime,
-                            from: crossing,
-                            to: place,
-                        });
-                    }
-                    None => zones.push(Zone {
-                        regime,
-                        from: 0.0,
-                        to: place,
-                    }),
-                }
-                last = Some((place, excess));
+        let mesh = solved.solution.mesh(segment);
+        let inside = mesh.windows(2).flat_map(|pair| {
+            let share = |sample| (sample as f64 + 0.5) / SAMPLES as f64;
+            (0..SAMPLES).map(move |sample| pair[0] + (pair[1] - pair[0]) * share(sample))
+        });
+        let is_last = segment + 1 == solved.problem.zones(pulley).end;
+        let exit = (at_exit && is_last).then_some(1.0);
+        for s in inside.chain(exit) {
+            solved.solution.state(segment, s, y);
+            let speed = DriveProblem::speed(pulley, p);
+            let groove = solved.problem.groove(pulley);
+            let excess = limit_excess(groove, y, speed, DriveProblem::flow(p));
+            let place = before + s * length;
+            largest = largest.max(excess.abs());
+            if excess.abs() <= 1e-9 * largest {
+                continue;
             }
+            let regime = if excess > 0.0 {
+                Regime::Slip
+            } else {
+                Regime::Elastic
+            };
+            match zones.last_mut() {
+                Some(zone) if zone.regime == regime => zone.to = place,
+                Some(zone) => {
+                    let (at, value) = last.unwrap_or((place, excess));
+                    let crossing = at + (place - at) * value / (value - excess);
+                    zone.to = crossing;
+                    zones.push(Zone {
+                        regime,
+                        from: crossing,
+                        to: place,
+                    });
+                }
+                None => zones.push(Zone {
+                    regime,
+                    from: 0.0,
+                    to: place,
+                }),
+            }
+            last = Some((place, excess));
         }
         before += length;
     }
@@ -180,7 +200,7 @@ pub(super) fn angles(solved: &Solved, pulley: usize) -> Vec<(Regime, [f64; 2])> 
         solved.solution.state(segment, s, &mut y[..n]);
         y[ANGLE]
     };
-    zones(solved, pulley)
+    zones(solved, pulley, false)
         .into_iter()
         .map(|zone| (zone.regime, [zone.from, zone.to].map(angle)))
         .collect()

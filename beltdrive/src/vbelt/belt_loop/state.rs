@@ -331,7 +331,7 @@ pub(super) fn state(
         tolerance: search.tolerance,
     };
     let checks = checks.all();
-    if let Some(violated) = checks.iter().find(|check| check.is_violated()) {
+    if let Some(violated) = checks.iter().find(|check| !check.holds()) {
         return Err(LoopError::Violated(violated.clone()));
     }
     let count = belt_loop.pulleys.len();
