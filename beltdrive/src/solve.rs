@@ -88,7 +88,7 @@ pub enum SolveError {
         tight: f64,
     },
     /// The eigenvalues of the axial motion were not found beyond doubt.
-    #[error("stability: {cause}")]
+    #[error("the axial modes were not found beyond doubt: {cause}")]
     Stability {
         /// Why.
         cause: String,
@@ -131,7 +131,10 @@ pub enum SolveError {
 
 fn reached(tight: Option<f64>) -> String {
     match tight {
-        Some(tight) => format!("the state was followed to a tight tension of {tight:.2} N"),
+        Some(tight) => format!(
+            "a first approximation was found at a tight tension of {} N, but no accurate state",
+            six_digits(tight)
+        ),
         None => "no state was found on the way".to_owned(),
     }
 }

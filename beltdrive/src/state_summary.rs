@@ -47,6 +47,8 @@ pub struct PulleySummary {
     pub torque: f64,
     /// Angle swept by the belt on the pulley, rad.
     pub wrap_angle: f64,
+    /// The wrap angle of the pitch circles, rad, as in [`PulleyState`].
+    pub geometric_wrap_angle: f64,
     /// Largest penetration of the belt into the groove, m.
     pub max_penetration: f64,
     /// Inclination θ of the belt to the local circle at entry and exit, rad; positive outward.
@@ -156,6 +158,7 @@ impl From<&PulleyState> for PulleySummary {
             angular_speed: pulley.angular_speed,
             torque: pulley.torque,
             wrap_angle: pulley.wrap_angle,
+            geometric_wrap_angle: pulley.geometric_wrap_angle,
             max_penetration: pulley.max_penetration,
             inclination: pulley.inclination,
             zones: pulley.zones.clone(),

@@ -77,6 +77,9 @@ pub struct PulleyState {
     pub torque: f64,
     /// Angle swept by the belt on the pulley, rad.
     pub wrap_angle: f64,
+    /// The wrap angle π ± 2 asin((R₁ − R₂)/C) of the pitch circles, rad, on which the belt neither sinks into
+    /// the groove nor leaves the tangent.
+    pub geometric_wrap_angle: f64,
     /// Largest penetration of the belt into the groove, m.
     pub max_penetration: f64,
     /// Inclination θ of the belt to the local circle at entry and exit, rad; positive outward.

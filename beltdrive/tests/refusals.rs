@@ -145,3 +145,18 @@ fn a_belt_that_sinks_below_its_groove_or_stretches_too_far_is_remarked() {
         serde_json::from_slice(&run("solve", "kim2009", &soft).stdout).unwrap();
     assert_eq!(kinds(&state), ["large strain"]);
 }
+
+#[test]
+fn the_wrap_of_the_pitch_circles_stands_beside_that_of_the_belt() {
+    let output = run(
+        "solve",
+        "kim2009-bristle",
+        &["pulleys.driven.radius=0.125 m"],
+    );
+    let state: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let number = |key: &str| state.pointer(key).unwrap().as_f64().unwrap();
+    let wrap = number("/driven/geometric_wrap_angle_deg");
+    let circles = 180.0 - 2.0 * (0.125_f64 / 1.393_327_732_346_075).asin().to_degrees();
+    assert!((wrap - circles).abs() < 1e-9);
+    assert!(number("/driven/wrap_angle_deg") > wrap + 1.0);
+}

@@ -99,6 +99,7 @@ fn pulley_state(drive: &Drive, solved: &ClosedForm, pulley: usize) -> PulleyStat
         },
         torque: arc.change * radius,
         wrap_angle: solved.geometry.wrap[pulley],
+        geometric_wrap_angle: solved.geometry.wrap[pulley],
         max_penetration: 0.0,
         inclination: [0.0; 2],
         zones: solved.zones_on(pulley),

@@ -74,6 +74,7 @@ fn state([slack, tight]: [f64; 2], overhang: f64) -> SteadyState {
         angular_speed,
         torque,
         wrap_angle,
+        geometric_wrap_angle: PI,
         max_penetration: profile.penetration.iter().copied().fold(0.0, f64::max),
         inclination,
         zones,

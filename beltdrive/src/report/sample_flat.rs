@@ -239,6 +239,7 @@ impl Contact {
             angular_speed,
             torque: self.sign * (exit - entry) * self.radius,
             wrap_angle: self.wrap,
+            geometric_wrap_angle: self.wrap,
             max_penetration: 0.0,
             inclination: [0.0; 2],
             zones: zones

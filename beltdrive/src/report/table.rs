@@ -99,7 +99,9 @@ fn groove(pulleys: [&PulleySummary; 2], precision: Precision) -> Vec<String> {
     let inclination =
         |end: usize| pulleys.map(|pulley| degrees(precision, pulley.inclination[end]));
     let penetration = pulleys.map(|pulley| precision.show(pulley.max_penetration * 1e3));
+    let geometric = pulleys.map(|pulley| degrees(precision, pulley.geometric_wrap_angle));
     vec![
+        row("of the pitch circles", geometric, "°"),
         row("largest penetration", penetration, "mm"),
         row("inclination at entry", inclination(0), "°"),
         row("inclination at exit", inclination(1), "°"),

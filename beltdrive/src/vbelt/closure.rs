@@ -25,7 +25,7 @@ use nalgebra::{Rotation2, Vector2};
 use std::f64::consts::PI;
 
 /// Inclination θ of the belt where it enters and where it leaves a pulley, rad.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct EndAngles<T> {
     /// θ where the belt enters.
     pub(crate) entry: T,

@@ -194,6 +194,7 @@ fn pulley_state(solved: &Solved, pulley: usize, integrals: Integrals) -> PulleyS
         angular_speed: DriveProblem::speed(pulley, p) * scales.units.angular_speed(radius),
         torque: sense * integrals.torque * scales.units.torque(radius),
         wrap_angle: solved.exit(pulley)[super::ANGLE],
+        geometric_wrap_angle: problem.layout().wraps([EndAngles::default(); 2])[pulley],
         max_penetration: deepest,
         inclination: [entry, exit],
         zones: friction_zones(solved, pulley),

@@ -197,7 +197,20 @@ fn onset(drive: &Drive, pulley: usize, form: LinearisedForm) -> Result<Onset, So
 }
 
 fn failed(error: StabilityError) -> SolveError {
-    SolveError::Stability {
-        cause: error.to_string(),
-    }
+    let cause = match error {
+        StabilityError::Invalid(_) | StabilityError::Supercritical { .. } => error.to_string(),
+        StabilityError::Unresolved(mode) => {
+            format!("mode {mode} varies too abruptly along the belt; ask for fewer modes")
+        }
+        StabilityError::NoConvergence { number, .. }
+        | StabilityError::Disagreement { number, .. }
+        | StabilityError::Duplicate { number, .. } => format!(
+            "two methods do not agree about mode {number}; ask for fewer modes, or for a belt speed farther \
+             below that of axial waves"
+        ),
+        StabilityError::Uncountable { .. } | StabilityError::Missing { .. } => {
+            "some may be missing; ask for another number of modes".to_owned()
+        }
+    };
+    SolveError::Stability { cause }
 }
