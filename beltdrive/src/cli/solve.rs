@@ -75,8 +75,8 @@ impl Report for SolvedLoop {
         report::answer::csv(&self.answer())
     }
 
-    fn plot(&self, _directory: &Path, _metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
-        Ok(Vec::new())
+    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
+        plot::write_loop(&self.belt_loop, &self.state, directory, Some(metadata))
     }
 }
 

@@ -60,7 +60,7 @@ pub struct PlacedPulley {
 
 impl PlacedPulley {
     /// Sense of rotation in a loop of a sense: +1 counter-clockwise, −1 clockwise.
-    fn turns(&self, sense: Sense) -> f64 {
+    pub(crate) fn turns(&self, sense: Sense) -> f64 {
         match self.side {
             Side::Inside => sense.sign(),
             Side::Outside => -sense.sign(),

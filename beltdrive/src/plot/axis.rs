@@ -1,5 +1,6 @@
 //! The range of an axis and its ticks.
 
+use super::style::number;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 use std::ops::Range;
 
@@ -176,7 +177,7 @@ impl ValueFormatter<f64> for Axis {
             let text = format!("{tick:.decimals$e}");
             text.parse().map_or(text, |tick: f64| format!("{tick:e}"))
         };
-        match self.spacing {
+        let text = match self.spacing {
             Spacing::Even(step) => {
                 // Adding zero makes a negative zero positive.
                 let round = (tick / step).round() * step + 0.0;
@@ -190,7 +191,8 @@ impl ValueFormatter<f64> for Axis {
             }
             Spacing::Powers(..) if self.in_powers() || self.from < SMALL => power(0),
             Spacing::Powers(..) => format!("{tick:.0$}", decimals(*tick)),
-        }
+        };
+        number(&text)
     }
 }
 
@@ -232,7 +234,7 @@ mod tests {
     #[test]
     fn labels_carry_the_decimals_of_the_step() {
         let axis = axis(&[-0.11, 0.1], Scale::Decimal).padded();
-        assert_eq!(labels(&axis), ["-0.10", "-0.05", "0.00", "0.05", "0.10"]);
+        assert_eq!(labels(&axis), ["−0.10", "−0.05", "0.00", "0.05", "0.10"]);
     }
 
     fn labels(axis: &Axis) -> Vec<String> {
@@ -251,11 +253,11 @@ mod tests {
         assert_eq!(labels(&load)[..5], round);
         assert!(load.from < 210.0 && load.to > 8332.8);
         let small = axis(&[1e-5, 3e-4], Scale::Parameter);
-        assert_eq!(labels(&small)[..4], ["1e-5", "2e-5", "5e-5", "1e-4"]);
+        assert_eq!(labels(&small)[..4], ["1e−5", "2e−5", "5e−5", "1e−4"]);
         let friction = axis(&[0.02, 2.0], Scale::Parameter);
         assert_eq!(labels(&friction)[..4], ["0.02", "0.05", "0.1", "0.2"]);
         let longest = axis(&[1e-12, 1e12], Scale::Parameter);
-        assert_eq!(labels(&longest)[..3], ["1e-10", "1e-5", "1e0"]);
+        assert_eq!(labels(&longest)[..3], ["1e−10", "1e−5", "1e0"]);
     }
 
     #[test]
@@ -273,7 +275,7 @@ mod tests {
         let narrow = axis(&[9.4e6, 1.1e7], Scale::Decimal);
         assert_eq!(labels(&narrow), ["9.5e6", "1e7", "1.05e7", "1.1e7"]);
         let small = axis(&[-2e-7, 4e-7], Scale::Decimal);
-        assert_eq!(labels(&small), ["-2e-7", "0", "2e-7", "4e-7"]);
+        assert_eq!(labels(&small), ["−2e−7", "0", "2e−7", "4e−7"]);
     }
 
     #[test]

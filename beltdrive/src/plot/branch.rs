@@ -3,7 +3,8 @@
 use super::axis::{Axis, Scale};
 use super::diagrams::{self, Curve, DRIVEN, DRIVER, Diagram};
 use super::header::{Header, Legend};
-use super::labels::{self, Frame, Label};
+use super::labels::{self, Label};
+use super::occupied::Frame;
 use super::panel::{Chart, Panel};
 use super::style::{self, Canvas, Drawn, Stroke, px};
 use crate::input::Key;

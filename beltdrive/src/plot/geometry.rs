@@ -1,6 +1,7 @@
 //! The drive in its plane: centres at rest, pulleys on a horizontal line with the driver on the
 //! left, the belt running counterclockwise.
 
+use crate::belt_loop::{BeltLoop, LoopState};
 use crate::{PulleyState, SteadyState};
 use nalgebra::{Rotation2, Vector2};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -81,6 +82,33 @@ impl Geometry {
     }
 }
 
+/// The pulleys of a loop, in belt order.
+///
+/// Where the belt runs in the direction ϑ with the inclination θ on a pulley that turns in the sense σ, it
+/// is at the polar angle ϑ − σ (π/2 − θ).
+pub(super) fn circles(belt_loop: &BeltLoop, state: &LoopState) -> Vec<Circle> {
+    let count = state.pulleys.len();
+    let circle = |index: usize| {
+        let pulley = &state.pulleys[index];
+        let placed = &state.layout.pulleys()[index];
+        let sense = placed.turns(belt_loop.sense);
+        let inclination = pulley
+            .groove
+            .as_ref()
+            .map_or(0.0, |groove| groove.inclination[0]);
+        let direction = state.spans[(index + count - 1) % count].direction;
+        let entry = direction - sense * (FRAC_PI_2 - inclination);
+        Circle {
+            centre: pulley.centre.into(),
+            radius: placed.radius,
+            sense,
+            entry,
+            exit: entry + sense * pulley.wrap,
+        }
+    };
+    (0..count).map(circle).collect()
+}
+
 impl Circle {
     /// The point at an angle φ swept from the entry and a penetration x into the groove.
     pub(super) fn point(&self, swept: f64, penetration: f64) -> Point {
@@ -88,12 +116,12 @@ impl Circle {
     }
 
     /// The point where the belt enters.
-    fn entry(&self) -> Point {
+    pub(super) fn entry(&self) -> Point {
         self.point(0.0, 0.0)
     }
 
     /// The point where the belt leaves.
-    fn exit(&self) -> Point {
+    pub(super) fn exit(&self) -> Point {
         self.centre + polar(self.exit, self.radius)
     }
 }

@@ -2,13 +2,15 @@
 
 use super::style::{self, BODY, Canvas, DOT, Drawn, GREY, INK, MARGIN, Stroke, TITLE, VERMILION};
 use super::style::{face, px, text_width, write};
+use crate::belt_loop::BeltLoop;
 use crate::input::Key;
+use crate::quantity::belt_loop as loop_words;
 use crate::report::{convention, folded, heading, law, warning};
 use crate::{Drive, SteadyState};
 use plotters::drawing::DrawingAreaErrorKind;
 use plotters::prelude::*;
 use plotters::style::text_anchor::HPos;
-use std::io;
+use std::{io, iter};
 
 /// Height of a further line of the header, px.
 const LINE: f64 = 20.0;
@@ -51,6 +53,17 @@ impl Header {
         Self {
             warnings: state.warnings.iter().map(warning).collect(),
             ..Self::new(&state.drive, &[], caption)
+        }
+    }
+
+    /// The header of a figure of a belt loop.
+    pub(super) fn of_loop(belt_loop: &BeltLoop, caption: &str) -> Self {
+        let mut lines = loop_words::heading(belt_loop).into_iter();
+        Self {
+            title: lines.next().unwrap_or_default(),
+            captions: iter::once(caption.to_owned()).chain(lines).collect(),
+            convention: None,
+            warnings: vec![],
         }
     }
 

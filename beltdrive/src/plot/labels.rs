@@ -1,5 +1,6 @@
 //! Where the numbers of events stand beside their dots.
 
+use super::occupied::Frame;
 use super::style::{SMALL, text_width};
 
 /// How far the middle of a digit is from its dot, across and down, px.
@@ -22,32 +23,6 @@ pub(super) struct Label {
     pub(super) text: String,
     /// Where its middle is, from the dot of the event that has it, px.
     pub(super) offset: [f64; 2],
-}
-
-/// A rectangle on the sheet, px.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Frame {
-    /// Left and upper end.
-    pub(super) from: [f64; 2],
-    /// Right and lower end.
-    pub(super) to: [f64; 2],
-}
-
-impl Frame {
-    fn around(middle: [f64; 2], half: [f64; 2]) -> Self {
-        Self {
-            from: [0, 1].map(|axis| middle[axis] - half[axis]),
-            to: [0, 1].map(|axis| middle[axis] + half[axis]),
-        }
-    }
-
-    fn meets(&self, other: &Self) -> bool {
-        (0..2).all(|axis| self.from[axis] < other.to[axis] && other.from[axis] < self.to[axis])
-    }
-
-    fn contains(&self, other: &Self) -> bool {
-        (0..2).all(|axis| self.from[axis] <= other.from[axis] && other.to[axis] <= self.to[axis])
-    }
 }
 
 /// The labels of the events of a panel, by curve and event, so that none covers another one.

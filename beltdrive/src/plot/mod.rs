@@ -1,6 +1,7 @@
 //! Results as figures in SVG.
 
 mod axis;
+mod belt_loop;
 mod branch;
 mod diagrams;
 mod drive;
@@ -8,6 +9,7 @@ mod geometry;
 mod header;
 mod labels;
 mod limit_curve;
+mod occupied;
 mod panel;
 mod plan;
 mod profile_figures;
@@ -15,6 +17,7 @@ mod profiles;
 mod stability;
 mod style;
 
+use crate::belt_loop::{BeltLoop, LoopState};
 use crate::report::write_file;
 use crate::{Branch, LimitCurve, Stability, SteadyState};
 use std::path::{Path, PathBuf};
@@ -61,6 +64,22 @@ pub fn write_all(
 ) -> Result<Vec<PathBuf>, Error> {
     let drive = std::iter::once(("drive.svg", drive::figure(state)));
     write(drive.chain(profiles::figures(state)), directory, metadata)
+}
+
+/// Writes all figures of the steady state of a belt loop into a directory, as [`write_all`] does: `loop.svg`,
+/// the loop to scale, and the profiles that [`write_all`] names, along the whole belt.
+///
+/// # Errors
+/// As [`write_all`].
+pub fn write_loop(
+    belt_loop: &BeltLoop,
+    state: &LoopState,
+    directory: &Path,
+    metadata: Option<&str>,
+) -> Result<Vec<PathBuf>, Error> {
+    let drawn = std::iter::once(("loop.svg", belt_loop::figure(belt_loop, state)));
+    let profiles = belt_loop::profiles::figures(belt_loop, state);
+    write(drawn.chain(profiles), directory, metadata)
 }
 
 /// Writes `branch.svg`, the bifurcation diagram of a branch, into a directory, as [`write_all`]

@@ -9,8 +9,11 @@ use plotters::style::text_anchor::HPos;
 use std::io;
 
 /// Where the vertical axis stands and where its description may begin, px.
-const LEFT: f64 = 92.0;
+pub(super) const LEFT: f64 = 92.0;
 const EDGE: f64 = 16.0;
+
+/// How far the frame of the axes is below the top of the panel, px.
+pub(super) const TOP: f64 = 24.0;
 
 /// What a panel shows besides its curves.
 pub(super) struct Panel<'a> {
@@ -36,7 +39,7 @@ impl Panel<'_> {
         style::write(canvas, self.title, &title, [LEFT, 12.0])?;
         let [across, up] = self.axes;
         let mut chart = ChartBuilder::on(canvas)
-            .margin_top(px(24.0))
+            .margin_top(px(TOP))
             .margin_left(px(EDGE))
             .margin_right(px(style::MARGIN))
             .margin_bottom(px(10.0))

@@ -18,6 +18,12 @@ pub(super) const FREE: Stroke = Stroke::solid(style::INK, BELT);
 /// How far an arrowhead reaches ahead of its place, behind it, and to each side, px.
 pub(super) const ARROWHEAD: [f64; 3] = [9.0, 5.0, 6.0];
 
+/// Size of the arrowheads of thin lines.
+const SLIM: f64 = 0.7;
+
+/// Below this radius of a pulley the arrowhead of its rotation is smaller, px.
+const ROOMY: f64 = 48.0;
+
 /// Points of a curve are no closer, px: places on the sheet are rounded to tenths of that, and the joints of
 /// a wide line through closer points would be seen.
 const CLOSEST: f64 = 1.0;
@@ -45,6 +51,12 @@ impl Plan {
         self.position(point).map(px).into()
     }
 
+    /// The point of the plane at a position on the sheet, px.
+    pub(super) fn point(&self, [across, down]: [f64; 2]) -> Point {
+        let place = [across - self.origin[0], self.origin[1] - down];
+        Point::from(place) / self.scale
+    }
+
     /// The disc of a pulley with its centre.
     pub(super) fn disc(&self, canvas: &Canvas<'_>, pitch: &Pitch, outline: Stroke) -> Drawn {
         let radius = px(self.scale * pitch.radius);
@@ -61,11 +73,12 @@ impl Plan {
         let arc = (-20..=20).map(|step| self.units(at(f64::from(step) / 20.0)));
         Stroke::solid(style::GREY, 2.0).draw(canvas, arc.collect())?;
         let onward = pitch.sense * (at(1.0) - pitch.centre);
-        let onward = Point::new(-onward.y, onward.x);
-        self.arrowhead(canvas, at(1.0), onward, style::GREY)
+        let size = (self.scale * pitch.radius / ROOMY).min(1.0);
+        let onward = size * Point::new(-onward.y, onward.x).normalize();
+        self.small_arrowhead(canvas, at(1.0), onward, style::GREY)
     }
 
-    /// An arrowhead with its tip ahead of a point.
+    /// An arrowhead of the size of [`ARROWHEAD`] with its tip ahead of a point.
     pub(super) fn arrowhead(
         &self,
         canvas: &Canvas<'_>,
@@ -73,7 +86,18 @@ impl Plan {
         direction: Point,
         color: RGBColor,
     ) -> Drawn {
-        let along = direction.normalize() / self.scale;
+        self.small_arrowhead(canvas, at, direction.normalize(), color)
+    }
+
+    /// An arrowhead whose size is the length of its direction times that of [`ARROWHEAD`].
+    fn small_arrowhead(
+        &self,
+        canvas: &Canvas<'_>,
+        at: Point,
+        direction: Point,
+        color: RGBColor,
+    ) -> Drawn {
+        let along = direction / self.scale;
         let across = Point::new(-along.y, along.x);
         let [ahead, behind, beside] = ARROWHEAD;
         let corners = [
@@ -85,6 +109,23 @@ impl Plan {
             corners.map(|corner| self.units(corner)).to_vec(),
             color.filled(),
         ))
+    }
+
+    /// An arrow from a point to its tip: its line alone where it is shorter than an arrowhead.
+    pub(super) fn arrow(
+        &self,
+        canvas: &Canvas<'_>,
+        [start, end]: [Point; 2],
+        stroke: Stroke,
+    ) -> Drawn {
+        let (along, [ahead, behind, _]) = (end - start, ARROWHEAD);
+        let length = self.scale * along.norm();
+        if length < SLIM * (ahead + behind) {
+            return stroke.draw(canvas, vec![self.units(start), self.units(end)]);
+        }
+        let head = end - SLIM * ahead / length * along;
+        stroke.draw(canvas, vec![self.units(start), self.units(head)])?;
+        self.small_arrowhead(canvas, head, SLIM * along.normalize(), stroke.color)
     }
 
     /// The belt on a pulley through points at swept angles in rad, in the colours of its zones.

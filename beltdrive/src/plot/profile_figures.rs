@@ -14,6 +14,8 @@ pub(super) struct Figure {
     pub(super) axis: &'static str,
     /// Its scale.
     pub(super) scale: Scale,
+    /// Whether the spans have these quantities as well.
+    pub(super) on_spans: bool,
     /// The quantities.
     pub(super) curves: &'static [Curve],
 }
@@ -26,6 +28,16 @@ pub(super) struct Curve {
     pub(super) values: fn(f64, &Profile) -> Vec<f64>,
     /// How it is drawn.
     pub(super) stroke: Stroke,
+}
+
+/// The pieces of a curve through points, parted where a value is missing or an angle jumps by a full turn.
+pub(super) fn pieces(scale: Scale, points: &[(f64, f64)]) -> Vec<Vec<(f64, f64)>> {
+    let pieces = points.chunk_by(|(_, before), (_, after)| {
+        let jump = (after - before).abs();
+        jump.is_finite() && (scale == Scale::Decimal || jump < 180.0)
+    });
+    let pieces = pieces.filter(|piece| piece.len() > 1);
+    pieces.map(<[_]>::to_vec).collect()
 }
 
 const FIRST: Stroke = Stroke::solid(style::INK, 2.0);
@@ -52,6 +64,7 @@ const TENSION: Figure = Figure {
     title: "Tension along the belt",
     axis: "tension in N",
     scale: Scale::Decimal,
+    on_spans: true,
     curves: &[
         Curve {
             label: "belt tension T",
@@ -73,6 +86,7 @@ const V_BELT: [Figure; 5] = [
         title: "Inclination of the belt, positive outward",
         axis: "inclination θ in degrees",
         scale: Scale::Degrees,
+        on_spans: false,
         curves: &[Curve {
             label: "inclination θ",
             values: |_, profile| in_degrees(&profile.inclination),
@@ -84,6 +98,7 @@ const V_BELT: [Figure; 5] = [
         title: "Penetration of the belt into the groove",
         axis: "penetration x in mm",
         scale: Scale::Decimal,
+        on_spans: false,
         curves: &[Curve {
             label: "penetration x",
             values: |_, profile| in_millimetres(&profile.penetration),
@@ -95,6 +110,7 @@ const V_BELT: [Figure; 5] = [
         title: "Slip direction: 0° outward, 90° forward",
         axis: "sliding angle γ in degrees",
         scale: Scale::Degrees,
+        on_spans: false,
         curves: &[Curve {
             label: "sliding angle γ",
             values: |_, profile| in_degrees(&profile.sliding_angle),
@@ -106,6 +122,7 @@ const V_BELT: [Figure; 5] = [
         title: "Forces on each groove face",
         axis: "force per length in N/m",
         scale: Scale::Decimal,
+        on_spans: false,
         curves: &[
             Curve {
                 label: "normal force p",
@@ -128,6 +145,7 @@ const FLAT_BELT: [Figure; 4] = [
         title: "Friction force of the belt",
         axis: "force per length in N/m",
         scale: Scale::Decimal,
+        on_spans: false,
         curves: &[
             Curve {
                 label: "friction force f",
@@ -149,6 +167,7 @@ const FLAT_BELT: [Figure; 4] = [
         title: "Normal force of the belt",
         axis: "force per length in N/m",
         scale: Scale::Decimal,
+        on_spans: false,
         curves: &[Curve {
             label: "normal force n",
             values: |_, profile| profile.normal_force.clone(),
@@ -160,6 +179,7 @@ const FLAT_BELT: [Figure; 4] = [
         title: "Displacement of the belt against the rim",
         axis: "displacement u in mm",
         scale: Scale::Decimal,
+        on_spans: false,
         curves: &[Curve {
             label: "displacement u, positive forward",
             values: |_, profile| in_millimetres(&profile.displacement),

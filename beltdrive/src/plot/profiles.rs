@@ -3,9 +3,9 @@
 use super::axis::{Axis, Scale};
 use super::header::{Header, Legend};
 use super::panel::Panel;
-use super::profile_figures::{self, Curve, Figure};
+use super::profile_figures::{self, Figure, pieces};
 use super::style::{self, Canvas, Drawn, px};
-use crate::{Drive, Profile, PulleyState, SteadyState};
+use crate::{Drive, PulleyState, SteadyState};
 use plotters::prelude::*;
 
 /// Width and height of the figures, px.
@@ -81,26 +81,13 @@ impl Figure {
         });
         let chart = panel.draw(canvas, zones)?;
         for curve in self.curves {
-            for piece in self.pieces(curve, drive, &pulley.profile) {
+            let values = (curve.values)(drive.friction_coefficient, &pulley.profile);
+            let points: Vec<_> = degrees(&pulley.profile.angle).zip(values).collect();
+            for piece in pieces(self.scale, &points) {
                 curve.stroke.draw(chart.plotting_area(), piece)?;
             }
         }
         Ok(())
-    }
-
-    /// The points of a curve, parted where a value is missing or an angle jumps by a full turn.
-    fn pieces(&self, curve: &Curve, drive: &Drive, profile: &Profile) -> Vec<Vec<(f64, f64)>> {
-        let points: Vec<_> = degrees(&profile.angle)
-            .zip((curve.values)(drive.friction_coefficient, profile))
-            .collect();
-        points
-            .chunk_by(|(_, before), (_, after)| {
-                let jump = (after - before).abs();
-                jump.is_finite() && (self.scale == Scale::Decimal || jump < 180.0)
-            })
-            .filter(|piece| piece.len() > 1)
-            .map(<[_]>::to_vec)
-            .collect()
     }
 }
 
@@ -122,7 +109,11 @@ mod tests {
         };
         profile.inclination[100..].fill(4.0);
         profile.tension[3] = f64::NAN;
-        let pieces = |figure: &Figure| figure.pieces(&figure.curves[0], &state.drive, &profile);
+        let pieces = |figure: &Figure| {
+            let values = (figure.curves[0].values)(1.0, &profile);
+            let points: Vec<_> = degrees(&profile.angle).zip(values).collect();
+            pieces(figure.scale, &points)
+        };
         assert_eq!(pieces(inclination).len(), 2);
         assert_eq!(pieces(tension).len(), 2);
     }

@@ -177,6 +177,11 @@ pub(super) fn write(canvas: &Canvas<'_>, text: &str, style: &TextStyle<'_>, at: 
     canvas.draw_text(text, style, at.map(px).into())
 }
 
+/// A number as it is written in figures: with a minus sign, not a hyphen.
+pub(super) fn number(text: &str) -> String {
+    text.replace('-', "−")
+}
+
 /// About the width that a text takes in common sans-serif fonts, px.
 pub(super) fn text_width(characters: usize, size: f64) -> f64 {
     0.55 * size * characters as f64

@@ -38,7 +38,7 @@ pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
 }
 
 /// The title, and what the loop is.
-pub(super) fn heading(belt_loop: &BeltLoop) -> Vec<String> {
+pub(crate) fn heading(belt_loop: &BeltLoop) -> Vec<String> {
     let count = belt_loop.pulleys.len();
     let belt = match (belt_loop.belt.kind, belt_loop.belt.ribs) {
         (BeltKind::V(_), 1) => "V-belt".to_owned(),
@@ -88,7 +88,7 @@ fn coefficient(belt_loop: &BeltLoop) -> Option<f64> {
 const ROUNDING: f64 = 1e-12;
 
 /// Relative error of a state.
-pub(super) fn relative_error(state: &LoopState) -> f64 {
+pub(crate) fn relative_error(state: &LoopState) -> f64 {
     state.convergence.as_ref().map_or(ROUNDING, |convergence| {
         let estimate = convergence.error_estimate;
         estimate.max(convergence.slip_normalisation_effect)
