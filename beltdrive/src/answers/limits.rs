@@ -62,7 +62,14 @@ impl std::fmt::Display for LoopEnd {
         match self {
             Self::Limit(Refusal::Loop(error)) => match &**error {
                 // At the limit there is nothing to say of a load beyond.
-                LoopError::GrossSlip { pulley, .. } => write!(f, "pulley `{pulley}` slips grossly"),
+                LoopError::Overloaded {
+                    pulley,
+                    overhangs: true,
+                    ..
+                } => write!(f, "the belt overhangs itself on pulley `{pulley}`"),
+                LoopError::GrossSlip { pulley, .. } | LoopError::Overloaded { pulley, .. } => {
+                    write!(f, "pulley `{pulley}` slips grossly")
+                }
                 error => error.fmt(f),
             },
             Self::Limit(refusal) => refusal.fmt(f),
@@ -121,8 +128,7 @@ pub(super) fn end(
             end,
         })
     };
-    let is_factor = *varied == Varied::LoadFactor;
-    if is_factor && direction < 0.0 {
+    if direction < 0.0 && varied.ends_at_zero() && members.at(0.0).is_ok() {
         return found(0.0, 0.0, LoopEnd::NoLoad);
     }
     let first = FIRST * start.abs().max(if start == 0.0 { 1.0 } else { 0.0 });

@@ -151,6 +151,14 @@ impl Varied {
         }
     }
 
+    /// Whether it cannot be negative.
+    pub(super) fn ends_at_zero(&self) -> bool {
+        match self {
+            Self::Key(key) => key.ends_at_zero(),
+            Self::LoadFactor => true,
+        }
+    }
+
     /// Whether it cannot be 0 or negative.
     pub(super) fn is_positive(&self) -> bool {
         match self {

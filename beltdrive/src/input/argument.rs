@@ -28,7 +28,12 @@ impl Argument<'_> {
     /// # Errors
     /// There is no such entry, it is no number, or it does not apply to the drive.
     pub fn key(&self, drive: &Drive) -> Result<Key, Diagnostic> {
-        let known = Key::all(drive).find(|key| key.path() == self.value);
+        // The torque of a drive with two pulleys has two names.
+        let path = match self.value {
+            "load.torque" => schema::TORQUE,
+            path => path,
+        };
+        let known = Key::all(drive).find(|key| key.path() == path);
         known.ok_or_else(|| self.diagnose(self.no_key(drive)))
     }
 
@@ -115,6 +120,13 @@ fn inapplicable(path: &str, drive: &Drive, place: &Range<usize>) -> Finding {
     let belt = belt::name(drive.belt.kind);
     let is_v_belt = matches!(drive.belt.kind, BeltKind::V(_));
     match schema::split(path).0 {
+        table if path.ends_with(".diameter") => {
+            let radius = schema::join(table, "radius");
+            finding(format!(
+                "a drive with two pulleys is traced over `{radius}`"
+            ))
+            .did_you_mean(Some(radius))
+        }
         "belt" if is_v_belt => finding(format!(
             "`{path}` does not change the steady state, so it cannot be traced"
         )),

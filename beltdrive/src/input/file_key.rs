@@ -31,6 +31,11 @@ impl FileKey {
         self.measure
     }
 
+    /// Whether it cannot be negative.
+    pub(crate) fn ends_at_zero(&self) -> bool {
+        matches!(self.range, schema::Range::NotNegative)
+    }
+
     /// Whether it cannot be 0 or negative.
     pub(crate) fn is_positive(&self) -> bool {
         matches!(

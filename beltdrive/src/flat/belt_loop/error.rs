@@ -167,6 +167,8 @@ impl LoopError {
             Self::GrossSlip { .. } => "gross slip",
             Self::Stalls { .. } => "stall",
             Self::Overstretched { .. } => "overstretched",
+            Self::Overloaded { .. } => "gross slip",
+            Self::PressedThrough { .. } => "pressed through groove",
             _ => "not found",
         }
     }
