@@ -244,6 +244,8 @@ fn two_pulleys_have_the_keys_of_a_drive_and_those_of_a_loop() {
         "convergence",
     ];
     let of_loop = ["pulleys", "spans", "loop"];
+    let limit = &json(&["solve", &example("v-power")])["loop"]["load_factor_limit"];
+    assert!((limit.as_f64().unwrap() - 1.915_3).abs() < 1e-3, "{limit}");
     for name in ["kim2009-bristle", "flat-unequal", "poly-v", "v-power"] {
         let found = json(&["solve", &example(name)]);
         for key in drive.iter().chain(&of_loop) {
@@ -382,5 +384,66 @@ fn every_number_of_a_loop_has_a_branch_and_limits() {
     assert!(
         errors.contains("did you mean `pulley.alternator.power`?"),
         "{errors}"
+    );
+}
+
+#[test]
+fn a_v_belt_with_a_tensioner_has_all_that_a_loop_has() {
+    let directory = directory("loops-v");
+    let text = fs::read_to_string(example("v-power")).unwrap();
+    let (head, _) = text.split_once("[pulleys.driver]").unwrap();
+    let pulleys = r#"
+[[pulley]]
+name = "motor"
+centre = ["0 mm", "0 mm"]
+diameter = "125 mm"
+speed = "1450 rpm"
+[[pulley]]
+name = "idler"
+diameter = "90 mm"
+side = "outside"
+[[pulley]]
+name = "fan"
+centre = ["500 mm", "0 mm"]
+diameter = "250 mm"
+power = "5 kW"
+[layout]
+sense = "counter-clockwise"
+[tensioner]
+pulley = "idler"
+[tensioner.slide]
+origin = ["230 mm", "-100 mm"]
+direction = "90 deg"
+stiffness = "8 N/mm"
+preload = "200 N"
+rest_position = "0 mm"
+"#;
+    let path = directory.join("v.toml");
+    fs::write(&path, head.to_owned() + pulleys).unwrap();
+    let found = json(&["solve", path.to_str().unwrap()]);
+    let number = |value: &Value| value.as_f64().unwrap();
+    for check in found["checks"].as_array().unwrap() {
+        assert!(
+            number(&check["deviation"]) <= number(&check["limit"]),
+            "{check}"
+        );
+    }
+    assert!(number(&found["convergence"]["error_estimate"]) < 1e-6);
+    assert!((number(&found["pulleys"][2]["power_W"]) / 5e3 - 1.0).abs() < 1e-6);
+    assert!(found["pulleys"][1]["max_penetration_m"].is_null());
+    assert!(number(&found["pulleys"][0]["max_penetration_m"]) > 1e-3);
+    assert_eq!(number(&found["tensioner"]["rest_position_m"]), 0.0);
+    assert!(number(&found["loop"]["load_factor_limit"]) > 1.0);
+    for part in [0, 1] {
+        let hubs = found["pulleys"].as_array().unwrap().iter();
+        let sum: f64 = hubs.map(|pulley| number(&pulley["hub_load_N"][part])).sum();
+        assert!(sum.abs() < 1e-2, "{sum}");
+    }
+    // A tighter tolerance changes no more than the looser one allows.
+    let fine = json(&["solve", path.to_str().unwrap(), "--tolerance", "1e-9"]);
+    let [one, other] = [&found, &fine].map(|found| number(&found["spans"][2]["tension_N"]));
+    assert!(
+        (one / other - 1.0).abs() < 1e-6 && one != other,
+        "{one} {other}"
     );
 }

@@ -3,6 +3,7 @@
 use super::limits::{LoopEnd, LoopLimit, limits};
 use super::members::{Refusal, Varied};
 use super::trace::samples;
+use crate::SolveOptions;
 use crate::input::{DriveFile, FileKey};
 
 /// The largest value of a number over a second one.
@@ -37,10 +38,11 @@ pub fn limit_curve(
     varied: &Varied,
     second: &FileKey,
     range: [f64; 2],
+    options: &SolveOptions,
     progress: &mut dyn FnMut(f64, &str),
 ) -> Result<LoopLimitCurve, Refusal> {
     let at = |value: f64| {
-        let limits = limits(&file.with(second, value), varied, &mut |_, _| {})?;
+        let limits = limits(&file.with(second, value), varied, options, &mut |_, _| {})?;
         Ok(LoopLimitPoint {
             second: value,
             limit: limits.largest,

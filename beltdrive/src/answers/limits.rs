@@ -2,6 +2,7 @@
 
 use super::members::{Members, Refusal, Varied};
 use super::trace::LoopPoint;
+use crate::SolveOptions;
 use crate::belt_loop::LoopError;
 use crate::input::DriveFile;
 
@@ -88,9 +89,10 @@ impl std::fmt::Display for LoopEnd {
 pub fn limits(
     file: &DriveFile,
     varied: &Varied,
+    options: &SolveOptions,
     progress: &mut dyn FnMut(f64, &str),
 ) -> Result<LoopLimits, Refusal> {
-    let members = Members::new(file, varied);
+    let members = Members::new(file, varied, options);
     let given = members.given();
     let start = match (members.at(given), varied) {
         (Ok(_), _) => given,

@@ -1,6 +1,7 @@
 //! The loops that differ in one number, and which of them have a steady state.
 
-use crate::belt_loop::{BeltLoop, Duty, LoopError, LoopState, solve};
+use crate::SolveOptions;
+use crate::belt_loop::{BeltLoop, Duty, LoopError, LoopState, solve_to};
 use crate::input::{Diagnostic, DriveFile, FileKey, Stated};
 use crate::quantity::Measure;
 use std::fmt;
@@ -61,11 +62,16 @@ const BISECTIONS: usize = 40;
 pub(super) struct Members<'f> {
     file: &'f DriveFile,
     varied: &'f Varied,
+    options: &'f SolveOptions,
 }
 
 impl<'f> Members<'f> {
-    pub(super) fn new(file: &'f DriveFile, varied: &'f Varied) -> Self {
-        Self { file, varied }
+    pub(super) fn new(file: &'f DriveFile, varied: &'f Varied, options: &'f SolveOptions) -> Self {
+        Self {
+            file,
+            varied,
+            options,
+        }
     }
 
     /// The loop with a value, SI.
@@ -92,7 +98,7 @@ impl<'f> Members<'f> {
     /// The loop and its steady state with a value, SI.
     pub(super) fn at(&self, value: f64) -> Result<Member, Refusal> {
         let belt_loop = self.belt_loop(value)?;
-        match solve(&belt_loop) {
+        match solve_to(&belt_loop, self.options) {
             Ok(state) => Ok(Member { belt_loop, state }),
             Err(error) => Err(Refusal::Loop(Box::new(error))),
         }

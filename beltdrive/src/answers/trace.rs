@@ -2,6 +2,7 @@
 
 use super::limits::LoopEnd;
 use super::members::{Member, Members, Refusal, Varied};
+use crate::SolveOptions;
 use crate::belt_loop::{BeltLoop, LoopState};
 use crate::input::DriveFile;
 
@@ -57,9 +58,10 @@ pub fn trace(
     file: &DriveFile,
     varied: &Varied,
     range: [f64; 2],
+    options: &SolveOptions,
     progress: &mut dyn FnMut(f64, &str),
 ) -> Result<LoopBranch, Refusal> {
-    let members = Members::new(file, varied);
+    let members = Members::new(file, varied, options);
     let [from, _] = range;
     let mut points = vec![LoopPoint::new(from, 0.0, members.at(from)?)];
     let mut end = None;

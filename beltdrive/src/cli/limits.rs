@@ -49,9 +49,10 @@ impl Limits {
             Some(path) => Varied::Key(file.key("--parameter", path).map_err(Failure::usage)?),
             None => Varied::LoadFactor,
         };
+        let options = self.common.options();
         let limits = self
             .common
-            .with_progress(|progress| belt_loop::limits(file, &varied, progress))?;
+            .with_progress(|progress| belt_loop::limits(file, &varied, &options, progress))?;
         let answer = quantity::loop_range::limits(&limits);
         self.common.output.write(&answer, origin)
     }

@@ -33,7 +33,13 @@ impl Solve {
                     .write(&SolvedDrive { state, groups }, &origin)
             }
             Stated::Loop(belt_loop) => {
-                let state = belt_loop::solve(&belt_loop)?;
+                let options = self.common.options();
+                let mut state = belt_loop::solve_to(&belt_loop, &options)?;
+                if state.load_limit.is_none() {
+                    // That of a V-belt takes longer than the state: it is sought where it is shown.
+                    let limit = belt_loop::load_limit(&belt_loop, &options);
+                    state.load_limit = limit.ok().flatten();
+                }
                 // A drive with two pulleys is shown as one.
                 if let Some(drive) = two_pulleys::as_drive(&belt_loop, &state) {
                     let groups = two_pulleys::of_loop(&belt_loop, &state);

@@ -92,12 +92,13 @@ impl Trace {
         let key = |option, path| file.key(option, path).map_err(Failure::usage);
         let parameter = key("--parameter", &self.parameter)?;
         let varied = Varied::Key(parameter.clone());
+        let options = self.common.options();
         let answer = match &self.curve {
             None => {
                 let range = self.range_of(file, &parameter)?;
-                let branch = self
-                    .common
-                    .with_progress(|progress| belt_loop::trace(file, &varied, range, progress))?;
+                let branch = self.common.with_progress(|progress| {
+                    belt_loop::trace(file, &varied, range, &options, progress)
+                })?;
                 quantity::loop_range::branch(&branch)
             }
             Some(path) => {
@@ -107,7 +108,7 @@ impl Trace {
                 }
                 let range = self.range_of(file, &second)?;
                 let curve = self.common.with_progress(|progress| {
-                    belt_loop::limit_curve(file, &varied, &second, range, progress)
+                    belt_loop::limit_curve(file, &varied, &second, range, &options, progress)
                 })?;
                 quantity::loop_range::limit_curve(&curve)
             }

@@ -4,9 +4,10 @@ use super::precision::six_digits;
 use super::words;
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value};
 use crate::belt_loop::{
-    BeltLoop, Closure, Guide, LoopState, PulleyState, Sense, SpanState, TensionerState,
+    BeltLoop, Closure, Guide, LoopConvergence, LoopState, PulleyState, Sense, SpanState,
+    TensionerState,
 };
-use crate::{BeltKind, Profile};
+use crate::{BeltKind, Check, Profile};
 
 /// The steady state of a loop.
 pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
@@ -30,10 +31,59 @@ pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
         let subject = self::tensioner(name, &tensioner.guide, found, &scale);
         groups.push(single("tensioner", subject));
     }
+    let checks = state.checks.iter().map(check);
+    groups.push(Group {
+        key: "checks",
+        layout: Layout::Columns,
+        subjects: checks.collect(),
+    });
+    if let Some(found) = &state.convergence {
+        groups.push(single("convergence", convergence(found)));
+    }
     Answer {
         heading: heading(belt_loop),
         groups,
+        notes: state.checks.iter().map(words::check).collect(),
         ..Answer::default()
+    }
+}
+
+/// A verified invariant, for programs.
+fn check(check: &Check) -> Subject {
+    let number = |key, value| Quantity::number(key, "", Measure::Number, value, 0.0);
+    Subject {
+        head: String::new(),
+        quantities: vec![
+            Quantity::word("name", "", Some(check.name.to_owned())),
+            number("deviation", check.deviation),
+            number("limit", check.limit),
+        ],
+    }
+}
+
+/// How a state was found and how accurate it is.
+fn convergence(found: &LoopConvergence) -> Subject {
+    let error = |key, label, value: f64| Quantity::number(key, label, Measure::Error, value, 0.0);
+    let count =
+        |key, label, count: usize| Quantity::number(key, label, Measure::Number, count as f64, 0.5);
+    let is_regularised = found.slip_normalisation > 0.0;
+    let effect = if is_regularised { "effect of ε" } else { "" };
+    Subject {
+        head: String::new(),
+        quantities: vec![
+            error("tolerance", "relative tolerance", found.tolerance),
+            error("error_estimate", "estimated error", found.error_estimate),
+            error("defect", "largest defect", found.defect),
+            error("slip_normalisation", "", found.slip_normalisation),
+            error(
+                "slip_normalisation_effect",
+                effect,
+                found.slip_normalisation_effect,
+            ),
+            count("mesh_intervals", "mesh intervals", found.mesh_intervals),
+            count("newton_steps", "Newton steps", found.newton_steps),
+            count("problems", "", found.problems),
+        ],
     }
 }
 

@@ -148,7 +148,9 @@ fn end(end: Option<&LoopEnd>) -> Subject {
 fn row(first: Vec<Quantity>, point: &LoopPoint) -> Subject {
     let answer = belt_loop::answer(&point.belt_loop, &point.state);
     let groups = answer.groups.into_iter();
-    let mut groups: Vec<_> = groups.filter(|group| !group.key.is_empty()).collect();
+    let mut groups: Vec<_> = groups
+        .filter(|group| !["", "checks", "convergence"].contains(&group.key))
+        .collect();
     for subject in groups.iter_mut().flat_map(|group| &mut group.subjects) {
         let is_series = |quantity: &Quantity| matches!(quantity.value, Value::Series(_));
         subject.quantities.retain(|quantity| !is_series(quantity));

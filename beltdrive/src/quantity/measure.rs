@@ -7,6 +7,8 @@ use std::f64::consts::PI;
 pub enum Measure {
     /// A pure number.
     Number,
+    /// A relative error, of which two digits are shown.
+    Error,
     /// A share, shown in per cent.
     Share,
     /// An angle.
@@ -83,7 +85,7 @@ impl Measure {
     /// The end of a key with this measure in JSON and CSV, and the factor from SI to that unit.
     pub(crate) fn stored(self) -> (&'static str, f64) {
         match self {
-            Self::Number | Self::Share => ("", 1.0),
+            Self::Number | Self::Error | Self::Share => ("", 1.0),
             Self::Angle => ("_deg", DEGREE.factor),
             Self::Length => ("_m", 1.0),
             Self::Force => ("_N", 1.0),
@@ -104,7 +106,7 @@ impl Measure {
     /// The unit in which a system shows it.
     pub(crate) fn shown(self, system: UnitSystem) -> Unit {
         let [si, engineering, us] = match self {
-            Self::Number => [unit("", 1.0); 3],
+            Self::Number | Self::Error => [unit("", 1.0); 3],
             Self::Share => [unit("%", 100.0); 3],
             Self::Angle => [DEGREE; 3],
             Self::Length => [unit("m", 1.0), unit("mm", 1e3), unit("in", 1.0 / INCH)],

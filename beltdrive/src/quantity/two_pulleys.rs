@@ -26,7 +26,7 @@ pub fn groups(state: &SteadyState) -> Vec<Group> {
 /// The groups `pulleys`, `spans` and `loop` of a drive with two pulleys that was solved as a loop.
 pub fn of_loop(belt_loop: &BeltLoop, state: &loops::LoopState) -> Vec<Group> {
     let mut groups = belt_loop::answer(belt_loop, state).groups;
-    groups.retain(|group| !group.key.is_empty());
+    groups.retain(|group| ["pulleys", "spans", "loop"].contains(&group.key));
     for group in groups.iter_mut().filter(|group| group.key == "spans") {
         let names = ["slack span", "tight span"];
         let first = belt_loop.driver();

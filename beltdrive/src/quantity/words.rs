@@ -1,7 +1,7 @@
 //! What stands in words beside the numbers of an answer.
 
 use super::precision::six_digits;
-use crate::FrictionLaw;
+use crate::{Check, FrictionLaw};
 
 /// A friction law in words, with its parameters and a coefficient that is the same for all pulleys; what
 /// varies has no value.
@@ -32,5 +32,14 @@ pub(crate) fn law(law: FrictionLaw, coefficient: Option<f64>, varied: &[&str]) -
     format!(
         "{name} friction{}{parameter}",
         coefficient.unwrap_or_default()
+    )
+}
+
+/// A verified invariant, and whether it holds.
+pub(crate) fn check(check: &Check) -> String {
+    let verdict = if check.holds() { "holds" } else { "VIOLATED" };
+    format!(
+        "check: {:<45} {:<9} deviation {:.1e}, limit {:.1e}",
+        check.name, verdict, check.deviation, check.limit
     )
 }

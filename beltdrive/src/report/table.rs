@@ -3,10 +3,8 @@
 use super::answer;
 use super::lines::{self, row, single, small};
 use super::{Precision, rpm, slip_arc, title, torque_scale, warning};
-use crate::quantity::{Answer, Group, UnitSystem};
-use crate::{
-    BeltKind, Check, Convergence, Drive, Entry, PulleySummary, StateSummary, SteadyState, Zone,
-};
+use crate::quantity::{Answer, Group, UnitSystem, words};
+use crate::{BeltKind, Convergence, Drive, Entry, PulleySummary, StateSummary, SteadyState, Zone};
 
 /// Most significant digits shown; fewer where the error estimate does not support them.
 const DIGITS: u8 = 6;
@@ -32,7 +30,7 @@ pub fn table(state: &SteadyState, groups: &[Group], units: UnitSystem) -> String
             BeltKind::V(_) => accuracy(&state.convergence),
             BeltKind::Flat { .. } => closed_form(&state.convergence),
         },
-        state.checks.iter().map(check).collect(),
+        state.checks.iter().map(words::check).collect(),
     ];
     let title = title(&state.drive, &[]);
     lines::text(std::iter::once(title).chain(warnings).chain(blocks))
@@ -271,20 +269,11 @@ fn closed_form(convergence: &Convergence) -> Vec<String> {
     ]
 }
 
-/// A verified invariant, and whether it holds.
-fn check(check: &Check) -> String {
-    let verdict = if check.holds() { "holds" } else { "VIOLATED" };
-    format!(
-        "check: {:<45} {:<9} deviation {:.1e}, limit {:.1e}",
-        check.name, verdict, check.deviation, check.limit
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::report::{lines::WIDTH, sample, sample_flat};
-    use crate::{NormalForce, Warning};
+    use crate::{Check, NormalForce, Warning};
 
     #[test]
     fn is_no_wider_than_a_terminal() {

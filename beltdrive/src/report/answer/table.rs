@@ -1,7 +1,7 @@
 //! An answer as a table for a terminal.
 
 use crate::quantity::precision::known;
-use crate::quantity::{Answer, Group, Layout, Quantity, Subject, UnitSystem, Value};
+use crate::quantity::{Answer, Group, Layout, Measure, Quantity, Subject, UnitSystem, Value};
 use crate::report::lines::{self, single};
 
 /// Most significant digits shown; fewer where the error does not leave them.
@@ -90,6 +90,10 @@ fn columns(subjects: &[Subject], units: UnitSystem) -> Vec<String> {
     let [first, ..] = subjects else {
         return Vec::new();
     };
+    let is_empty = |quantity: &Quantity| cell(quantity, units).is_none();
+    if first.quantities.iter().all(is_empty) {
+        return Vec::new();
+    }
     for (place, quantity) in first.quantities.iter().enumerate() {
         let of_all = subjects.iter().map(|subject| &subject.quantities[place]);
         let cells: Vec<_> = of_all.map(|quantity| cell(quantity, units)).collect();
@@ -123,6 +127,9 @@ fn cell(quantity: &Quantity, units: UnitSystem) -> Option<String> {
         return None;
     }
     Some(match &quantity.value {
+        Value::Number(Some(value)) if quantity.measure == Measure::Error => {
+            minus(&lines::small(*value))
+        }
         Value::Number(Some(value)) => {
             let error = quantity.error * shown.factor.abs();
             minus(&known(value * shown.factor, error, DIGITS))
