@@ -193,7 +193,7 @@ fn around(view: &View<'_>) -> Vec<(Lines, Anchor)> {
     let (precision, tension) = precision(view);
     let force = |value: f64| number(&precision.show_against(value, tension));
     let from_middle = |place: Spot| {
-        let middle = view.middle();
+        let middle = view.frame.middle();
         [0, 1].map(|axis| place[axis] - middle[axis])
     };
     let tensioner = view.tensioner.as_ref().zip(view.state.tensioner.as_ref());

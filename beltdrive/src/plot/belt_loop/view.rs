@@ -287,11 +287,6 @@ impl<'a> View<'a> {
         self.plan.scale * self.circles[index].radius >= ROOMY
     }
 
-    /// The middle of the loop.
-    pub(super) fn middle(&self) -> Spot {
-        self.frame.middle()
-    }
-
     /// The direction from a span to the outside of the loop, on the sheet.
     pub(super) fn outward(&self, index: usize) -> Spot {
         let [start, end] = self.span(index);
