@@ -32,6 +32,9 @@ pub(crate) struct Acceptance {
     pub(crate) moved: bool,
     /// Whether a solution was refused because it is not isolated.
     pub(crate) refused: bool,
+    /// How often a solution was sought again on a halved mesh because its error may be what makes it seem not
+    /// to be isolated.
+    repeated: usize,
 }
 
 impl Acceptance {
@@ -41,6 +44,7 @@ impl Acceptance {
             layers_sought: false,
             moved: false,
             refused: false,
+            repeated: 0,
         }
     }
 
@@ -91,13 +95,17 @@ impl Acceptance {
         }
         if is_open(a) && problem.rounds(solution) {
             let direction = problem.amplified(&solution.x);
-            return self.doubt(problem, direction, solution).map(Confirmed::On);
+            return self
+                .doubt(problem, direction, a, solution)
+                .map(Confirmed::On);
         }
         if is_amplified(a, problem.options.tolerance)
             && let Some(direction) =
                 problem.direction(&solution.x, &solution.quality.defects.local, a)
         {
-            return self.doubt(problem, direction, solution).map(Confirmed::On);
+            return self
+                .doubt(problem, direction, a, solution)
+                .map(Confirmed::On);
         }
         if let Some(mesh) = self.look_further(problem, solution) {
             return Ok(Confirmed::On(mesh));
@@ -111,7 +119,9 @@ impl Acceptance {
             let direction = problem.amplified(&solution.x);
             let (_, _, on_halved) = problem.amplification_on(halved(&solution.mesh), solution);
             if !is_steady(a, on_halved) {
-                return self.doubt(problem, direction, solution).map(Confirmed::On);
+                return self
+                    .doubt(problem, direction, a, solution)
+                    .map(Confirmed::On);
             }
         }
         if let Some(mesh) = layers
@@ -162,15 +172,20 @@ impl Acceptance {
         )
     }
 
-    /// The halved mesh on which a solution proves isolated that does not so on its own; an error if there is
-    /// none.
+    /// The halved mesh on which a solution with the amplification `on_own` proves isolated that does not so on
+    /// its own, or on which it is to be sought again; an error if there is none.
     fn doubt(
         &mut self,
         problem: &mut Discretised<'_>,
         direction: Direction,
+        on_own: f64,
         solution: &Solution,
     ) -> Result<Mesh, Error> {
         let mut mesh = solution.mesh.clone();
+        if !is_high(on_own) && !problem.may_halve(&mesh) {
+            // Nothing but the limit of intervals keeps it from a second look.
+            return Ok(halved(&mesh));
+        }
         let mut before = f64::INFINITY;
         for _ in 0..DOUBTS {
             if !problem.may_halve(&mesh) {
@@ -184,6 +199,13 @@ impl Acceptance {
             if !is_amplified(a, problem.options.tolerance)
                 || is_steady(before, a) && problem.direction(&x, &local, a).is_none()
             {
+                return Ok(mesh);
+            }
+            // The amplification is that of the exact problem, as far as meshes tell. The right-hand side may
+            // change within the error of the solution more than it does along the direction, as in a layer
+            // thinner than that: a solution on the finer mesh has a smaller one.
+            if !is_high(a) && is_steady(on_own, a) && self.repeated < DOUBTS {
+                self.repeated += 1;
                 return Ok(mesh);
             }
             before = a;
