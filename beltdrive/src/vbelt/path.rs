@@ -9,8 +9,11 @@ use bvp::{Control, Options, Scheme, Solution, Stats};
 
 /// A solve with at most so many Newton steps lets the next step of a homotopy be twice as long.
 pub(super) const EASY: usize = 8;
-/// Mesh intervals that a rough solution may have.
+/// Mesh intervals that a rough solution may have, unless its guess has more.
 const ROUGH_INTERVALS: usize = 500;
+/// Mesh intervals that a solution may have whose error is estimated. With 10 000 the estimate was out of reach
+/// for 2 of 20 elastic-plastic drives that hardly slip.
+const FINAL_INTERVALS: usize = 40_000;
 
 /// How accurately a problem is solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,7 +49,8 @@ impl Effort {
             // A rough solution that needs more is none: the step to it was too long.
             max_intervals: match self {
                 Self::Rough | Self::Careful => ROUGH_INTERVALS,
-                Self::Start | Self::Full | Self::Final => Options::default().max_intervals,
+                Self::Start | Self::Full => Options::default().max_intervals,
+                Self::Final => FINAL_INTERVALS,
             },
             // A shorter step of the homotopy is a better answer to a failure than a finer mesh.
             retries: if self == Self::Start { 2 } else { 0 },
@@ -136,6 +140,12 @@ impl Stuck {
     }
 }
 
+/// Mesh intervals of a guess; none if it has no mesh.
+fn intervals(guess: &dyn bvp::Guess) -> usize {
+    let mesh = guess.mesh().unwrap_or_default();
+    mesh.iter().map(|nodes| nodes.len() - 1).sum()
+}
+
 /// The search for one steady state and what it has cost so far.
 pub(super) struct Path<'a> {
     pub(super) drive: &'a Drive,
@@ -177,7 +187,8 @@ impl<'a> Path<'a> {
         guess: &dyn bvp::Guess,
         effort: Effort,
     ) -> Result<Solved, bvp::Error> {
-        let options = effort.options(self.tolerance);
+        let mut options = effort.options(self.tolerance);
+        options.max_intervals = options.max_intervals.max(intervals(guess));
         self.problems += 1;
         let outcome = bvp::solve(&problem, guess, &options);
         let cost = match &outcome {
