@@ -5,6 +5,8 @@
 //! therefore balanced, D⁻¹ Γ D, by powers of two, which round nothing: E. E. Osborne, "On
 //! pre-conditioning of matrices", J. ACM 7 (1960) 338-345.
 
+use crate::kernels::dense::max_or_nan;
+
 /// Units whose ratio is at most this are left alone: intervals differ in what is best for them, and ten of
 /// the sixteen digits are left.
 const MODERATE: f64 = 1e6;
@@ -21,6 +23,9 @@ pub(super) fn balance(blocks: &mut [f64], k: usize, units: &mut [f64], sizes: &m
         return false;
     }
     largest_entries(blocks, n, k, sizes);
+    if !may_differ(sizes, n) {
+        return false;
+    }
     for _ in 0..SWEEPS {
         let mut steady = true;
         for i in 0..n {
@@ -62,6 +67,19 @@ pub(super) fn balance(blocks: &mut [f64], k: usize, units: &mut [f64], sizes: &m
         }
     }
     true
+}
+
+/// Whether units may come to differ by more than is moderate: a state is brought to the size of the one that
+/// it is coupled with most, so that two of them differ by no more than the product of the sums of couplings
+/// along a path of at most n − 1 steps.
+fn may_differ(sizes: &[f64], n: usize) -> bool {
+    let sums = sizes.chunks_exact(n).enumerate().map(|(i, row)| {
+        let others = row.iter().enumerate().filter(|(j, _)| *j != i);
+        others.map(|(_, size)| size).sum::<f64>()
+    });
+    let largest = sums.fold(0.0, max_or_nan);
+    let path = (1..n).fold(1.0, |product, _| product * largest);
+    path.is_nan() || path > MODERATE
 }
 
 /// The largest |Γᵢⱼ| over all intervals, n × n, into `sizes`.
