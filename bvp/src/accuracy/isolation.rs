@@ -23,6 +23,7 @@ use crate::discretisation::ratio::{Component, largest_ratio};
 use crate::discretisation::tableau::middle;
 use crate::kernels::dense::{add_scaled, dot, max_or_nan};
 use crate::kernels::random::Signs;
+use crate::kernels::specialise::specialise;
 use crate::newton::collocation::{Collocation, gather_ends};
 use crate::problem::equations::Equations as _;
 use crate::problem::problem::Segment;
@@ -98,15 +99,14 @@ impl Collocation<'_> {
             let length = mesh[mesh.len() - 1] - mesh[0];
             r.nodes.fill(0.0);
             for component in 0..n {
-                let y = Component::new(&x.segments[index].nodes, n, index, component);
+                let y = Component::new(&x.segments[index].nodes, n, component);
                 let unit = unit(y.largest, tolerance);
                 let vanishes = unit > y.largest;
                 for (i, stages) in r.stages.chunks_exact_mut(m * n).enumerate() {
                     let size = if vanishes { unit } else { y.at(i).abs() };
                     let [mean, slope] = [(); 2].map(|()| signs.turn(size / length));
-                    let of_component = stages.iter_mut().skip(component).step_by(n);
-                    for (r, c) in of_component.zip(&self.tableau.c) {
-                        *r = mean + (c - 0.5) * slope;
+                    for (r, c) in stages.chunks_exact_mut(n).zip(&self.tableau.c) {
+                        r[component] = mean + (c - 0.5) * slope;
                     }
                 }
             }
@@ -127,41 +127,66 @@ impl Collocation<'_> {
     /// States that are the derivative of another one are left out: in a layer that the mesh does not
     /// resolve, and nothing depends on, they are as large as it is thin.
     fn local_size(&self, x: &Iterate, tolerance: f64, correction: &Iterate) -> f64 {
-        let of_state = |y: &Component<'_>, i: usize| match self.stages[y.segment].is_slope(y.index)
-        {
-            true => f64::INFINITY,
-            false => unit(y.largest, tolerance).min(1.0).max(y.around(i)),
-        };
-        let segments = self.equations.segments();
-        let of_parameter = |p: f64| unit(p.abs(), tolerance);
-        let at_nodes = largest_ratio(segments, x, correction, of_state, of_parameter);
-        max_or_nan(at_nodes, self.largest_inside(x, correction, of_state))
+        let m = self.tableau.stages;
+        let segments = self.equations.segments().iter().enumerate();
+        let of_states = segments.fold(0.0, |largest, (index, &Segment { states: n, .. })| {
+            let sizes = self.local_sizes(index, x, tolerance);
+            let of_segment = specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                self.largest_change([m, n], index, correction, &sizes)));
+            max_or_nan(largest, of_segment)
+        });
+        let parameters = x.p.iter().zip(&correction.p);
+        parameters.fold(of_states, |largest, (p, change)| {
+            max_or_nan(largest, change.abs() / unit(p.abs(), tolerance))
+        })
     }
 
-    /// The largest state of a correction at the collocation points in the middle of all intervals, relative to
-    /// the size that is asked for by component and the node to the left.
-    fn largest_inside(
+    /// For all nodes of a segment the sizes beside which the changes of the states there are large.
+    fn local_sizes(&self, index: usize, x: &Iterate, tolerance: f64) -> Vec<f64> {
+        let nodes = &x.segments[index].nodes;
+        let n = self.equations.segments()[index].states;
+        let least = |state| match self.stages[index].is_slope(state) {
+            true => f64::INFINITY,
+            false => unit(Component::new(nodes, n, state).largest, tolerance).min(1.0),
+        };
+        let least: Vec<f64> = (0..n).map(least).collect();
+        let mut sizes = least.repeat(nodes.len() / n);
+        for (i, sizes) in sizes.chunks_exact_mut(n).enumerate() {
+            let around = &nodes[i.saturating_sub(1) * n..nodes.len().min((i + 2) * n)];
+            for y in around.chunks_exact(n) {
+                let each = sizes.iter_mut().zip(y);
+                each.for_each(|(size, y)| *size = size.max(y.abs()));
+            }
+        }
+        sizes
+    }
+
+    /// The largest state of a correction at the nodes of a segment and at the collocation points in the middle
+    /// of its intervals, relative to the sizes at the node or at the one to the left.
+    #[inline(always)]
+    fn largest_change(
         &self,
-        x: &Iterate,
+        [m, n]: [usize; 2],
+        index: usize,
         correction: &Iterate,
-        of_state: impl Fn(&Component<'_>, usize) -> f64,
+        sizes: &[f64],
     ) -> f64 {
-        let (t, m) = (&*self.tableau, self.tableau.stages);
-        let mut largest = 0.0;
-        for (segment, &Segment { states: n, .. }) in self.equations.segments().iter().enumerate() {
-            let nodes = &x.segments[segment].nodes;
-            let components = (0..n).map(|index| Component::new(nodes, n, segment, index));
-            let components: Vec<_> = components.collect();
-            let mut change = vec![0.0; n];
-            for (i, ends) in self.mesh[segment].windows(2).enumerate() {
-                let interval = Interval::new(&correction.segments[segment], n, t, i, ends);
-                for j in middle(m) {
-                    interval.stage_state(t, j, &mut change);
-                    let each = components.iter().zip(&change);
-                    largest = each.fold(largest, |largest, (component, change)| {
-                        max_or_nan(largest, change.abs() / of_state(component, i))
-                    });
-                }
+        let correction = &correction.segments[index];
+        let larger = |largest, changes: &[f64], sizes: &[f64]| {
+            let each = changes.iter().zip(sizes);
+            each.fold(largest, |largest, (change, size)| {
+                max_or_nan(largest, change.abs() / size)
+            })
+        };
+        let mut largest = larger(0.0, &correction.nodes, sizes);
+        let (t, mut buffer) = (&*self.tableau, vec![0.0; n]);
+        let change = &mut buffer[..n];
+        let intervals = self.mesh[index].windows(2).zip(sizes.chunks_exact(n));
+        for (i, (ends, sizes)) in intervals.enumerate() {
+            let interval = Interval::new(correction, n, t, i, ends);
+            for j in middle(m) {
+                interval.state(&t.a[j * m..][..m], change);
+                largest = larger(largest, change, sizes);
             }
         }
         largest
@@ -170,10 +195,9 @@ impl Collocation<'_> {
     /// The units of the states at all ends, in the order of [`Ends`](crate::Ends), and of the parameters.
     fn units(&self, x: &Iterate, tolerance: f64) -> Vec<f64> {
         let mut sizes = vec![];
-        let segments = self.equations.segments().iter().zip(&x.segments);
-        for (index, (segment, x)) in segments.enumerate() {
+        for (segment, x) in self.equations.segments().iter().zip(&x.segments) {
             let n = segment.states;
-            let of = |state| unit(Component::new(&x.nodes, n, index, state).largest, tolerance);
+            let of = |state| unit(Component::new(&x.nodes, n, state).largest, tolerance);
             sizes.extend((0..2 * n).map(|end| of(end % n)));
         }
         sizes.extend(x.p.iter().map(|p| unit(p.abs(), tolerance)));

@@ -6,8 +6,7 @@ use crate::problem::problem::Segment;
 
 /// One state at all nodes of a segment.
 pub(crate) struct Component<'a> {
-    pub(crate) segment: usize,
-    pub(crate) index: usize,
+    index: usize,
     /// Number of states of the segment.
     n: usize,
     nodes: &'a [f64],
@@ -17,11 +16,10 @@ pub(crate) struct Component<'a> {
 
 impl<'a> Component<'a> {
     /// State `index` of a segment with n states, from its states at all nodes.
-    pub(crate) fn new(nodes: &'a [f64], n: usize, segment: usize, index: usize) -> Self {
+    pub(crate) fn new(nodes: &'a [f64], n: usize, index: usize) -> Self {
         let values = nodes.iter().skip(index).step_by(n);
         let largest = values.fold(0.0, |m, y| max_or_nan(m, y.abs()));
         Self {
-            segment,
             index,
             n,
             nodes,
@@ -32,13 +30,6 @@ impl<'a> Component<'a> {
     /// The value at node i.
     pub(crate) fn at(&self, i: usize) -> f64 {
         self.nodes[i * self.n + self.index]
-    }
-
-    /// The largest absolute value at node i and the two beside it.
-    pub(crate) fn around(&self, i: usize) -> f64 {
-        let last = self.nodes.len() / self.n - 1;
-        let nodes = i.saturating_sub(1)..=(i + 1).min(last);
-        nodes.fold(0.0, |m, i| m.max(self.at(i).abs()))
     }
 }
 
@@ -53,9 +44,9 @@ pub(crate) fn largest_ratio(
 ) -> f64 {
     let mut largest = 0.0f64;
     let each = segments.iter().zip(&x.segments).zip(&correction.segments);
-    for (segment, ((&Segment { states: n, .. }, x), correction)) in each.enumerate() {
+    for ((&Segment { states: n, .. }, x), correction) in each {
         for index in 0..n {
-            let component = Component::new(&x.nodes, n, segment, index);
+            let component = Component::new(&x.nodes, n, index);
             let changes = correction.nodes.iter().skip(index).step_by(n);
             for (i, change) in changes.enumerate() {
                 largest = max_or_nan(largest, change.abs() / of_state(&component, i));
