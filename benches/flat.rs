@@ -1,9 +1,15 @@
 //! How long does the steady state of a flat-belt drive take, in closed form, with its profiles and
-//! checks, and as a boundary value problem?
+//! checks, and as a boundary value problem? And that of a loop of many pulleys?
 
+use beltdrive::belt_loop::{
+    self, BeltLoop, Closure, Duty, Guide, LoopPulley, Mount, Sense, Side, Tensioner, TensionerLoad,
+};
 use beltdrive::flat::{BoundaryValue, ClosedForm};
 use beltdrive::input::Key;
-use beltdrive::{Drive, SolveOptions, examples, input, limits, solve, stability};
+use beltdrive::{
+    Belt, BeltKind, Drive, FrictionLaw, NormalForce, SolveOptions, examples, input, limits, solve,
+    stability,
+};
 use criterion::{BenchmarkId, Criterion};
 use std::hint::black_box;
 
@@ -80,9 +86,109 @@ fn whole_range(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// Eight pulleys on a circle, two of them idlers on the back of the belt, one of these on a tensioner: radius,
+/// distance from the middle, both in m, and torque in N·m.
+const PULLEYS: [[f64; 3]; 8] = [
+    [0.08, 0.3, 0.0],
+    [0.03, 0.25, 0.0],
+    [0.04, 0.3, 8.0],
+    [0.05, 0.3, 3.0],
+    [0.06, 0.3, 12.0],
+    [0.035, 0.27, 0.0],
+    [0.045, 0.3, 2.0],
+    [0.05, 0.3, 5.0],
+];
+const IDLERS: [usize; 2] = [1, 5];
+
+/// A loop of eight pulleys that is closed by where its tensioner rests.
+fn eight_pulleys(law: FrictionLaw, normal_force: NormalForce) -> BeltLoop {
+    let mut angle: f64 = 0.0;
+    let pulley = |(index, [radius, distance, torque]): (usize, [f64; 3])| {
+        let centre = [distance * angle.cos(), distance * angle.sin()];
+        angle += std::f64::consts::FRAC_PI_4;
+        LoopPulley {
+            name: format!("pulley {index}"),
+            mount: Mount::Fixed(centre),
+            radius,
+            side: match IDLERS.contains(&index) {
+                true => Side::Outside,
+                false => Side::Inside,
+            },
+            friction_coefficient: 0.8,
+            half_angle: None,
+            duty: match index {
+                0 => Duty::Driver(300.0),
+                _ => Duty::Torque(torque),
+            },
+        }
+    };
+    let mut pulleys: Vec<_> = PULLEYS.into_iter().enumerate().map(pulley).collect();
+    let rest = -std::f64::consts::FRAC_PI_4;
+    let length = 0.08;
+    let [tensioner, _] = IDLERS;
+    if let Mount::Fixed([x, y]) = pulleys[tensioner].mount {
+        pulleys[tensioner].mount = Mount::Tensioner(Tensioner {
+            guide: Guide::Rotary {
+                pivot: [x - length * rest.cos(), y - length * rest.sin()],
+                arm_length: length,
+            },
+            load: TensionerLoad::Spring {
+                stiffness: 40.0,
+                free_coordinate: rest - 0.6,
+            },
+            start_coordinate: rest,
+            travel: None,
+        });
+    }
+    BeltLoop {
+        title: None,
+        belt: Belt {
+            ribs: 1,
+            mass_per_length: 0.12,
+            axial_stiffness: 1e5,
+            kind: BeltKind::Flat { normal_force },
+        },
+        law,
+        sense: Sense::CounterClockwise,
+        turning_number: 1,
+        pulleys,
+        closure: Closure::RestCoordinate(rest),
+    }
+}
+
+/// Eight pulleys by torques and tensioner, with their load limit and checks.
+fn loops(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("flat, loop of 8 pulleys with tensioner");
+    let laws = [
+        ("coulomb", FrictionLaw::Coulomb),
+        ("epp", FrictionLaw::Epp { stiffness: 1e8 }),
+        ("creep-rate", FrictionLaw::CreepRate { velocity: 0.03 }),
+    ];
+    for (name, law) in laws {
+        for normal_force in [NormalForce::Inertia, NormalForce::Exact] {
+            let belt_loop = eight_pulleys(law, normal_force);
+            group.bench_function(BenchmarkId::new(name, normal_force.name()), |b| {
+                b.iter(|| belt_loop::solve(black_box(&belt_loop)).expect("a load that it carries"));
+            });
+        }
+    }
+    let thesis = eight_pulleys(FrictionLaw::Coulomb, NormalForce::Thesis);
+    group.bench_function(BenchmarkId::new("coulomb", "thesis"), |b| {
+        b.iter(|| belt_loop::solve(black_box(&thesis)).expect("a load that it carries"));
+    });
+    group.finish();
+}
+
 fn name((law, convention, entry): (&str, &str, &str)) -> BenchmarkId {
     BenchmarkId::new(format!("{law}, {convention}"), entry)
 }
 
-criterion::criterion_group!(benches, closed_form, boundary_value, state, whole_range);
+criterion::criterion_group!(
+    benches,
+    closed_form,
+    boundary_value,
+    state,
+    loops,
+    whole_range
+);
 criterion::criterion_main!(benches);

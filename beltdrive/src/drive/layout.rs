@@ -10,12 +10,14 @@
 
 mod error;
 mod tangent;
+mod wound;
 
 pub use error::LayoutError;
 pub(crate) use tangent::tangent;
 
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
+use wound::{Deflected, Wound};
 
 /// On which side of the belt a pulley lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,17 +82,18 @@ pub struct Span {
     pub start: [f64; 2],
     /// Where it arrives at the next pulley, m.
     pub end: [f64; 2],
+    tangent: Vector2<f64>,
 }
 
 impl Span {
     /// Unit tangent t along the motion of the belt.
     pub(crate) fn tangent(&self) -> Vector2<f64> {
-        Vector2::new(self.direction.cos(), self.direction.sin())
+        self.tangent
     }
 
     /// Unit normal N, to the left of the motion.
     pub(crate) fn normal(&self) -> Vector2<f64> {
-        Vector2::new(-self.direction.sin(), self.direction.cos())
+        Vector2::new(-self.tangent.y, self.tangent.x)
     }
 }
 
@@ -117,6 +120,38 @@ impl Layout {
         turning_number: u32,
         pulleys: Vec<PlacedPulley>,
     ) -> Result<Self, LayoutError> {
+        let mut layout = Self {
+            sense,
+            turning_number,
+            pulleys,
+            wound: Wound::default(),
+        };
+        layout.lay()?;
+        Ok(layout)
+    }
+
+    /// The same belt with a pulley at another centre, m; as [`Self::new`] without allocations. After an error
+    /// the spans and wraps mean nothing.
+    ///
+    /// # Panics
+    /// If there is no such pulley.
+    pub(crate) fn move_pulley(
+        &mut self,
+        pulley: usize,
+        centre: [f64; 2],
+    ) -> Result<(), LayoutError> {
+        self.pulleys[pulley].centre = centre;
+        self.lay()
+    }
+
+    /// Lays the belt round the pulleys.
+    fn lay(&mut self) -> Result<(), LayoutError> {
+        let Self {
+            sense,
+            turning_number,
+            ref pulleys,
+            ref mut wound,
+        } = *self;
         let count = pulleys.len();
         if count < 2 {
             return Err(LayoutError::TooFewPulleys { count });
@@ -138,10 +173,12 @@ impl Layout {
                 }
             }
         }
-        let wound = Wound::new(sense, &pulleys)?;
-        let excess = wound.turns(sense, &pulleys) - i64::from(turning_number);
+        wound
+            .lay(sense, pulleys)
+            .map_err(|[one, other]| overlap(&pulleys[one], &pulleys[other]))?;
+        let excess = wound.turns(sense, pulleys) - i64::from(turning_number);
         if excess != 0 {
-            return Err(miscounted(sense, turning_number, &pulleys, &wound, excess));
+            return Err(miscounted(sense, turning_number, pulleys, wound, excess));
         }
         for (index, span) in wound.spans.iter().enumerate() {
             let ends = [index, (index + 1) % count];
@@ -155,12 +192,7 @@ impl Layout {
                 }
             }
         }
-        Ok(Self {
-            sense,
-            turning_number,
-            pulleys,
-            wound,
-        })
+        Ok(())
     }
 
     /// The pulleys in belt order.
@@ -211,79 +243,10 @@ impl Layout {
     /// The loop with the midpoint of a span displaced by δ > 0 towards the inside: its length in m, and
     /// the part of `t_in` − `t_out` at that point across the span. `None` if the belt then leaves a pulley.
     pub(crate) fn deflected(&self, span: usize, deflection: f64) -> Option<[f64; 2]> {
-        let Span { start, end, .. } = self.wound.spans[span];
-        let middle = 0.5 * (Vector2::from(start) + Vector2::from(end));
-        let inward = self.sense.sign() * self.wound.spans[span].normal();
-        let mut pulleys = self.pulleys.clone();
-        let point = PlacedPulley {
-            name: String::new(),
-            centre: (middle + deflection * inward).into(),
-            radius: 0.0,
-            side: Side::Outside,
-        };
-        pulleys.insert(span + 1, point);
-        let wound = Wound::new(self.sense, &pulleys).ok()?;
-        if wound.turns(self.sense, &pulleys) != i64::from(self.turning_number) {
-            return None;
-        }
-        let [arriving, leaving] = [span, span + 1].map(|span| wound.spans[span].tangent());
-        Some([wound.length(&pulleys), (arriving - leaving).dot(&inward)])
-    }
-}
-
-/// The spans and wraps of a belt round pulleys, whatever these are in the way of.
-#[derive(Clone, Debug, PartialEq)]
-struct Wound {
-    spans: Vec<Span>,
-    /// Modulo 2π.
-    wraps: Vec<f64>,
-}
-
-impl Wound {
-    fn new(sense: Sense, pulleys: &[PlacedPulley]) -> Result<Self, LayoutError> {
-        let count = pulleys.len();
-        let span = |index: usize| {
-            let [from, to] = [&pulleys[index], &pulleys[(index + 1) % count]];
-            let [leaves, arrives] = [from, to].map(|pulley| pulley.turns(sense) * pulley.radius);
-            let between = Vector2::from(to.centre) - Vector2::from(from.centre);
-            if between.norm() <= (arrives - leaves).abs() {
-                return Err(overlap(from, to));
-            }
-            let [length, direction] = tangent(between.into(), leaves, arrives);
-            let normal = Vector2::new(-direction.sin(), direction.cos());
-            Ok(Span {
-                length,
-                direction: direction.rem_euclid(TAU),
-                start: (Vector2::from(from.centre) - leaves * normal).into(),
-                end: (Vector2::from(to.centre) - arrives * normal).into(),
-            })
-        };
-        let spans = (0..count).map(span).collect::<Result<Vec<_>, _>>()?;
-        let wrap = |index: usize| {
-            let turned = spans[index].direction - spans[(index + count - 1) % count].direction;
-            (pulleys[index].turns(sense) * turned).rem_euclid(TAU)
-        };
-        let wraps = (0..count).map(wrap).collect();
-        Ok(Self { spans, wraps })
-    }
-
-    fn length(&self, pulleys: &[PlacedPulley]) -> f64 {
-        let spans: f64 = self.spans.iter().map(|span| span.length).sum();
-        let arcs = pulleys.iter().zip(&self.wraps);
-        spans + arcs.map(|(pulley, wrap)| pulley.radius * wrap).sum::<f64>()
-    }
-
-    /// Turning number in the sense of the loop.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "at most half the number of pulleys"
-    )]
-    fn turns(&self, sense: Sense, pulleys: &[PlacedPulley]) -> i64 {
-        let turned = pulleys.iter().zip(&self.wraps);
-        let turned: f64 = turned
-            .map(|(pulley, wrap)| pulley.turns(sense) * wrap)
-            .sum();
-        (sense.sign() * turned / TAU).round() as i64
+        let deflected = Deflected::new(self.sense, &self.pulleys, &self.wound, span, deflection)?;
+        let turns = self.wound.turns_with(self.sense, &self.pulleys, &deflected);
+        (turns == i64::from(self.turning_number))
+            .then_some([self.length() + deflected.lengthening, deflected.across])
     }
 }
 

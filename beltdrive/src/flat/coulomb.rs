@@ -13,9 +13,15 @@ pub(super) fn solve(arc: Arc) -> Option<Contact> {
 /// As [`solve`], but an arc whose friction does not carry the load slips as a whole, with its friction
 /// raised to what does.
 pub(super) fn carried(arc: Arc) -> Contact {
-    let slip_rate = arc.slip_rate.max(arc.load() / arc.length);
-    let slipping = (arc.load() / slip_rate).min(arc.length);
+    let (slip_rate, slipping) = slipping(&arc);
     contact(Arc { slip_rate, ..arc }, slipping)
+}
+
+/// The slip rate of an arc, raised to what carries the load, in 1/m, and the length on which it slips, m.
+pub(super) fn slipping(arc: &Arc) -> (f64, f64) {
+    let load = arc.load();
+    let slip_rate = arc.slip_rate.max(load / arc.length);
+    (slip_rate, (load / slip_rate).min(arc.length))
 }
 
 /// The contact with an arc of slip of a given length.

@@ -18,6 +18,46 @@ pub(super) fn bracketed(
     continuation::root(number, (one, at_one), (other, at_other), 0.0).ok()
 }
 
+/// Most steps of [`near`]: functions that are almost straight take three or four.
+const STEPS: usize = 12;
+
+/// Each step of [`near`] has to divide the value of the function by this at least; else a bracket is safer.
+const CONTRACTION: f64 = 2.0;
+
+/// The root near a place, with the value there and an estimate of the slope, by the secant method: the last
+/// step is below `within`, and the error far below that. `None` if it is not found at once within a range.
+pub(super) fn near(
+    mut function: impl FnMut(f64) -> f64,
+    [mut place, mut value]: [f64; 2],
+    mut slope: f64,
+    [from, to]: [f64; 2],
+    within: f64,
+) -> Option<f64> {
+    for _ in 0..STEPS {
+        let step = match value == 0.0 {
+            true => 0.0,
+            false => -value / slope,
+        };
+        let next = place + step;
+        // Not a number included.
+        let is_inside = from < next && next < to;
+        if !is_inside {
+            return None;
+        }
+        if step.abs() <= within {
+            return Some(next);
+        }
+        let found = function(next);
+        let is_contracting = CONTRACTION * found.abs() < value.abs();
+        if !is_contracting {
+            return None;
+        }
+        slope = (found - value) / (next - place);
+        (place, value) = (next, found);
+    }
+    None
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -29,5 +69,18 @@ mod tests {
         assert!(bracketed(|x| x, [1.0, 2.0], [1.0, 2.0]).is_none());
         assert!(bracketed(|x| x, [1.0, 2.0], [f64::NAN, 2.0]).is_none());
         assert!(bracketed(|_| f64::NAN, [1.0, 2.0], [-1.0, 2.0]).is_none());
+    }
+
+    #[test]
+    fn the_secant_method_stays_within_its_range() {
+        let function = |x: f64| x.exp() - 3.0;
+        let root = |start: f64, slope: f64, to: f64| {
+            near(function, [start, function(start)], slope, [0.0, to], 1e-9)
+        };
+        assert!((root(1.0, 2.5, 2.0).unwrap() - 3.0_f64.ln()).abs() < 4e-16);
+        assert!(root(1.0, 2.5, 1.05).is_none());
+        assert!(root(1.0, -2.5, 2.0).is_none());
+        assert!(near(|_| f64::NAN, [1.0, 0.3], -1.0, [0.0, 2.0], 1e-9).is_none());
+        assert!(near(|_| 0.3, [1.0, 0.3], -1.0, [0.0, 2.0], 1e-9).is_none());
     }
 }

@@ -1,11 +1,13 @@
 //! How much of its load a loop carries: the load factor limit, and gross slip.
 
 use super::super::root::bracketed;
+use super::closing::Closing;
 use super::error::{LoadedState, LoopError};
-use super::running::Running;
 use super::solve::{Loaded, Problem};
 use super::state::LoadLimit;
+use super::tensioner::equilibrium;
 use crate::FrictionLaw;
+use crate::drive::layout::Layout;
 
 /// Largest load factor that is tried: beyond it the torques are but rounding errors of the driver's.
 const LARGEST: f64 = 1e12;
@@ -17,20 +19,28 @@ const SMALLEST_STEP: f64 = 1e-3;
 const AT_SLIP: f64 = 1e-6;
 
 /// The load factor limit, above 1; `None` without torques, or if the tensioner has no equilibrium up to
-/// it. `whole` is the loop under its whole load.
+/// it. `whole` is the loop under its whole load, `formal` that state if it presses on all pulleys.
 pub(super) fn load_limit(
     problem: &Problem<'_>,
     whole: &Loaded,
+    formal: Option<&LoadedState>,
 ) -> Result<Option<LoadLimit>, LoopError> {
     let state_at = |factor: f64| {
         let loaded = problem.loaded(factor, FrictionLaw::Coulomb)?;
-        Ok::<_, LoopError>(judged(problem, &loaded, factor))
+        Ok::<_, LoopError>(judged(problem, &loaded))
     };
     let at = |factor: f64| state_at(factor).map(|state| excess(state.as_ref()));
-    let formal = judged(problem, whole, 1.0);
-    let at_whole = excess(formal.as_ref());
+    let at_whole = excess(formal);
     if at_whole == -1.0 {
         return Ok(None);
+    }
+    if at_whole < 0.0
+        && let Some(factor) = first_slip(problem, whole)
+        && let Ok(Some(state)) = state_at(factor)
+        && excess(Some(&state)).abs() < AT_SLIP
+    {
+        let (pulley, _) = largest(&state);
+        return Ok(Some(LoadLimit { factor, pulley }));
     }
     let mut low = (0.0, -1.0);
     let mut high = (1.0, at_whole);
@@ -63,6 +73,15 @@ pub(super) fn load_limit(
             what: "load factor limit",
         })?,
     };
+    if factor <= 1.0
+        && !is_slip(&at_limit)
+        && let Some((idler, _)) = problem.belt_loop.tensioner()
+    {
+        return Err(LoopError::NoEquilibrium {
+            pulley: problem.belt_loop.pulleys[idler].name.clone(),
+            which: "under load",
+        });
+    }
     let (pulley, _) = largest(&at_limit);
     if factor > 1.0 {
         return Ok(Some(LoadLimit { factor, pulley }));
@@ -70,33 +89,81 @@ pub(super) fn load_limit(
     Err(LoopError::GrossSlip {
         pulley: problem.belt_loop.pulleys[pulley].name.clone(),
         load_factor: factor,
-        margin: formal
-            .as_ref()
-            .and_then(|formal| formal.torque_margins[pulley]),
+        margin: formal.and_then(|formal| formal.torque_margins[pulley]),
         at_limit: Box::new(at_limit),
-        formal: formal.map(Box::new),
+        formal: formal.cloned().map(Box::new),
     })
 }
 
-/// The pulley of a loaded loop that is closest to gross slip with Coulomb friction.
-pub(super) fn most_used(problem: &Problem<'_>, loaded: &Loaded) -> usize {
-    judged(problem, loaded, 1.0).map_or(0, |state| largest(&state).0)
+/// The load factor limit, above 1, at the equilibrium of the tensioner next to that of the whole load, if it
+/// is found at once.
+fn first_slip(problem: &Problem<'_>, whole: &Loaded) -> Option<f64> {
+    let slips_first =
+        |layout: &Layout| Closing::new(problem, layout, FrictionLaw::Coulomb, 1.0).slips_first();
+    let idler = problem
+        .belt_loop
+        .tensioner()
+        .map_or(0, |(pulley, _)| pulley);
+    let offset = problem.loads.offsets[idler];
+    let lost = LoopError::NotFound {
+        what: "load factor limit",
+    };
+    let (_, layout) = equilibrium(
+        problem.belt_loop,
+        whole.coordinate,
+        problem.towards,
+        "at the load factor limit",
+        |layout| {
+            let [factor, slackest] = slips_first(layout).ok_or(lost.clone())?;
+            Ok([slackest + factor * offset, problem.tension_per_length()])
+        },
+    )
+    .ok()?;
+    let [factor, _] = slips_first(&layout)?;
+    (1.0 < factor && factor < LARGEST).then_some(factor)
+}
+
+/// Whether a pulley slips grossly.
+pub(super) fn slips(state: Option<&LoadedState>) -> bool {
+    excess(state) >= 0.0
 }
 
 /// A loaded loop against the friction of its pulleys, if it presses on all of them.
-fn judged(problem: &Problem<'_>, loaded: &Loaded, factor: f64) -> Option<LoadedState> {
-    let Loaded {
-        layout,
-        coordinate,
-        belt,
-    } = loaded;
-    let running = Running::new(problem, layout, FrictionLaw::Coulomb, factor);
-    let coordinate = problem.belt_loop.tensioner().map(|_| *coordinate);
-    belt.as_ref().map(|belt| running.loaded(belt, coordinate))
+pub(super) fn judged(problem: &Problem<'_>, loaded: &Loaded) -> Option<LoadedState> {
+    let Problem { belt_loop, .. } = problem;
+    let found = loaded.belt.as_ref()?;
+    let pulleys = belt_loop.pulleys.iter().enumerate();
+    let used = pulleys.map(|(index, pulley)| {
+        let load = found.largest_load(pulley, loaded.layout.wraps()[index]);
+        let arc = found.contacts[index].arc;
+        let torque = found.changes[index] * pulley.radius;
+        let capacity = pulley.radius * arc.low * load.exp_m1();
+        let utilisation = if arc.change == 0.0 {
+            0.0
+        } else {
+            arc.load() / load
+        };
+        let margin = (torque != 0.0).then(|| capacity / torque.abs());
+        (torque, capacity, utilisation, margin)
+    });
+    let used: Vec<_> = used.collect();
+    let tractions = found.tractions.iter();
+    Some(LoadedState {
+        torques: used.iter().map(|used| used.0).collect(),
+        tensions: tractions
+            .map(|&traction| found.belt.tension(traction))
+            .collect(),
+        tractive_tensions: found.tractive.clone(),
+        mass_flow: belt_loop.belt.mass_per_length * found.speed,
+        tensioner_coordinate: belt_loop.tensioner().map(|_| loaded.coordinate),
+        friction_utilisations: used.iter().map(|used| used.2).collect(),
+        torque_capacities: used.iter().map(|used| used.1).collect(),
+        torque_margins: used.iter().map(|used| used.3).collect(),
+    })
 }
 
 /// The pulley with the largest friction utilisation U, and that.
-fn largest(state: &LoadedState) -> (usize, f64) {
+pub(super) fn largest(state: &LoadedState) -> (usize, f64) {
     let used = state.friction_utilisations.iter().copied().enumerate();
     used.fold(
         (0, 0.0),

@@ -1,8 +1,11 @@
 //! The steady state of a flat belt round n pulleys. [`crate::belt_loop`] is the public face.
 
 mod check;
+mod closing;
+mod elongation;
 mod error;
 mod limit;
+mod loads;
 mod results;
 mod running;
 mod solve;

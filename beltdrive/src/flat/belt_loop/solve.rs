@@ -1,14 +1,17 @@
 //! From a loop to its steady state: rest, unloaded loop, load factor limit, loaded loop.
 
+use super::super::traction::convention;
+use super::closing::{Closing, Target};
 use super::error::LoopError;
-use super::limit::{load_limit, most_used};
+use super::limit::{judged, largest, load_limit, slips};
+use super::loads::Loads;
 use super::results::{Found, state};
-use super::running::{Running, RunningBelt, Target};
+use super::running::RunningBelt;
 use super::state::LoopState;
 use super::tensioner::{Held, Towards, equilibrium, length_derivatives, within_travel};
-use crate::FrictionLaw;
 use crate::drive::belt_loop::{BeltLoop, Closure, Duty, LoopPulley};
 use crate::drive::layout::Layout;
+use crate::{BeltKind, FrictionLaw, NormalForce};
 
 /// Largest strain of the belt: at twice its length no belt is linear elastic, and far beyond it the length
 /// of the unstretched belt is lost in rounding.
@@ -50,12 +53,16 @@ pub(super) struct Loaded {
 /// A loop with its torques and what its closure asks of the running belt.
 pub(super) struct Problem<'l> {
     pub(super) belt_loop: &'l BeltLoop,
-    /// Torque of each pulley, N·m; that of the driver means nothing.
-    pub(super) torques: &'l [f64],
+    pub(super) loads: Loads,
     pub(super) target: Target,
+    pub(super) convention: NormalForce,
+    /// Index of the driver.
+    pub(super) driver: usize,
+    /// Circumferential speed R ω of the driver, m/s.
+    pub(super) rim: f64,
     /// Where the equilibrium of the tensioner is sought from.
-    start: f64,
-    towards: Towards,
+    pub(super) start: f64,
+    pub(super) towards: Towards,
 }
 
 /// The steady state of a belt loop.
@@ -75,8 +82,13 @@ pub(crate) fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
     let mut torques: Vec<_> = belt_loop.pulleys.iter().map(torque).collect();
     // The last torque of each pulley, what its power asked for there, and the slope of that.
     let mut last = vec![[f64::NAN, f64::NAN, 0.0]; torques.len()];
+    let has_powers = belt_loop.pulleys.iter();
+    let has_powers = { has_powers }.any(|pulley| matches!(pulley.duty, Duty::Power(_)));
+    if !has_powers {
+        return with_torques(belt_loop, &torques, true);
+    }
     for _ in 0..POWERS {
-        let state = with_torques(belt_loop, &torques)?;
+        let state = with_torques(belt_loop, &torques, false)?;
         let mut change = 0.0;
         for (index, pulley) in belt_loop.pulleys.iter().enumerate() {
             if let Duty::Power(power) = pulley.duty {
@@ -93,7 +105,7 @@ pub(crate) fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
             }
         }
         if change.is_nan() || change < POWER {
-            return Ok(state);
+            return with_torques(belt_loop, &torques, true);
         }
     }
     Err(LoopError::NotFound {
@@ -101,8 +113,12 @@ pub(crate) fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
     })
 }
 
-/// The steady state of a belt loop with given torques.
-fn with_torques(belt_loop: &BeltLoop, torques: &[f64]) -> Result<LoopState, LoopError> {
+/// The steady state of a belt loop with given torques; the final one has its load factor limit.
+fn with_torques(
+    belt_loop: &BeltLoop,
+    torques: &[f64],
+    is_final: bool,
+) -> Result<LoopState, LoopError> {
     let start = belt_loop.start_coordinate();
     belt_loop.layout(start)?;
     let (rest, target) = match belt_loop.closure {
@@ -120,8 +136,14 @@ fn with_torques(belt_loop: &BeltLoop, torques: &[f64]) -> Result<LoopState, Loop
     };
     let mut problem = Problem {
         belt_loop,
-        torques,
+        loads: Loads::new(belt_loop, torques),
         target,
+        convention: match belt_loop.belt.kind {
+            BeltKind::Flat { normal_force } => convention(normal_force, belt_loop.law),
+            BeltKind::V(_) => panic!("a flat belt was expected"),
+        },
+        driver: belt_loop.driver(),
+        rim: belt_loop.rim_speed(),
         start: rest.as_ref().map_or(start, |rest| rest.coordinate),
         towards: match rest {
             Some(_) => Towards::Force,
@@ -139,8 +161,11 @@ fn with_torques(belt_loop: &BeltLoop, torques: &[f64]) -> Result<LoopState, Loop
     for coordinate in at_rest.into_iter().chain(running) {
         within_travel(belt_loop, coordinate)?;
     }
-    let limit = load_limit(&problem, &rigid)?;
-    let weakest = most_used(&problem, &rigid);
+    let judged = judged(&problem, &rigid);
+    let limit = match is_final || slips(judged.as_ref()) {
+        true => load_limit(&problem, &rigid, judged.as_ref())?,
+        false => None,
+    };
     let loaded = match belt_loop.law {
         FrictionLaw::Coulomb => rigid,
         _ => {
@@ -163,7 +188,7 @@ fn with_torques(belt_loop: &BeltLoop, torques: &[f64]) -> Result<LoopState, Loop
         belt: Some(belt),
     } = loaded
     else {
-        return Err(stalls(weakest));
+        return Err(stalls(judged.map_or(0, |judged| largest(&judged).0)));
     };
     let rest = rest.ok_or(LoopError::NotFound {
         what: "state at rest",
@@ -212,20 +237,19 @@ fn presses(belt: &RunningBelt) -> Result<(), LoopError> {
 /// The belt at rest where its length or its tension at rest is given.
 fn rest_of_closure(belt_loop: &BeltLoop, start: f64) -> Result<Rest, LoopError> {
     let axial = belt_loop.belt.axial_stiffness;
-    let coordinate = match belt_loop.closure {
+    let (coordinate, layout) = match belt_loop.closure {
         Closure::UnstretchedLength(length) => {
             return rest_of_length(belt_loop, start, length);
         }
         Closure::SetupTension(tension) => {
             equilibrium(belt_loop, start, Towards::Newton, "at rest", |_| {
-                Ok(tension)
+                Ok([tension, 0.0])
             })?
         }
         Closure::RestCoordinate(_)
         | Closure::SpanTension { .. }
-        | Closure::SpanTractiveTension { .. } => start,
+        | Closure::SpanTractiveTension { .. } => (start, belt_loop.layout(start)?),
     };
-    let layout = belt_loop.layout(coordinate)?;
     let tension = match (belt_loop.closure, belt_loop.tensioner()) {
         (Closure::RestCoordinate(_), Some((pulley, tensioner))) => {
             let [slope, _] = length_derivatives(&layout, pulley, &tensioner.guide, coordinate);
@@ -235,7 +259,7 @@ fn rest_of_closure(belt_loop: &BeltLoop, start: f64) -> Result<Rest, LoopError> 
         _ => f64::NAN,
     };
     let unstretched = layout.length() / (1.0 + tension / axial);
-    checked(
+    stable_rest(
         belt_loop,
         Rest {
             coordinate,
@@ -251,19 +275,19 @@ fn rest_of_length(belt_loop: &BeltLoop, start: f64, length: f64) -> Result<Rest,
     let axial = belt_loop.belt.axial_stiffness;
     let tension = |layout: &Layout| axial * ((layout.length() - length) / length);
     let found = equilibrium(belt_loop, start, Towards::Force, "at rest", |layout| {
-        Ok(tension(layout))
+        Ok([tension(layout), axial / length])
     });
-    let layout = belt_loop.layout(start)?;
-    let coordinate = match found {
-        Err(_) if tension(&layout) <= 0.0 => {
-            return Err(LoopError::Slack {
-                tension: tension(&layout),
+    let (coordinate, layout) = match found {
+        Ok(found) => found,
+        Err(error) => {
+            let tension = tension(&belt_loop.layout(start)?);
+            return Err(match tension <= 0.0 {
+                true => LoopError::Slack { tension },
+                false => error,
             });
         }
-        found => found?,
     };
-    let layout = belt_loop.layout(coordinate)?;
-    checked(
+    stable_rest(
         belt_loop,
         Rest {
             coordinate,
@@ -275,7 +299,7 @@ fn rest_of_length(belt_loop: &BeltLoop, start: f64, length: f64) -> Result<Rest,
 }
 
 /// A belt at rest that is in tension, with its tensioner in a stable equilibrium.
-fn checked(belt_loop: &BeltLoop, rest: Rest) -> Result<Rest, LoopError> {
+fn stable_rest(belt_loop: &BeltLoop, rest: Rest) -> Result<Rest, LoopError> {
     let tension = rest.tension;
     if tension <= 0.0 {
         return Err(LoopError::Slack { tension });
@@ -311,7 +335,7 @@ impl Problem<'_> {
     /// if the belt lifts off.
     fn unloaded(&self) -> Result<f64, LoopError> {
         let belt = self.belt_loop.belt;
-        let rim = self.belt_loop.rim_speed();
+        let rim = self.rim;
         let tractive = |layout: &Layout| {
             let strain = match self.target {
                 Target::Unstretched { length, elongation } => {
@@ -340,10 +364,10 @@ impl Problem<'_> {
             self.start,
             self.towards,
             "without load",
-            |layout| Ok(tractive(layout)),
+            |layout| Ok([tractive(layout), self.tension_per_length()]),
         );
         match found {
-            Ok(coordinate) => presses(coordinate),
+            Ok((coordinate, _)) => presses(coordinate),
             Err(error) => Err(presses(self.start).err().unwrap_or(error)),
         }
     }
@@ -354,32 +378,34 @@ impl Problem<'_> {
             what: "tension of the running belt",
         };
         let pulley = self.belt_loop.tensioner().map_or(0, |(pulley, _)| pulley);
-        // The belt, and the tractive tension of the idler: a belt that does not press has the slackest
-        // tension 0.
-        let closed = |layout: &Layout| {
-            let running = Running::new(self, layout, law, factor);
-            let belt = running.closed().map_err(|()| lost.clone())?;
-            let tractive = match &belt {
-                Some(belt) => belt.tractive[pulley],
-                None => running.loosest(pulley),
-            };
-            Ok::<_, LoopError>((tractive, belt))
-        };
-        let idler = |layout: &Layout| closed(layout).map(|(tractive, _)| tractive);
-        let coordinate = equilibrium(
+        let (coordinate, layout) = equilibrium(
             self.belt_loop,
             self.start,
             self.towards,
             "under load",
-            idler,
+            |layout| {
+                let running = Closing::new(self, layout, law, factor);
+                let tractive = running.closed_tractive(pulley);
+                let tractive = tractive.map_err(|()| lost.clone())?;
+                Ok([tractive, self.tension_per_length()])
+            },
         )?;
-        let layout = self.belt_loop.layout(coordinate)?;
-        let (_, belt) = closed(&layout)?;
+        let belt = Closing::new(self, &layout, law, factor).closed();
         Ok(Loaded {
             coordinate,
+            belt: belt.map_err(|()| lost)?,
             layout,
-            belt,
         })
+    }
+
+    /// How fast the tension grows with the length of the loop, about, N/m.
+    pub(super) fn tension_per_length(&self) -> f64 {
+        match self.target {
+            Target::Unstretched { length, elongation } => {
+                self.belt_loop.belt.axial_stiffness / (length - elongation)
+            }
+            Target::Tension { .. } | Target::TractiveTension { .. } => 0.0,
+        }
     }
 
     /// The belt of a loaded loop at rest, if it presses on all pulleys.

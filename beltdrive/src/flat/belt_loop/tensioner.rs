@@ -1,6 +1,6 @@
 //! The tensioner: its equilibrium, its stiffness and how well it holds the tension.
 
-use super::super::root::bracketed;
+use super::super::root::{bracketed, near};
 use super::error::LoopError;
 use crate::drive::belt_loop::{BeltLoop, Guide, Tensioner};
 use crate::drive::layout::Layout;
@@ -17,6 +17,10 @@ const FIRST_STEP: f64 = 16.0;
 /// Steps of the search that are smaller than this, relative to the largest, end it where the belt can no
 /// longer be laid round the pulleys.
 const SMALLEST_STEP: f64 = 1e-9;
+
+/// The last step of the secant method, relative to the largest step. Its error is about this times the step
+/// before.
+const NEAR: f64 = 1e-11;
 
 /// Most steps of a search: 500 radii of an idler on a straight guide.
 const STEPS: usize = 1000;
@@ -50,79 +54,135 @@ pub(crate) fn length_derivatives(
 }
 
 /// The coordinate nearest to `start`, in the direction in which the idler goes from there, at which the
-/// load Q(q) of the tensioner and the belt are in equilibrium: Q − `F_t` dL/dq = 0. `tractive` gives `F_t`
-/// in N.
+/// load Q(q) of the tensioner and the belt are in equilibrium: Q − `F_t` dL/dq = 0; and the belt there.
+/// `tractive` gives `F_t` in N, and about how fast it grows with the length of the loop, N/m.
 pub(crate) fn equilibrium(
     belt_loop: &BeltLoop,
     start: f64,
     towards: Towards,
     which: &'static str,
-    mut tractive: impl FnMut(&Layout) -> Result<f64, LoopError>,
-) -> Result<f64, LoopError> {
-    let Some((pulley, tensioner)) = belt_loop.tensioner() else {
-        return Ok(start);
+    tractive: impl FnMut(&Layout) -> Result<[f64; 2], LoopError>,
+) -> Result<(f64, Layout), LoopError> {
+    let mut layout = belt_loop.layout(start)?;
+    let Some(carried) = belt_loop.tensioner() else {
+        return Ok((start, layout));
     };
-    let name = || belt_loop.pulleys[pulley].name.clone();
-    let guide = &tensioner.guide;
-    // Force along the coordinate, and its slope at a given tension.
-    let mut force = |coordinate: f64| -> Result<[f64; 2], LoopError> {
-        let layout = belt_loop.layout(coordinate)?;
-        let [slope, curvature] = length_derivatives(&layout, pulley, guide, coordinate);
-        let tension = tractive(&layout)?;
-        let [load, load_slope] = tensioner.load_at(coordinate);
-        Ok([load - tension * slope, load_slope - tension * curvature])
-    };
-    let radius = belt_loop.pulleys[pulley].radius;
-    let (largest, longest) = match guide {
-        Guide::Rotary { arm_length, .. } => ((0.5 * radius / arm_length).min(LARGEST_ANGLE), TAU),
-        Guide::Translating { .. } => (0.5 * radius, f64::INFINITY),
-    };
-    let [at_start, slope] = force(start)?;
-    if at_start == 0.0 {
-        return Ok(start);
-    }
-    let direction = match towards {
-        Towards::Newton if slope > 0.0 => -at_start.signum(),
-        _ => at_start.signum(),
-    };
-    let (mut step, mut here) = (largest / FIRST_STEP, (start, at_start));
-    for _ in 0..STEPS {
-        let next = here.0 + direction * step;
-        match force(next) {
-            Err(error) => {
-                step *= 0.5;
-                if step < SMALLEST_STEP * largest {
-                    within_travel(belt_loop, here.0)?;
-                    return Err(error);
-                }
-            }
-            Ok([at_next, _]) if (at_next > 0.0) != (at_start > 0.0) => {
-                let at = |coordinate| force(coordinate).map_or(f64::NAN, |[force, _]| force);
-                if let Some(found) = bracketed(at, [here.0, next], [here.1, at_next]) {
-                    return Ok(found);
-                }
-                // Between the two the belt cannot be laid round the pulleys.
-                step *= 0.5;
-                if step < SMALLEST_STEP * largest {
-                    return Err(LoopError::NotFound {
-                        what: "coordinate of the tensioner",
-                    });
-                }
-            }
-            Ok([at_next, _]) => {
-                here = (next, at_next);
-                step = (2.0 * step).min(largest);
-            }
-        }
-        if (here.0 - start).abs() > longest {
-            break;
-        }
-    }
-    within_travel(belt_loop, here.0)?;
-    Err(LoopError::NoEquilibrium {
-        pulley: name(),
+    let search = Search {
+        belt_loop,
+        carried,
+        towards,
         which,
-    })
+    };
+    let coordinate = search.coordinate(start, &mut layout, tractive)?;
+    search.move_to(&mut layout, coordinate)?;
+    Ok((coordinate, layout))
+}
+
+/// The search for an equilibrium.
+struct Search<'l> {
+    belt_loop: &'l BeltLoop,
+    /// The index of the pulley on the tensioner, and that.
+    carried: (usize, &'l Tensioner),
+    towards: Towards,
+    which: &'static str,
+}
+
+impl Search<'_> {
+    fn move_to(&self, layout: &mut Layout, coordinate: f64) -> Result<(), LoopError> {
+        let (pulley, tensioner) = self.carried;
+        let [centre, ..] = tensioner.guide.centre(coordinate);
+        Ok(layout.move_pulley(pulley, centre)?)
+    }
+
+    fn coordinate(
+        &self,
+        start: f64,
+        layout: &mut Layout,
+        mut tractive: impl FnMut(&Layout) -> Result<[f64; 2], LoopError>,
+    ) -> Result<f64, LoopError> {
+        let Self {
+            belt_loop,
+            towards,
+            which,
+            ..
+        } = *self;
+        let (pulley, tensioner) = self.carried;
+        let name = || belt_loop.pulleys[pulley].name.clone();
+        let guide = &tensioner.guide;
+        // Force along the coordinate, and about its slope.
+        let mut force = |coordinate: f64| -> Result<[f64; 2], LoopError> {
+            self.move_to(layout, coordinate)?;
+            let [slope, curvature] = length_derivatives(layout, pulley, guide, coordinate);
+            let [tension, per_length] = tractive(layout)?;
+            let [load, load_slope] = tensioner.load_at(coordinate);
+            Ok([
+                load - tension * slope,
+                load_slope - tension * curvature - per_length * slope * slope,
+            ])
+        };
+        let radius = belt_loop.pulleys[pulley].radius;
+        let (largest, longest) = match guide {
+            Guide::Rotary { arm_length, .. } => {
+                ((0.5 * radius / arm_length).min(LARGEST_ANGLE), TAU)
+            }
+            Guide::Translating { .. } => (0.5 * radius, f64::INFINITY),
+        };
+        let [at_start, slope] = force(start)?;
+        if at_start == 0.0 {
+            return Ok(start);
+        }
+        let direction = match towards {
+            Towards::Newton if slope > 0.0 => -at_start.signum(),
+            _ => at_start.signum(),
+        };
+        let (mut step, mut here) = (largest / FIRST_STEP, (start, at_start));
+        let mut slope = slope;
+        for _ in 0..STEPS {
+            // At once, if it lies within one step.
+            let ends =
+                [-NEAR * largest, (1.0 + NEAR) * largest].map(|way| here.0 + direction * way);
+            let ends = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+            let at = |coordinate| force(coordinate).map_or(f64::NAN, |[force, _]| force);
+            if let Some(found) = near(at, [here.0, here.1], slope, ends, NEAR * largest) {
+                return Ok(found);
+            }
+            let next = here.0 + direction * step;
+            match force(next) {
+                Err(error) => {
+                    step *= 0.5;
+                    if step < SMALLEST_STEP * largest {
+                        within_travel(belt_loop, here.0)?;
+                        return Err(error);
+                    }
+                }
+                Ok([at_next, _]) if (at_next > 0.0) != (at_start > 0.0) => {
+                    let at = |coordinate| force(coordinate).map_or(f64::NAN, |[force, _]| force);
+                    if let Some(found) = bracketed(at, [here.0, next], [here.1, at_next]) {
+                        return Ok(found);
+                    }
+                    // Between the two the belt cannot be laid round the pulleys.
+                    step *= 0.5;
+                    if step < SMALLEST_STEP * largest {
+                        return Err(LoopError::NotFound {
+                            what: "coordinate of the tensioner",
+                        });
+                    }
+                }
+                Ok([at_next, slope_next]) => {
+                    (here, slope) = ((next, at_next), slope_next);
+                    step = (2.0 * step).min(largest);
+                }
+            }
+            if (here.0 - start).abs() > longest {
+                break;
+            }
+        }
+        within_travel(belt_loop, here.0)?;
+        Err(LoopError::NoEquilibrium {
+            pulley: name(),
+            which,
+        })
+    }
 }
 
 /// Whether the tensioner is between its stops.

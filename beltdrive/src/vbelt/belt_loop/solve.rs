@@ -197,19 +197,21 @@ impl<'l> Search<'l> {
                 let compliance = length / axial + grooves.iter().sum::<f64>();
                 let tension = |layout: &Layout| (layout.length() - length) / compliance;
                 let found = equilibrium(belt_loop, start, Towards::Force, "at rest", |layout| {
-                    Ok(tension(layout))
+                    Ok([tension(layout), compliance.recip()])
                 });
-                let coordinate = match found {
-                    Err(_) if tension(layout) <= 0.0 => start,
-                    found => found?,
-                };
-                (coordinate, tension(&belt_loop.layout(coordinate)?))
+                match found {
+                    Err(_) if tension(layout) <= 0.0 => (start, tension(layout)),
+                    found => {
+                        let (coordinate, layout) = found?;
+                        (coordinate, tension(&layout))
+                    }
+                }
             }
             Known::Tension(tension) => {
                 let found = equilibrium(belt_loop, start, Towards::Newton, "at rest", |_| {
-                    Ok(tension)
+                    Ok([tension, 0.0])
                 });
-                (found?, tension)
+                (found?.0, tension)
             }
             Known::Equilibrium => {
                 let tension = belt_loop
