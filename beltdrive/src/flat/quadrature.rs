@@ -55,15 +55,27 @@ impl Contact {
 
     /// As [`Self::integral`], over one zone.
     pub(super) fn over(&self, zone: &ContactZone, function: &impl Fn(&Place) -> f64) -> f64 {
-        let panels = self.panels(zone);
+        let [integral] = self.all_over(zone, &|place| [function(place)]);
+        integral
+    }
+
+    /// As [`Self::over`], of several functions.
+    pub(super) fn all_over<const N: usize>(
+        &self,
+        zone: &ContactZone,
+        functions: &impl Fn(&Place) -> [f64; N],
+    ) -> [f64; N] {
         let integrand = |share: f64| {
             let place = self.at(zone, share);
-            function(&place) * self.arc_per_share(zone, &place)
+            let per_share = self.arc_per_share(zone, &place);
+            functions(&place).map(|value| value * per_share)
         };
-        let panels = panels.windows(2);
-        panels
-            .map(|panel| integral([panel[0], panel[1]], integrand))
-            .sum()
+        let mut sums = [0.0; N];
+        for panel in self.panels(zone).windows(2) {
+            let parts = integrals([panel[0], panel[1]], integrand);
+            add(&mut sums, parts, 1.0);
+        }
+        sums
     }
 
     /// Arc length per share of a zone, at a place, m.
@@ -76,11 +88,29 @@ impl Contact {
 }
 
 /// The integral of a smooth function over a panel.
-pub(super) fn integral([from, to]: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
+pub(super) fn integral(ends: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
+    let [integral] = integrals(ends, |place| [function(place)]);
+    integral
+}
+
+/// The integrals of smooth functions over a panel.
+pub(super) fn integrals<const N: usize>(
+    [from, to]: [f64; 2],
+    functions: impl Fn(f64) -> [f64; N],
+) -> [f64; N] {
     let [middle, half] = [0.5 * (from + to), 0.5 * (to - from)];
-    let nodes = GAUSS.iter().map(|[node, weight]| {
-        let ends = [middle - half * node, middle + half * node];
-        weight * ends.map(&function).iter().sum::<f64>()
-    });
-    half * nodes.sum::<f64>()
+    let mut sums = [0.0; N];
+    for [node, weight] in GAUSS {
+        for end in [middle - half * node, middle + half * node] {
+            add(&mut sums, functions(end), half * weight);
+        }
+    }
+    sums
+}
+
+/// Adds parts with a weight to sums.
+fn add<const N: usize>(sums: &mut [f64; N], parts: [f64; N], weight: f64) {
+    for (sum, part) in sums.iter_mut().zip(parts) {
+        *sum += weight * part;
+    }
 }

@@ -134,7 +134,7 @@ pub enum LoopError {
         /// Why the next one was not.
         cause: &'static str,
     },
-    /// A state of a V-belt was found that violates an invariant.
+    /// A state was found that violates an invariant.
     #[error(
         "the state found violates an invariant, {}: relative deviation {:.1e}, limit {:.1e}",
         .0.name, .0.deviation, .0.limit

@@ -1,6 +1,7 @@
 //! The steady state of a flat belt round n pulleys. [`crate::belt_loop`] is the public face.
 
 mod check;
+mod checks;
 mod closing;
 mod elongation;
 mod error;

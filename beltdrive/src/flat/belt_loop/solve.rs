@@ -1,6 +1,7 @@
 //! From a loop to its steady state: rest, unloaded loop, load factor limit, loaded loop.
 
 use super::super::traction::convention;
+use super::checks::checked;
 use super::closing::{Closing, Target};
 use super::error::LoopError;
 use super::limit::{judged, largest, load_limit, slips};
@@ -113,7 +114,8 @@ pub(crate) fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
     })
 }
 
-/// The steady state of a belt loop with given torques; the final one has its load factor limit.
+/// The steady state of a belt loop with given torques; the final one has its load factor limit and its
+/// checks.
 fn with_torques(
     belt_loop: &BeltLoop,
     torques: &[f64],
@@ -216,7 +218,10 @@ fn with_torques(
         limit,
     };
     found.stable()?;
-    Ok(state(found))
+    match is_final {
+        true => checked(belt_loop, state(found)),
+        false => Ok(state(found)),
+    }
 }
 
 /// Whether a running belt presses on all pulleys: with the convention `thesis` friction does not ask for it.

@@ -42,7 +42,7 @@ pub struct LoopState {
     /// How far all torques can be raised with Coulomb friction; `None` without torques, or if the tensioner
     /// has no equilibrium up to there. `None` for V-belts, of which [`crate::belt_loop::load_limit`] finds it.
     pub load_limit: Option<LoadLimit>,
-    /// The verified invariants of a V-belt, each with its relative deviation; empty for flat belts.
+    /// The verified invariants, each with its relative deviation.
     pub checks: Vec<Check>,
     /// How the state of a V-belt was found and how accurate it is; flat belts are solved in closed form,
     /// to rounding.
