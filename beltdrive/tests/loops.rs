@@ -328,6 +328,43 @@ fn a_branch_ends_where_a_pulley_slips() {
 }
 
 #[test]
+fn branches_and_limits_have_figures() {
+    let directory = directory("loops-figures");
+    let file = example("back-side-idler");
+    let range = [
+        "--parameter",
+        "pulley.fan.torque",
+        "--from",
+        "1 N*m",
+        "--to",
+        "90 N*m",
+    ];
+    let over = [
+        "--parameter",
+        "pulley.fan.torque",
+        "--curve",
+        "load.setup_tension",
+    ];
+    let of = ["--from", "250 N", "--to", "300 N"];
+    for (arguments, name) in [
+        ([&["trace", &file], &range[..]].concat(), "branch.svg"),
+        (
+            [&["trace", &file], &over[..], &of[..]].concat(),
+            "limit_curve.svg",
+        ),
+        (vec!["limits", &file], "branch.svg"),
+        (vec!["solve", &file], "loop.svg"),
+    ] {
+        let figures = directory.join(arguments[0]).join(name);
+        let figures = figures.to_str().unwrap();
+        json(&[&arguments[..], &["--plot", figures]].concat());
+        let figure = fs::read_to_string(format!("{figures}/{name}")).unwrap();
+        assert!(figure.starts_with("<svg") && figure.trim_end().ends_with("</svg>"));
+        assert!(figure.contains("Flat-belt drive with an idler") && !figure.contains("NaN"));
+    }
+}
+
+#[test]
 fn every_number_of_a_loop_has_a_branch_and_limits() {
     for (name, key, from, to) in [
         (

@@ -1,10 +1,11 @@
 //! `beltdrive limits`: the smallest and the largest load that a drive carries.
 
-use super::{common::Common, failure::Failure, origin::Origin, output::Report, parameter};
+use super::output::{Charted, Report};
+use super::{common::Common, failure::Failure, origin::Origin, parameter};
 use beltdrive::belt_loop::{self, Varied};
 use beltdrive::input::{DriveFile, Key, Stated};
-use beltdrive::quantity;
 use beltdrive::quantity::UnitSystem;
+use beltdrive::quantity::{self, Answer};
 use beltdrive::{plot, report};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -54,7 +55,22 @@ impl Limits {
             .common
             .with_progress(|progress| belt_loop::limits(file, &varied, &options, progress))?;
         let answer = quantity::loop_range::limits(&limits);
-        self.common.output.write(&answer, origin)
+        // The states between the limits, where they are drawn.
+        let chart = match self.common.output.draws() {
+            true => {
+                let range = [&limits.smallest, &limits.largest].map(|limit| limit.point.value);
+                let branch = belt_loop::trace(file, &varied, range, &options, &mut |_, _| {})?;
+                quantity::loop_range::branch(&branch)
+            }
+            false => Answer::default(),
+        };
+        let name = "branch.svg";
+        let charted = Charted {
+            answer,
+            chart,
+            name,
+        };
+        self.common.output.write(&charted, origin)
     }
 }
 

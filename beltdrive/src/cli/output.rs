@@ -65,25 +65,38 @@ pub(super) trait Report {
     fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error>;
 }
 
-impl Report for Answer {
+/// An answer for a loop with a figure of its rows, or of those of another answer.
+pub(super) struct Charted {
+    pub(super) answer: Answer,
+    /// What is drawn, and the name of the file.
+    pub(super) chart: Answer,
+    pub(super) name: &'static str,
+}
+
+impl Report for Charted {
     fn table(&self, units: UnitSystem) -> String {
-        report::answer::table(self, units)
+        report::answer::table(&self.answer, units)
     }
 
     fn json(&self) -> String {
-        report::answer::json(self)
+        report::answer::json(&self.answer)
     }
 
     fn csv(&self) -> String {
-        report::answer::csv(self)
+        report::answer::csv(&self.answer)
     }
 
-    fn plot(&self, _directory: &Path, _metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
-        Ok(Vec::new())
+    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
+        plot::write_rows(&self.chart, self.name, directory, Some(metadata))
     }
 }
 
 impl Output {
+    /// Whether figures are asked for.
+    pub(super) fn draws(&self) -> bool {
+        self.plot.is_some()
+    }
+
     /// Refuses outputs that would overwrite each other or the drive file.
     pub(super) fn check(&self, drive_file: &Path) -> Result<(), Failure> {
         let csv = self.csv.as_deref().filter(|path| !is_stream(path));

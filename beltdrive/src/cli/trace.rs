@@ -1,6 +1,7 @@
 //! `beltdrive trace`: a branch of steady states, or of limits, over one entry of the drive file.
 
-use super::{common::Common, failure::Failure, origin::Origin, output::Report, parameter};
+use super::output::{Charted, Report};
+use super::{common::Common, failure::Failure, origin::Origin, parameter};
 use beltdrive::belt_loop::{self, Varied};
 use beltdrive::input::{DriveFile, FileKey, Key, Stated};
 use beltdrive::quantity;
@@ -93,13 +94,13 @@ impl Trace {
         let parameter = key("--parameter", &self.parameter)?;
         let varied = Varied::Key(parameter.clone());
         let options = self.common.options();
-        let answer = match &self.curve {
+        let (name, answer) = match &self.curve {
             None => {
                 let range = self.range_of(file, &parameter)?;
                 let branch = self.common.with_progress(|progress| {
                     belt_loop::trace(file, &varied, range, &options, progress)
                 })?;
-                quantity::loop_range::branch(&branch)
+                ("branch.svg", quantity::loop_range::branch(&branch))
             }
             Some(path) => {
                 let second = key("--curve", path)?;
@@ -110,10 +111,16 @@ impl Trace {
                 let curve = self.common.with_progress(|progress| {
                     belt_loop::limit_curve(file, &varied, &second, range, &options, progress)
                 })?;
-                quantity::loop_range::limit_curve(&curve)
+                ("limit_curve.svg", quantity::loop_range::limit_curve(&curve))
             }
         };
-        self.common.output.write(&answer, origin)
+        let chart = answer.clone();
+        let charted = Charted {
+            answer,
+            chart,
+            name,
+        };
+        self.common.output.write(&charted, origin)
     }
 
     /// The range of a number of a loop to be traced over.

@@ -4,7 +4,7 @@ use super::style::{self, BODY, Canvas, DOT, Drawn, GREY, INK, MARGIN, Stroke, TI
 use super::style::{face, px, text_width, write};
 use crate::belt_loop::BeltLoop;
 use crate::input::Key;
-use crate::quantity::belt_loop as loop_words;
+use crate::quantity::{Answer, belt_loop as loop_words};
 use crate::report::{convention, folded, heading, law, warning};
 use crate::{Drive, SteadyState};
 use plotters::drawing::DrawingAreaErrorKind;
@@ -64,6 +64,17 @@ impl Header {
             captions: iter::once(caption.to_owned()).chain(lines).collect(),
             convention: None,
             warnings: vec![],
+        }
+    }
+
+    /// The header of a figure of an answer.
+    pub(super) fn of_answer(answer: &Answer) -> Self {
+        let mut lines = answer.heading.iter().cloned();
+        Self {
+            title: lines.next().unwrap_or_default(),
+            captions: lines.collect(),
+            convention: None,
+            warnings: answer.remarks.clone(),
         }
     }
 

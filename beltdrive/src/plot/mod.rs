@@ -14,10 +14,12 @@ mod panel;
 mod plan;
 mod profile_figures;
 mod profiles;
+mod rows;
 mod stability;
 mod style;
 
 use crate::belt_loop::{BeltLoop, LoopState};
+use crate::quantity::Answer;
 use crate::report::write_file;
 use crate::{Branch, LimitCurve, Stability, SteadyState};
 use std::path::{Path, PathBuf};
@@ -80,6 +82,21 @@ pub fn write_loop(
     let drawn = std::iter::once(("loop.svg", belt_loop::figure(belt_loop, state)));
     let profiles = belt_loop::profiles::figures(belt_loop, state);
     write(drawn.chain(profiles), directory, metadata)
+}
+
+/// Writes a figure of a name with the numbers in the rows of an answer, such as a branch of a loop or a curve of
+/// its limits, into a directory, as [`write_all`] does.
+///
+/// # Errors
+/// As [`write_all`].
+pub fn write_rows(
+    answer: &Answer,
+    name: &'static str,
+    directory: &Path,
+    metadata: Option<&str>,
+) -> Result<Vec<PathBuf>, Error> {
+    let figure = (name, rows::figure(answer));
+    write(std::iter::once(figure), directory, metadata)
 }
 
 /// Writes `branch.svg`, the bifurcation diagram of a branch, into a directory, as [`write_all`]
