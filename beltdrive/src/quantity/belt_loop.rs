@@ -7,7 +7,7 @@ use crate::belt_loop::{
     BeltLoop, Closure, Guide, LoopConvergence, LoopState, PulleyState, Sense, SpanState,
     TensionerState,
 };
-use crate::{BeltKind, Check, Profile};
+use crate::{BeltKind, Check, NormalForce, Profile};
 
 /// The steady state of a loop.
 pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
@@ -116,7 +116,14 @@ pub(crate) fn heading(belt_loop: &BeltLoop) -> Vec<String> {
         }
         Closure::RestCoordinate(_) => "closed by the tensioner at rest".to_owned(),
     };
-    let what = format!("{belt} round {count} pulleys, {law}, {closed}");
+    // That of a V-belt is no choice, and the usual one goes without saying.
+    let usual = BeltKind::Flat {
+        normal_force: NormalForce::default(),
+    };
+    let kind = belt_loop.belt.kind;
+    let convention = words::convention(kind).filter(|_| kind != usual);
+    let convention = convention.map_or_else(String::new, |words| format!(", {words}"));
+    let what = format!("{belt} round {count} pulleys, {law}{convention}, {closed}");
     let words = belt_loop.title.iter();
     let title: Vec<_> = words.flat_map(|title| title.split_whitespace()).collect();
     match title.is_empty() {

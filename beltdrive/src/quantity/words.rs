@@ -1,7 +1,7 @@
 //! What stands in words beside the numbers of an answer.
 
 use super::precision::six_digits;
-use crate::{Check, FrictionLaw};
+use crate::{BeltKind, Check, FrictionLaw, NormalForce};
 
 /// A friction law in words, with its parameters and a coefficient that is the same for all pulleys; what
 /// varies has no value.
@@ -42,4 +42,16 @@ pub(crate) fn check(check: &Check) -> String {
         "check: {:<45} {:<9} deviation {:.1e}, limit {:.1e}",
         check.name, verdict, check.deviation, check.limit
     )
+}
+
+/// How the normal force of a flat belt follows from its tension; nothing for a V-belt.
+pub(crate) fn convention(belt: BeltKind) -> Option<&'static str> {
+    match belt {
+        BeltKind::V(_) => None,
+        BeltKind::Flat { normal_force } => Some(match normal_force {
+            NormalForce::Thesis => "normal force n = T/R",
+            NormalForce::Inertia => "normal force n = (T − G V)/R",
+            NormalForce::Exact => "normal force n = (T − G V)/R, finite strain",
+        }),
+    }
 }

@@ -1,6 +1,7 @@
 //! The belt of a drive in words: for people and, as fixed words, for programs.
 
-use crate::{BeltKind, Drive, NormalForce};
+use crate::quantity::words;
+use crate::{BeltKind, Drive};
 use serde::Serialize;
 
 /// What a drive is called without a title of its own.
@@ -13,14 +14,7 @@ pub(super) fn description(drive: &Drive) -> &'static str {
 
 /// How the normal force of a flat belt follows from its tension; nothing for a V-belt.
 pub(crate) fn convention(drive: &Drive) -> Option<&'static str> {
-    match drive.belt.kind {
-        BeltKind::V(_) => None,
-        BeltKind::Flat { normal_force } => Some(match normal_force {
-            NormalForce::Thesis => "normal force n = T/R",
-            NormalForce::Inertia => "normal force n = (T − G V)/R",
-            NormalForce::Exact => "normal force n = (T − G V)/R, finite strain",
-        }),
-    }
+    words::convention(drive.belt.kind)
 }
 
 /// The kind of the belt as JSON.
@@ -47,6 +41,7 @@ impl From<&Drive> for BeltReport {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::NormalForce;
     use crate::report::{sample, sample_flat};
 
     #[test]

@@ -213,7 +213,9 @@ mod tests {
             }
         };
         assert_eq!(noticed(&belt_loop, |_| ()), "nothing");
-        let changes: [(fn(&mut LoopState), &str); 7] = [
+        /// What is changed, and the check that notices.
+        type Change = (fn(&mut LoopState), &'static str);
+        let changes: [Change; 7] = [
             (|state| state.pulleys[0].torque *= 1.0 + 1e-6, "torques of"),
             (|state| state.pulleys[0].power *= 1.0 + 1e-6, "power of"),
             (|state| state.pulleys[1].hub_load[0] += 1e-2, "hub forces"),
