@@ -126,12 +126,12 @@ impl Layout {
             pulleys,
             wound: Wound::default(),
         };
-        layout.lay()?;
+        layout.lay(None)?;
         Ok(layout)
     }
 
-    /// The same belt with a pulley at another centre, m; as [`Self::new`] without allocations. After an error
-    /// the spans and wraps mean nothing.
+    /// The same belt with a pulley at another centre, m; as [`Self::new`] without allocations and without a
+    /// look at what stays. After an error the spans and wraps mean nothing until this pulley is moved again.
     ///
     /// # Panics
     /// If there is no such pulley.
@@ -141,11 +141,11 @@ impl Layout {
         centre: [f64; 2],
     ) -> Result<(), LayoutError> {
         self.pulleys[pulley].centre = centre;
-        self.lay()
+        self.lay(Some(pulley))
     }
 
-    /// Lays the belt round the pulleys.
-    fn lay(&mut self) -> Result<(), LayoutError> {
+    /// Lays the belt round the pulleys, of which one, or all, are new at their places.
+    fn lay(&mut self, moved: Option<usize>) -> Result<(), LayoutError> {
         let Self {
             sense,
             turning_number,
@@ -156,6 +156,7 @@ impl Layout {
         if count < 2 {
             return Err(LayoutError::TooFewPulleys { count });
         }
+        let is_new = |index: usize| moved.is_none_or(|moved| moved == index);
         let is_pulley = |pulley: &PlacedPulley| {
             let [x, y] = pulley.centre;
             let largest = x.abs().max(y.abs()).max(pulley.radius);
@@ -166,7 +167,10 @@ impl Layout {
             return Err(LayoutError::NoPulley { pulley });
         }
         for (index, one) in pulleys.iter().enumerate() {
-            for other in &pulleys[index + 1..] {
+            for (next, other) in pulleys.iter().enumerate().skip(index + 1) {
+                if !is_new(index) && !is_new(next) {
+                    continue;
+                }
                 let distance = (Vector2::from(one.centre) - Vector2::from(other.centre)).norm();
                 if distance <= one.radius + other.radius {
                     return Err(overlap(one, other));
@@ -174,7 +178,7 @@ impl Layout {
             }
         }
         wound
-            .lay(sense, pulleys)
+            .lay(sense, pulleys, moved)
             .map_err(|[one, other]| overlap(&pulleys[one], &pulleys[other]))?;
         let excess = wound.turns(sense, pulleys) - i64::from(turning_number);
         if excess != 0 {
@@ -182,8 +186,10 @@ impl Layout {
         }
         for (index, span) in wound.spans.iter().enumerate() {
             let ends = [index, (index + 1) % count];
+            let is_span_new = ends.into_iter().any(is_new);
             for (other, pulley) in pulleys.iter().enumerate() {
-                if !ends.contains(&other) && distance_to(span, pulley.centre) < pulley.radius {
+                let is_looked_at = !ends.contains(&other) && (is_span_new || is_new(other));
+                if is_looked_at && distance_to(span, pulley.centre) < pulley.radius {
                     return Err(LayoutError::SpanThroughPulley {
                         from: pulleys[ends[0]].name.clone(),
                         to: pulleys[ends[1]].name.clone(),

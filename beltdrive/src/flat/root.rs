@@ -24,6 +24,10 @@ const STEPS: usize = 12;
 /// Each step of [`near`] has to divide the value of the function by this at least; else a bracket is safer.
 const CONTRACTION: f64 = 2.0;
 
+/// A first step with an estimated slope is the last one if it is below `within` times this: its error is about
+/// the step times that of the estimate, not times the step before.
+const ESTIMATED: f64 = 1e-4;
+
 /// The root near a place, with the value there and an estimate of the slope, by the secant method: the last
 /// step is below `within`, and the error far below that. `None` if it is not found at once within a range.
 pub(super) fn near(
@@ -33,6 +37,7 @@ pub(super) fn near(
     [from, to]: [f64; 2],
     within: f64,
 ) -> Option<f64> {
+    let mut last = ESTIMATED * within;
     for _ in 0..STEPS {
         let step = match value == 0.0 {
             true => 0.0,
@@ -44,9 +49,10 @@ pub(super) fn near(
         if !is_inside {
             return None;
         }
-        if step.abs() <= within {
+        if step.abs() <= last {
             return Some(next);
         }
+        last = within;
         let found = function(next);
         let is_contracting = CONTRACTION * found.abs() < value.abs();
         if !is_contracting {

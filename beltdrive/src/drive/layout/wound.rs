@@ -13,23 +13,41 @@ pub(super) struct Wound {
 }
 
 impl Wound {
-    /// Winds the belt round pulleys; the indices of two that overlap are an error.
-    pub(super) fn lay(&mut self, sense: Sense, pulleys: &[PlacedPulley]) -> Result<(), [usize; 2]> {
+    /// Winds the belt round pulleys, of which one, or all, are new at their places; the indices of two that
+    /// overlap are an error.
+    pub(super) fn lay(
+        &mut self,
+        sense: Sense,
+        pulleys: &[PlacedPulley],
+        moved: Option<usize>,
+    ) -> Result<(), [usize; 2]> {
         let count = pulleys.len();
-        self.spans.clear();
-        self.wraps.clear();
-        for index in 0..count {
+        let span = |index: usize| {
             let next = (index + 1) % count;
             let ends = [index, next].map(|end| Circle::new(sense, &pulleys[end]));
-            let span = between(ends).ok_or([index, next])?;
-            self.spans.push(span);
+            between(ends).ok_or([index, next])
+        };
+        let Some(moved) = moved else {
+            self.spans = (0..count).map(span).collect::<Result<_, _>>()?;
+            self.wraps = (0..count)
+                .map(|index| self.wrap(sense, pulleys, index))
+                .collect();
+            return Ok(());
+        };
+        let behind = (moved + count - 1) % count;
+        for index in [behind, moved] {
+            self.spans[index] = span(index)?;
         }
-        for (index, pulley) in pulleys.iter().enumerate() {
-            let entering = &self.spans[(index + count - 1) % count];
-            let wrap = wrap(pulley.turns(sense), entering, &self.spans[index]);
-            self.wraps.push(wrap);
+        for index in [behind, moved, (moved + 1) % count] {
+            self.wraps[index] = self.wrap(sense, pulleys, index);
         }
         Ok(())
+    }
+
+    /// Wrap angle on a pulley, rad.
+    fn wrap(&self, sense: Sense, pulleys: &[PlacedPulley], index: usize) -> f64 {
+        let entering = &self.spans[(index + pulleys.len() - 1) % pulleys.len()];
+        wrap(pulleys[index].turns(sense), entering, &self.spans[index])
     }
 
     pub(super) fn length(&self, pulleys: &[PlacedPulley]) -> f64 {

@@ -14,13 +14,16 @@ const LARGEST_ANGLE: f64 = 0.05;
 /// The first step is the largest one divided by this; steps are doubled.
 const FIRST_STEP: f64 = 16.0;
 
+/// The same where the slope points the way, beyond the largest step.
+const FIRST_AHEAD: f64 = 4.0;
+
 /// Steps of the search that are smaller than this, relative to the largest, end it where the belt can no
 /// longer be laid round the pulleys.
 const SMALLEST_STEP: f64 = 1e-9;
 
 /// The last step of the secant method, relative to the largest step. Its error is about this times the step
 /// before.
-const NEAR: f64 = 1e-11;
+const NEAR: f64 = 1e-9;
 
 /// Most steps of a search: 500 radii of an idler on a straight guide.
 const STEPS: usize = 1000;
@@ -135,8 +138,11 @@ impl Search<'_> {
             Towards::Newton if slope > 0.0 => -at_start.signum(),
             _ => at_start.signum(),
         };
-        let (mut step, mut here) = (largest / FIRST_STEP, (start, at_start));
-        let mut slope = slope;
+        let first = match -at_start / slope * direction > 0.0 {
+            true => largest / FIRST_AHEAD,
+            false => largest / FIRST_STEP,
+        };
+        let (mut step, mut here, mut slope) = (first, (start, at_start), slope);
         for _ in 0..STEPS {
             // At once, if it lies within one step.
             let ends =
