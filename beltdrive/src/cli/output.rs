@@ -24,7 +24,7 @@ pub(super) struct Output {
     /// Draw figures into a directory
     #[arg(long, value_name = "DIR")]
     plot: Option<PathBuf>,
-    /// Units of the table of a loop of pulleys
+    /// Units of the table for loops; a plain drive with two pulleys is shown in SI units
     #[arg(long, value_name = "SYSTEM", default_value = "engineering")]
     units: Units,
     /// Print neither the table nor the names of written files

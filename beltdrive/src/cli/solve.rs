@@ -93,8 +93,8 @@ struct SolvedDrive {
 }
 
 impl Report for SolvedDrive {
-    fn table(&self, units: UnitSystem) -> String {
-        report::table(&self.state, &self.groups, units)
+    fn table(&self, _units: UnitSystem) -> String {
+        report::table(&self.state, &self.groups)
     }
 
     fn json(&self) -> String {

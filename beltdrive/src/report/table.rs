@@ -16,7 +16,7 @@ const STRAIN_DIGITS: u8 = 3;
 ///
 /// Numbers have at most six significant digits, and never more than their estimated error
 /// supports.
-pub fn table(state: &SteadyState, groups: &[Group], units: UnitSystem) -> String {
+pub fn table(state: &SteadyState, groups: &[Group]) -> String {
     let precision = Precision::of(&state.convergence, DIGITS);
     let summary = StateSummary::from(state);
     let remarks = state.warnings.iter();
@@ -25,7 +25,7 @@ pub fn table(state: &SteadyState, groups: &[Group], units: UnitSystem) -> String
         pulleys(state, &summary, precision),
         spans(state, precision),
         whole(&state.drive, &summary, precision),
-        as_loop(groups, units),
+        as_loop(groups),
         match state.drive.belt.kind {
             BeltKind::V(_) => accuracy(&state.convergence),
             BeltKind::Flat { .. } => closed_form(&state.convergence),
@@ -166,7 +166,7 @@ fn spans(state: &SteadyState, precision: Precision) -> Vec<String> {
 }
 
 /// What of the drive as a loop the other blocks do not show.
-fn as_loop(groups: &[Group], units: UnitSystem) -> Vec<String> {
+fn as_loop(groups: &[Group]) -> Vec<String> {
     let shown = [
         "angular_speed",
         "torque",
@@ -190,7 +190,7 @@ fn as_loop(groups: &[Group], units: UnitSystem) -> Vec<String> {
         "exit_inclination",
     ];
     let answer = Answer::without(groups, &shown);
-    let text = answer::table(&answer, units);
+    let text = answer::table(&answer, UnitSystem::Si);
     text.lines().map(str::to_owned).collect()
 }
 
@@ -278,7 +278,7 @@ mod tests {
     #[test]
     fn is_no_wider_than_a_terminal() {
         let mut state = sample::overhanging();
-        let flat = table(&sample_flat::epp(), &[], UnitSystem::Si);
+        let flat = table(&sample_flat::epp(), &[]);
         state.drive.title = Some("very long ".repeat(20));
         state.checks.push(Check {
             name: "a name ".repeat(9).leak(),
@@ -287,17 +287,14 @@ mod tests {
         });
         state.driver.angular_speed = -1.234_567_89e-7;
         state.driven.angular_speed = 9.876_543_21e12;
-        for line in table(&state, &[], UnitSystem::Si)
-            .lines()
-            .chain(flat.lines())
-        {
+        for line in table(&state, &[]).lines().chain(flat.lines()) {
             assert!(line.chars().count() <= WIDTH, "{line}");
         }
     }
 
     #[test]
     fn states_the_numbers_an_engineer_looks_for() {
-        let text = table(&sample::loaded(), &[], UnitSystem::Si);
+        let text = table(&sample::loaded(), &[]);
         for needle in [
             "104.720",
             "102.625",
@@ -321,7 +318,7 @@ mod tests {
     fn warnings_and_violations_stand_out() {
         let mut state = sample::overhanging();
         state.checks[0].deviation = f64::NAN;
-        let text = table(&state, &[], UnitSystem::Si);
+        let text = table(&state, &[]);
         assert!(
             text.lines()
                 .nth(3)
@@ -336,7 +333,7 @@ mod tests {
         let mut state = sample_flat::epp();
         // So large that the line does not hold it.
         state.warnings = vec![Warning::LargeStrain { strain: 1e4 }];
-        let text = table(&state, &[], UnitSystem::Si);
+        let text = table(&state, &[]);
         let mut lines = text.lines().skip_while(|line| !line.starts_with("WARNING"));
         let [first, second] = [lines.next(), lines.next()].map(Option::unwrap);
         assert!(first.ends_with("for small strains: choose"), "{text}");
@@ -348,7 +345,7 @@ mod tests {
         let mut state = sample_flat::epp();
         let entry = state.driver.entry.as_mut().unwrap();
         entry.strain = -3.77e-26;
-        let text = table(&state, &[], UnitSystem::Si);
+        let text = table(&state, &[]);
         for needle in [
             "N/m², normal force n = (T − G V)/R\n",
             "slip arc",
@@ -366,11 +363,11 @@ mod tests {
         let mut short = state;
         short.driver.entry = None;
         assert!(
-            table(&short, &[], UnitSystem::Si).contains("  –  "),
+            table(&short, &[]).contains("  –  "),
             "one pulley has an entry"
         );
         short.driven.entry = None;
-        assert!(!table(&short, &[], UnitSystem::Si).contains("T_o"));
+        assert!(!table(&short, &[]).contains("T_o"));
     }
 
     #[test]
@@ -382,7 +379,7 @@ mod tests {
         ] {
             for normal_force in NormalForce::ALL {
                 state.drive.belt.kind = BeltKind::Flat { normal_force };
-                let text = table(&state, &[], UnitSystem::Si);
+                let text = table(&state, &[]);
                 for word in [
                     "penetration",
                     "inclination",
@@ -396,15 +393,15 @@ mod tests {
                 assert!(!text.contains('…'), "{text}");
             }
         }
-        assert!(!table(&sample_flat::coulomb(), &[], UnitSystem::Si).contains("k_f"));
+        assert!(!table(&sample_flat::coulomb(), &[]).contains("k_f"));
     }
 
     #[test]
     fn a_standing_drive_has_a_table() {
-        let text = table(&sample::idle(), &[], UnitSystem::Si);
+        let text = table(&sample::idle(), &[]);
         assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
         let mut empty = sample::idle();
         empty.checks.clear();
-        assert!(!table(&empty, &[], UnitSystem::Si).contains("zones"));
+        assert!(!table(&empty, &[]).contains("zones"));
     }
 }
