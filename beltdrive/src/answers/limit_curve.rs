@@ -2,8 +2,9 @@
 
 use super::limits::{LoopEnd, LoopLimit, limits};
 use super::members::{Refusal, Varied};
-use super::trace::samples;
+use super::trace::INTERVALS;
 use crate::SolveOptions;
+use crate::flat::samples;
 use crate::input::{DriveFile, FileKey};
 
 /// The largest value of a number over a second one.
@@ -51,7 +52,7 @@ pub fn limit_curve(
     let [from, to] = range;
     let mut points = vec![at(from)?];
     let mut end = None;
-    for value in samples(range) {
+    for value in samples(range, INTERVALS) {
         progress((value - from) / (to - from), "limits");
         match at(value) {
             Ok(point) => points.push(point),

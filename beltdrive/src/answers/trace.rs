@@ -4,13 +4,11 @@ use super::limits::LoopEnd;
 use super::members::{Member, Members, Refusal, Varied};
 use crate::SolveOptions;
 use crate::belt_loop::{BeltLoop, LoopState};
+use crate::flat::samples;
 use crate::input::DriveFile;
 
 /// Intervals between the states of a branch.
-const INTERVALS: usize = 40;
-
-/// A range of positive values whose ends have a larger ratio is divided into equal ratios.
-const WIDE: f64 = 20.0;
+pub(super) const INTERVALS: usize = 40;
 
 /// The steady states of a loop over a range, in the order from its beginning to its end.
 #[derive(Clone, Debug)]
@@ -66,7 +64,7 @@ pub fn trace(
     let mut points = vec![LoopPoint::new(from, 0.0, members.at(from)?)];
     let mut end = None;
     let mut last = from;
-    for (index, value) in samples(range).enumerate() {
+    for (index, value) in samples(range, INTERVALS).enumerate() {
         progress((index + 1) as f64 / INTERVALS as f64, "states");
         match members.at(value) {
             Ok(member) => points.push(LoopPoint::new(value, 0.0, member)),
@@ -87,18 +85,5 @@ pub fn trace(
         varied: varied.clone(),
         points,
         end,
-    })
-}
-
-/// The values of a range behind its first one.
-pub(super) fn samples([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
-    let is_wide = from > 0.0 && to > 0.0 && (to / from).ln().abs() > WIDE.ln();
-    (1..=INTERVALS).map(move |step| {
-        let share = step as f64 / INTERVALS as f64;
-        match share {
-            1.0 => to,
-            _ if is_wide => from * (to / from).powf(share),
-            _ => from + share * (to - from),
-        }
     })
 }

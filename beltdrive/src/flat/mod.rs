@@ -36,7 +36,7 @@ pub(crate) use limits::limits;
 pub(crate) use solve::solve;
 pub use stability::LinearisedForm;
 pub(crate) use stability::stability;
-pub(crate) use trace::trace;
+pub(crate) use trace::{samples, trace};
 
 use crate::Pulley;
 

@@ -84,9 +84,9 @@ pub(super) fn branch_between(
 }
 
 /// The values of a range after its first, in equal differences or ratios.
-pub(super) fn samples([from, to]: [f64; 2], intervals: usize) -> impl Iterator<Item = f64> {
+pub(crate) fn samples([from, to]: [f64; 2], intervals: usize) -> impl Iterator<Item = f64> {
     let ratio = to / from;
-    let is_wide = ratio.is_normal() && ratio.max(ratio.recip()) > WIDE;
+    let is_wide = from > 0.0 && ratio.is_normal() && ratio.max(ratio.recip()) > WIDE;
     (1..=intervals).map(move |sample| {
         let share = sample as f64 / intervals as f64;
         match sample {
