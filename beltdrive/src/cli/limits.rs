@@ -1,9 +1,9 @@
 //! `beltdrive limits`: the smallest and the largest load that a drive carries.
 
-use super::output::{Charted, Report};
+use super::output::{Answered, Report};
 use super::{common::Common, failure::Failure, origin::Origin, parameter};
 use beltdrive::belt_loop::{self, Varied};
-use beltdrive::input::{DriveFile, Key, Stated};
+use beltdrive::input::{Argument, DriveFile, Key, Stated};
 use beltdrive::quantity::UnitSystem;
 use beltdrive::quantity::{self, Answer};
 use beltdrive::{plot, report};
@@ -47,14 +47,18 @@ impl Limits {
 
     fn of_loop(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
         let varied = match &self.parameter {
-            Some(path) => Varied::Key(file.key("--parameter", path).map_err(Failure::usage)?),
+            Some(value) => {
+                let option = "--parameter";
+                let key = file.key(Argument { option, value });
+                Varied::Key(key.map_err(Failure::usage)?)
+            }
             None => Varied::LoadFactor,
         };
         let options = self.common.options();
         let limits = self
             .common
             .with_progress(|progress| belt_loop::limits(file, &varied, &options, progress))?;
-        let answer = quantity::loop_range::limits(&limits);
+        let answer = &quantity::loop_range::limits(&limits);
         // The states between the limits, where they are drawn.
         let chart = match self.common.output.draws() {
             true => {
@@ -64,13 +68,10 @@ impl Limits {
             }
             false => Answer::default(),
         };
-        let name = "branch.svg";
-        let charted = Charted {
-            answer,
-            chart,
-            name,
+        let draw = |directory: &Path, metadata: &str| {
+            plot::write_rows(&chart, "branch.svg", directory, Some(metadata))
         };
-        self.common.output.write(&charted, origin)
+        self.common.output.write(&Answered { answer, draw }, origin)
     }
 }
 

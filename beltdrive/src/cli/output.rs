@@ -65,29 +65,31 @@ pub(super) trait Report {
     fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error>;
 }
 
-/// An answer for a loop with a figure of its rows, or of those of another answer.
-pub(super) struct Charted {
-    pub(super) answer: Answer,
-    /// What is drawn, and the name of the file.
-    pub(super) chart: Answer,
-    pub(super) name: &'static str,
+/// An answer for a loop, and how its figures are written.
+pub(super) struct Answered<'a, F> {
+    pub(super) answer: &'a Answer,
+    /// As [`Report::plot`].
+    pub(super) draw: F,
 }
 
-impl Report for Charted {
+impl<F> Report for Answered<'_, F>
+where
+    F: Fn(&Path, &str) -> Result<Vec<PathBuf>, plot::Error>,
+{
     fn table(&self, units: UnitSystem) -> String {
-        report::answer::table(&self.answer, units)
+        report::answer::table(self.answer, units)
     }
 
     fn json(&self) -> String {
-        report::answer::json(&self.answer)
+        report::answer::json(self.answer)
     }
 
     fn csv(&self) -> String {
-        report::answer::csv(&self.answer)
+        report::answer::csv(self.answer)
     }
 
     fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_rows(&self.chart, self.name, directory, Some(metadata))
+        (self.draw)(directory, metadata)
     }
 }
 

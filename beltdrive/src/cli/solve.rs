@@ -1,10 +1,11 @@
 //! `beltdrive solve`: the steady state of a drive.
 
-use super::{common::Common, failure::Failure, output::Report};
-use beltdrive::belt_loop::{self, BeltLoop, LoopState};
+use super::output::{Answered, Report};
+use super::{common::Common, failure::Failure};
+use beltdrive::belt_loop;
 use beltdrive::input::Stated;
-use beltdrive::quantity::{Answer, Group, UnitSystem, two_pulleys};
-use beltdrive::{SteadyState, plot, quantity, report};
+use beltdrive::quantity::{Group, UnitSystem, two_pulleys};
+use beltdrive::{BeltKind, SteadyState, plot, quantity, report};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -35,54 +36,29 @@ impl Solve {
             Stated::Loop(belt_loop) => {
                 let options = self.common.options();
                 let mut state = belt_loop::solve_to(&belt_loop, &options)?;
-                if state.load_limit.is_none() {
-                    // That of a V-belt takes longer than the state: it is sought where it is shown.
+                if let BeltKind::V(_) = belt_loop.belt.kind {
+                    // It takes longer than the state: it is sought where it is shown.
                     let limit = belt_loop::load_limit(&belt_loop, &options);
                     state.load_limit = limit.ok().flatten();
                 }
                 // A drive with two pulleys is shown as one.
                 if let Some(drive) = two_pulleys::as_drive(&belt_loop, &state) {
                     let groups = two_pulleys::of_loop(&belt_loop, &state);
-                    let state = beltdrive::solve(&drive, &self.common.options())?;
+                    let state = beltdrive::solve(&drive, &options)?;
                     return self
                         .common
                         .output
                         .write(&SolvedDrive { state, groups }, &origin);
                 }
-                let solved = SolvedLoop { belt_loop, state };
-                self.common.output.write(&solved, &origin)
+                let answer = &quantity::belt_loop::answer(&belt_loop, &state);
+                let draw = |directory: &Path, metadata: &str| {
+                    plot::write_loop(&belt_loop, &state, directory, Some(metadata))
+                };
+                self.common
+                    .output
+                    .write(&Answered { answer, draw }, &origin)
             }
         }
-    }
-}
-
-/// A loop and its steady state.
-struct SolvedLoop {
-    belt_loop: BeltLoop,
-    state: LoopState,
-}
-
-impl SolvedLoop {
-    fn answer(&self) -> Answer {
-        quantity::belt_loop::answer(&self.belt_loop, &self.state)
-    }
-}
-
-impl Report for SolvedLoop {
-    fn table(&self, units: UnitSystem) -> String {
-        report::answer::table(&self.answer(), units)
-    }
-
-    fn json(&self) -> String {
-        report::answer::json(&self.answer())
-    }
-
-    fn csv(&self) -> String {
-        report::answer::csv(&self.answer())
-    }
-
-    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_loop(&self.belt_loop, &self.state, directory, Some(metadata))
     }
 }
 

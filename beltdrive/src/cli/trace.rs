@@ -1,9 +1,9 @@
 //! `beltdrive trace`: a branch of steady states, or of limits, over one entry of the drive file.
 
-use super::output::{Charted, Report};
+use super::output::{Answered, Report};
 use super::{common::Common, failure::Failure, origin::Origin, parameter};
 use beltdrive::belt_loop::{self, Varied};
-use beltdrive::input::{DriveFile, FileKey, Key, Stated};
+use beltdrive::input::{Argument, DriveFile, FileKey, Key, Stated};
 use beltdrive::quantity;
 use beltdrive::quantity::UnitSystem;
 use beltdrive::{Branch, BranchEnd, Drive, LimitCurve, plot, report};
@@ -90,13 +90,16 @@ impl Trace {
     }
 
     fn of_loop(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
-        let key = |option, path| file.key(option, path).map_err(Failure::usage);
+        let key = |option, value| {
+            let key = file.key(Argument { option, value });
+            key.map_err(Failure::usage)
+        };
         let parameter = key("--parameter", &self.parameter)?;
         let varied = Varied::Key(parameter.clone());
         let options = self.common.options();
         let (name, answer) = match &self.curve {
             None => {
-                let range = self.range_of(file, &parameter)?;
+                let range = self.range_of(&parameter)?;
                 let branch = self.common.with_progress(|progress| {
                     belt_loop::trace(file, &varied, range, &options, progress)
                 })?;
@@ -107,26 +110,24 @@ impl Trace {
                 if second == parameter {
                     return Err(Failure::usage(SAME));
                 }
-                let range = self.range_of(file, &second)?;
+                let range = self.range_of(&second)?;
                 let curve = self.common.with_progress(|progress| {
                     belt_loop::limit_curve(file, &varied, &second, range, &options, progress)
                 })?;
                 ("limit_curve.svg", quantity::loop_range::limit_curve(&curve))
             }
         };
-        let chart = answer.clone();
-        let charted = Charted {
-            answer,
-            chart,
-            name,
+        let answer = &answer;
+        let draw = |directory: &Path, metadata: &str| {
+            plot::write_rows(answer, name, directory, Some(metadata))
         };
-        self.common.output.write(&charted, origin)
+        self.common.output.write(&Answered { answer, draw }, origin)
     }
 
     /// The range of a number of a loop to be traced over.
-    fn range_of(&self, file: &DriveFile, key: &FileKey) -> Result<[f64; 2], Failure> {
-        let value = |option: &str, text: &str| {
-            let value = file.option_value(option, text, key);
+    fn range_of(&self, key: &FileKey) -> Result<[f64; 2], Failure> {
+        let value = |option, value| {
+            let value = Argument { option, value }.number(key);
             value.map_err(Failure::usage)
         };
         let range = [value("--from", &self.from)?, value("--to", &self.to)?];

@@ -6,7 +6,7 @@ use super::{
     document::{Content, Entry},
     file,
     key::Key,
-    schema::{self, Kind, QuantityRule},
+    schema::{self, Kind},
     source::Source,
     spelling,
 };
@@ -48,14 +48,8 @@ impl Argument<'_> {
     }
 
     fn quantity(&self, key: Key, drive: &Drive, free: Option<Key>) -> Result<f64, Finding> {
-        let (source, entry) = (self.source(), self.entry());
-        let rule = schema::quantity_rule(key.path());
-        let QuantityRule {
-            rule,
-            dimension,
-            range,
-        } = rule.expect("a key is a quantity of the schema");
-        let value = check::number(key.path(), rule, dimension, range, &entry, &source)?;
+        let entry = self.entry();
+        let value = check::quantity(key.path(), &entry, &self.source())?;
         let mut drive = drive.clone();
         key.set(&mut drive, value);
         let is_free = |path: &&str| free.is_some_and(|free| free.path() == *path);
@@ -83,10 +77,8 @@ impl Argument<'_> {
             Some(Kind::Quantity { .. }) => inapplicable(path, drive, &place),
             None => {
                 let keys = || Key::all(drive).map(|key| key.path());
-                let names = keys().map(|path| (schema::split(path).1, path));
-                let near = spelling::nearest_path(path, keys());
                 finding(format!("unknown key `{path}`"))
-                    .did_you_mean(near.or_else(|| spelling::nearest(path, names)))
+                    .did_you_mean(spelling::nearest_key(path, keys))
             }
         }
         .expected(check::one_of(
@@ -94,12 +86,12 @@ impl Argument<'_> {
         ))
     }
 
-    fn source(&self) -> Source {
+    pub(super) fn source(&self) -> Source {
         Source::argument(self.option, self.value)
     }
 
     /// The value as an entry of its source.
-    fn entry(&self) -> Entry {
+    pub(super) fn entry(&self) -> Entry {
         let start = self.option.len() + 1;
         let place = start..start + self.value.len();
         Entry {
@@ -109,7 +101,7 @@ impl Argument<'_> {
         }
     }
 
-    fn diagnose(&self, finding: Finding) -> Diagnostic {
+    pub(super) fn diagnose(&self, finding: Finding) -> Diagnostic {
         Diagnostic::new(finding, &self.source())
     }
 }

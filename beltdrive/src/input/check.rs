@@ -5,7 +5,7 @@ use super::{
     dimension::Dimension,
     document::{Content, Entry},
     quantity::{self, Fault},
-    schema::{self, Rule},
+    schema::{self, QuantityRule, Rule},
     source::Source,
     spelling, unit,
 };
@@ -73,6 +73,16 @@ pub(super) fn word<'e>(
             .expected(one_of(words))
             .did_you_mean(nearest),
     )
+}
+
+/// Checks a text or a number as the quantity at a path of the schema.
+pub(super) fn quantity(path: &str, entry: &Entry, source: &Source) -> Result<f64, Finding> {
+    let QuantityRule {
+        rule,
+        dimension,
+        range,
+    } = schema::quantity_rule(path).expect("a key is a quantity of the schema");
+    number(path, rule, dimension, range, entry, source)
 }
 
 /// Checks a quantity and its range, and gives it in SI units.

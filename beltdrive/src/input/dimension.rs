@@ -1,5 +1,6 @@
 //! Physical dimensions and their names.
 
+use crate::quantity::Measure;
 use std::fmt;
 
 /// Exponents of mass, length, time and angle.
@@ -72,6 +73,27 @@ impl Dimension {
             self.time + other.time * exponent,
             self.angle + other.angle * exponent,
         )
+    }
+
+    /// What it is as a measure, if it has one.
+    pub(super) fn measure(self) -> Option<Measure> {
+        let measures = [
+            (Self::NUMBER, Measure::Number),
+            (Self::ANGLE, Measure::Angle),
+            (Self::LENGTH, Measure::Length),
+            (Self::FORCE, Measure::Force),
+            (Self::FORCE_PER_LENGTH, Measure::Stiffness),
+            (Self::TORQUE, Measure::Torque),
+            (Self::TORQUE_PER_ANGLE, Measure::AngularStiffness),
+            (Self::POWER, Measure::Power),
+            (Self::VELOCITY, Measure::Velocity),
+            (Self::ANGULAR_SPEED, Measure::AngularSpeed),
+            (Self::MASS_PER_LENGTH, Measure::MassPerLength),
+            (Self::FORCE_PER_AREA, Measure::ForcePerArea),
+            (Self::INVERSE_LENGTH, Measure::InverseLength),
+        ];
+        let known = measures.into_iter().find(|(known, _)| *known == self);
+        known.map(|(_, measure)| measure)
     }
 }
 

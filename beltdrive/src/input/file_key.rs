@@ -1,15 +1,12 @@
 //! The numbers of a drive file, by their paths.
 
 use super::{
-    DriveFile, Finding, check,
-    dimension::Dimension,
-    document::{Content, Entry},
+    Argument, Diagnostic, DriveFile, Finding, check,
+    document::Content,
     schema::{self, QuantityRule},
-    source::Source,
     spelling,
     values::Values,
 };
-use crate::input::Diagnostic;
 use crate::quantity::Measure;
 
 /// A number of a drive file.
@@ -52,27 +49,6 @@ impl PartialEq for FileKey {
     }
 }
 
-/// What a dimension is as a measure, if it has one.
-fn measure(dimension: Dimension) -> Option<Measure> {
-    let measures = [
-        (Dimension::NUMBER, Measure::Number),
-        (Dimension::ANGLE, Measure::Angle),
-        (Dimension::LENGTH, Measure::Length),
-        (Dimension::FORCE, Measure::Force),
-        (Dimension::FORCE_PER_LENGTH, Measure::Stiffness),
-        (Dimension::TORQUE, Measure::Torque),
-        (Dimension::TORQUE_PER_ANGLE, Measure::AngularStiffness),
-        (Dimension::POWER, Measure::Power),
-        (Dimension::VELOCITY, Measure::Velocity),
-        (Dimension::ANGULAR_SPEED, Measure::AngularSpeed),
-        (Dimension::MASS_PER_LENGTH, Measure::MassPerLength),
-        (Dimension::FORCE_PER_AREA, Measure::ForcePerArea),
-        (Dimension::INVERSE_LENGTH, Measure::InverseLength),
-    ];
-    let known = measures.into_iter().find(|(known, _)| *known == dimension);
-    known.map(|(_, measure)| measure)
-}
-
 impl DriveFile {
     /// The numbers that the file gives.
     pub fn keys(&self) -> Vec<FileKey> {
@@ -101,54 +77,35 @@ impl DriveFile {
         file
     }
 
-    /// The number of the file that an option of a command line names by its path.
+    /// The number of the file that a command line names by its path.
     ///
     /// # Errors
     /// The file has no such number.
-    pub fn key(&self, option: &str, path: &str) -> Result<FileKey, Diagnostic> {
-        let keys = self.keys();
+    pub fn key(&self, argument: Argument<'_>) -> Result<FileKey, Diagnostic> {
+        let (keys, path) = (self.keys(), argument.value);
         if let Some(key) = keys.iter().find(|key| key.path == path) {
             return Ok(key.clone());
         }
-        let source = Source::argument(option, path);
-        let place = option.len() + 1..option.len() + 1 + path.len();
         let paths = || keys.iter().map(|key| key.path.as_str());
-        let names = paths().map(|path| (schema::split(path).1, path));
-        let near = spelling::nearest_path(path, paths());
         let message = match schema::rule(path) {
             Some(_) => format!("the drive file gives no number `{path}`"),
             None => format!("unknown key `{path}`"),
         };
-        let finding = Finding::new(place, message)
+        let finding = Finding::new(argument.entry().place, message)
             .expected(check::one_of(&paths().collect::<Vec<_>>()))
-            .did_you_mean(near.or_else(|| spelling::nearest(path, names)));
-        Err(Diagnostic::new(finding, &source))
+            .did_you_mean(spelling::nearest_key(path, paths));
+        Err(argument.diagnose(finding))
     }
+}
 
-    /// The value of a number as an option of a command line gives it, with its unit; SI.
+impl Argument<'_> {
+    /// The value of a number of a drive file, with its unit; SI.
     ///
     /// # Errors
     /// The value is no quantity, of another dimension, or out of its range.
-    pub fn option_value(
-        &self,
-        option: &str,
-        value: &str,
-        key: &FileKey,
-    ) -> Result<f64, Diagnostic> {
-        let source = Source::argument(option, value);
-        let place = option.len() + 1..option.len() + 1 + value.len();
-        let entry = Entry {
-            key: place.clone(),
-            place,
-            content: Content::Text(value.to_owned()),
-        };
-        let QuantityRule {
-            rule,
-            dimension,
-            range,
-        } = schema::quantity_rule(&key.path).expect("a key is a quantity of the schema");
-        check::number(&key.path, rule, dimension, range, &entry, &source)
-            .map_err(|finding| Diagnostic::new(finding, &source))
+    pub fn number(&self, key: &FileKey) -> Result<f64, Diagnostic> {
+        check::quantity(&key.path, &self.entry(), &self.source())
+            .map_err(|finding| self.diagnose(finding))
     }
 }
 
@@ -159,7 +116,7 @@ fn key(path: &str) -> Option<FileKey> {
     } = schema::quantity_rule(path)?;
     Some(FileKey {
         path: path.to_owned(),
-        measure: measure(dimension)?,
+        measure: dimension.measure()?,
         range,
     })
 }

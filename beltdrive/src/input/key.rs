@@ -1,55 +1,18 @@
 //! The numeric entries of a drive file that a branch can be traced over.
 
 use super::{
-    dimension::Dimension,
     schema,
     traceable::{ENTRIES, Traceable},
 };
 use crate::Drive;
+use crate::quantity::{Measure, UnitSystem};
 
 /// A numeric entry of the drive file on which the steady state depends.
 #[derive(Clone, Copy, Debug)]
 pub struct Key {
     entry: &'static Traceable,
-    unit: &'static ReportUnit,
+    measure: Measure,
 }
-
-/// The unit in which reports show a dimension: SI, but degrees for angles.
-#[derive(Debug)]
-struct ReportUnit {
-    dimension: Dimension,
-    symbol: &'static str,
-    /// The end of the names of columns.
-    suffix: &'static str,
-    from_si: fn(f64) -> f64,
-}
-
-const fn si(dimension: Dimension, symbol: &'static str, suffix: &'static str) -> ReportUnit {
-    ReportUnit {
-        dimension,
-        symbol,
-        suffix,
-        from_si: std::convert::identity,
-    }
-}
-
-const UNITS: [ReportUnit; 10] = [
-    si(Dimension::NUMBER, "", ""),
-    si(Dimension::FORCE, "N", "_N"),
-    si(Dimension::LENGTH, "m", "_m"),
-    si(Dimension::INVERSE_LENGTH, "1/m", "_per_m"),
-    si(Dimension::MASS_PER_LENGTH, "kg/m", "_kg_per_m"),
-    si(Dimension::FORCE_PER_AREA, "N/m²", "_N_per_m2"),
-    si(Dimension::VELOCITY, "m/s", "_m_per_s"),
-    si(Dimension::TORQUE, "N·m", "_N_m"),
-    si(Dimension::ANGULAR_SPEED, "rad/s", "_rad_per_s"),
-    ReportUnit {
-        dimension: Dimension::ANGLE,
-        symbol: "°",
-        suffix: "_deg",
-        from_si: f64::to_degrees,
-    },
-];
 
 impl Key {
     /// Every entry that applies to a drive, in the order of the drive file.
@@ -86,7 +49,7 @@ impl Key {
     /// The symbol of the unit in which reports show the entry: SI, but ° for angles; empty for a
     /// pure number.
     pub fn unit(&self) -> &'static str {
-        self.unit.symbol
+        self.measure.shown(UnitSystem::Si).symbol
     }
 
     /// The name of the entry in JSON and CSV, with its unit: the last part of its path, after the
@@ -96,12 +59,12 @@ impl Key {
             Some(name) => name.replace('.', "_"),
             None => schema::split(self.path()).1.to_owned(),
         };
-        name + self.unit.suffix
+        name + self.measure.stored().0
     }
 
     /// A value in SI units in the unit of reports.
     pub fn reported(&self, value: f64) -> f64 {
-        (self.unit.from_si)(value)
+        value * self.measure.stored().1
     }
 
     /// The value in a drive, SI.
@@ -128,8 +91,8 @@ impl Key {
     /// The key of an entry, unless its dimension has no unit in reports.
     fn of(entry: &'static Traceable) -> Option<Self> {
         let dimension = schema::quantity_rule(entry.path)?.dimension;
-        let unit = UNITS.iter().find(|unit| unit.dimension == dimension)?;
-        Some(Self { entry, unit })
+        let measure = dimension.measure()?;
+        Some(Self { entry, measure })
     }
 
     fn slot<'d>(&self, drive: &'d mut Drive) -> &'d mut f64 {

@@ -38,6 +38,18 @@ pub(crate) fn nearest_path<'c>(
     nearest(path, near.map(|candidate| (candidate, candidate)))
 }
 
+/// The key of a drive file nearest to `path`: by all of its names, or else by the last one.
+pub(crate) fn nearest_key<'c, C>(path: &str, candidates: impl Fn() -> C) -> Option<&'c str>
+where
+    C: Iterator<Item = &'c str>,
+{
+    let by_name = || {
+        let names = candidates().map(|path| (path.rsplit('.').next().unwrap_or(path), path));
+        nearest(path, names)
+    };
+    nearest_path(path, candidates()).or_else(by_name)
+}
+
 #[cfg(test)]
 mod tests {
     use super::{nearest, nearest_path};

@@ -4,18 +4,15 @@ use super::precision::six_digits;
 use super::words;
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value};
 use crate::belt_loop::{
-    BeltLoop, Closure, Guide, LoopConvergence, LoopState, PulleyState, Sense, SpanState,
-    TensionerState,
+    BeltLoop, Closure, Guide, LoopConvergence, LoopState, Sense, SpanState, TensionerState,
 };
 use crate::{BeltKind, Check, NormalForce, Profile};
 
 /// The steady state of a loop.
 pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
     let scale = Scale::of(state);
-    let pulleys = state.pulleys.iter().enumerate();
-    let pulleys = pulleys
-        .map(|(index, pulley)| self::pulley(belt_loop, pulley, &state.profile(index), &scale));
     let count = state.pulleys.len();
+    let pulleys = (0..count).map(|index| pulley(belt_loop, state, index, &scale));
     let spans = state.spans.iter().enumerate().map(|(index, span)| {
         let names = [index, (index + 1) % count].map(|pulley| &*state.pulleys[pulley].name);
         self::span(belt_loop, names, span, &scale)
@@ -238,12 +235,10 @@ pub(super) fn statement(belt_loop: &BeltLoop) -> Subject {
     }
 }
 
-fn pulley(belt_loop: &BeltLoop, pulley: &PulleyState, profile: &Profile, scale: &Scale) -> Subject {
-    let stated = belt_loop
-        .pulleys
-        .iter()
-        .find(|stated| stated.name == pulley.name);
-    let radius = stated.map_or(0.0, |stated| stated.radius);
+fn pulley(belt_loop: &BeltLoop, state: &LoopState, index: usize, scale: &Scale) -> Subject {
+    let (stated, pulley) = (&belt_loop.pulleys[index], &state.pulleys[index]);
+    let profile = &state.profile(index);
+    let radius = stated.radius;
     let ribs = f64::from(belt_loop.belt.ribs);
     // A torque is a difference of tensions, a power that of two powers.
     let torque = scale.tension * radius;
@@ -271,7 +266,7 @@ fn pulley(belt_loop: &BeltLoop, pulley: &PulleyState, profile: &Profile, scale: 
                 None => "coefficient of friction",
             },
             Measure::Number,
-            stated.map(|stated| stated.friction_coefficient),
+            stated.friction_coefficient,
         ),
         scale.relative(
             "angular_speed",
