@@ -98,12 +98,14 @@
 //! ```
 
 mod answers;
+mod belt;
 pub mod belt_loop;
 mod branch;
 mod difficulty;
 mod drive;
 pub mod examples;
 pub mod flat;
+mod friction;
 pub mod input;
 mod limit_curve;
 mod limits;
@@ -111,6 +113,7 @@ pub mod plot;
 mod possible;
 pub mod quantity;
 pub mod report;
+mod root;
 mod solve;
 mod stability;
 mod state_summary;
@@ -118,8 +121,10 @@ mod steady_state;
 mod vbelt;
 pub mod verify;
 
+pub use belt::{Belt, BeltKind, NormalForce, VBelt};
 pub use branch::{Branch, BranchEnd, BranchEvent, EventKind, TraceConvergence, TracePoint, trace};
-pub use drive::{Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SpanTension, VBelt};
+pub use drive::{Drive, Load, SpanTension};
+pub use friction::FrictionLaw;
 pub use limit_curve::{LimitCurve, LimitCurvePoint, limit_curve};
 pub use limits::{Limit, LimitReason, Limits, RangeEnd, limits};
 pub use possible::Impossible;

@@ -1,10 +1,11 @@
 //! The whole drive: the speed of the belt, and the contact with both pulleys.
 
-use super::contact::{Arc, Contact};
 use super::geometry::OpenBelt;
-use super::root::bracketed;
-use super::traction::{Traction, convention};
-use super::{DRIVEN, DRIVER, coulomb, creep_rate, epp};
+use super::{DRIVEN, DRIVER};
+use crate::friction::rim::contact::{Arc, Contact};
+use crate::friction::rim::traction::{Traction, convention};
+use crate::friction::{coulomb, creep_rate, epp};
+use crate::root::bracketed;
 use crate::{BeltKind, Drive, FrictionLaw, LimitReason, NormalForce, Pulley, SpanTension};
 
 /// Most steps of the secant method for the belt speed, which takes three or four unless the driver all

@@ -1,6 +1,6 @@
 //! The belt along a pulley as points, and its zones as angles.
 
-use super::contact::{Contact, Place};
+use crate::friction::rim::contact::{Contact, Place};
 use crate::{Belt, BeltKind, NormalForce, Profile, Zone};
 use std::f64::consts::FRAC_PI_2;
 

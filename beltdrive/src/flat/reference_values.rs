@@ -1,9 +1,10 @@
 //! The closed forms against published numbers and independent computations.
 
 use super::closed_form::ClosedForm;
-use super::contact::{Arc, Contact};
-use super::traction::Traction;
-use super::{DRIVEN, DRIVER, epp, solve};
+use super::{DRIVEN, DRIVER, solve};
+use crate::friction::epp;
+use crate::friction::rim::contact::{Arc, Contact};
+use crate::friction::rim::traction::Traction;
 use crate::{
     Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SolveOptions, SpanTension, SteadyState,
     ZoneKind,

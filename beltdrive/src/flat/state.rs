@@ -1,9 +1,10 @@
 //! The closed form as a steady state: profiles, powers, and the invariants it has to satisfy.
 
 use super::closed_form::ClosedForm;
-use super::contact::{Contact, Place};
 use super::profile::profile;
-use super::{DRIVEN, DRIVER, epp};
+use super::{DRIVEN, DRIVER};
+use crate::friction::epp;
+use crate::friction::rim::contact::{Contact, Place};
 use crate::{
     BeltKind, Check, Convergence, Drive, Entry, FrictionLaw, NormalForce, PulleyState, SteadyState,
     Warning, possible,

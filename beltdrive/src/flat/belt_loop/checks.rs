@@ -1,12 +1,12 @@
 //! The invariants of a state, from the friction law along the contacts and from the geometry, and not from the
 //! equations that were solved.
 
-use super::super::contact::{Contact, ContactZone, Friction};
-use super::super::quadrature::integrals;
 use super::error::LoopError;
 use super::state::{Contacts, LoopState};
 use crate::Check;
 use crate::drive::belt_loop::{BeltLoop, LoopPulley};
+use crate::friction::rim::contact::{Contact, ContactZone, Friction};
+use crate::friction::rim::quadrature::integrals;
 use std::cell::Cell;
 use std::f64::consts::TAU;
 

@@ -1,9 +1,9 @@
 //! The running belt on pulleys at fixed places that the closure asks for.
 
-use super::super::root::{bracketed, near};
 use super::running::{LOOSEST, Running, RunningBelt};
 use super::solve::Problem;
 use crate::drive::layout::Layout;
+use crate::root::{bracketed, near};
 use crate::{FrictionLaw, NormalForce};
 
 /// Where the search for the slackest tension begins, as a share of the axial stiffness: the strain of a

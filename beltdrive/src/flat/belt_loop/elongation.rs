@@ -13,8 +13,8 @@
 //! v_s D²/(a c S (S + P_o)) ln( P₁ (S + P₀)/(P₀ (S + P₁)) )
 //! ```
 
-use super::super::contact::{Arc, Contact, Friction, Place};
-use super::super::coulomb;
+use crate::friction::coulomb;
+use crate::friction::rim::contact::{Arc, Contact, Friction, Place};
 
 /// The elongation of the belt on a pulley with rigid friction, raised where it does not carry the load, m.
 pub(super) fn rigid(arc: &Arc) -> f64 {

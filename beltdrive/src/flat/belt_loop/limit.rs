@@ -1,6 +1,5 @@
 //! How much of its load a loop carries: the load factor limit, and gross slip.
 
-use super::super::root::bracketed;
 use super::closing::Closing;
 use super::error::{LoadedState, LoopError};
 use super::solve::{Loaded, Problem};
@@ -8,6 +7,7 @@ use super::state::LoadLimit;
 use super::tensioner::equilibrium;
 use crate::FrictionLaw;
 use crate::drive::layout::Layout;
+use crate::root::bracketed;
 
 /// Largest load factor that is tried: beyond it the torques are but rounding errors of the driver's.
 const LARGEST: f64 = 1e12;

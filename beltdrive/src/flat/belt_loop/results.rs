@@ -1,6 +1,5 @@
 //! Everything that follows from the speed and the tensions of a loop.
 
-use super::super::contact::Friction;
 use super::super::profile::zones;
 use super::error::LoopError;
 use super::running::RunningBelt;
@@ -10,6 +9,7 @@ use super::tensioner::Held;
 use crate::Belt;
 use crate::drive::belt_loop::{BeltLoop, Duty};
 use crate::drive::layout::Layout;
+use crate::friction::rim::contact::Friction;
 
 /// Deflection of a span over its length, the customary one of tension gauges.
 pub(crate) const DEFLECTION: f64 = 1.0 / 64.0;

@@ -1,14 +1,14 @@
 //! The running belt on pulleys at fixed places with a given tension: its speed and its contacts.
 
-use super::super::contact::{Arc, Contact};
-use super::super::root::{bracketed, near};
-use super::super::traction::Traction;
-use super::super::{coulomb, creep_rate, epp};
 use super::elongation::{self, elongation};
 use super::loads::Loads;
 use super::solve::Problem;
 use crate::drive::belt_loop::LoopPulley;
 use crate::drive::layout::Layout;
+use crate::friction::rim::contact::{Arc, Contact};
+use crate::friction::rim::traction::Traction;
+use crate::friction::{coulomb, creep_rate, epp};
+use crate::root::{bracketed, near};
 use crate::{FrictionLaw, NormalForce};
 
 /// A tension in place of 0, N: its ratio to any other is a number.

@@ -1,6 +1,5 @@
 //! From a loop to its steady state: rest, unloaded loop, load factor limit, loaded loop.
 
-use super::super::traction::convention;
 use super::checks::checked;
 use super::closing::{Closing, Target};
 use super::error::LoopError;
@@ -12,6 +11,7 @@ use super::state::LoopState;
 use super::tensioner::{Held, Towards, equilibrium, length_derivatives, within_travel};
 use crate::drive::belt_loop::{BeltLoop, Closure, Duty, LoopPulley};
 use crate::drive::layout::Layout;
+use crate::friction::rim::traction::convention;
 use crate::{BeltKind, FrictionLaw, NormalForce};
 
 /// Largest strain of the belt: at twice its length no belt is linear elastic, and far beyond it the length

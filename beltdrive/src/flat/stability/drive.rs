@@ -3,11 +3,11 @@
 use super::super::closed_form::ClosedForm;
 use super::super::limits::largest_load;
 use super::super::range::Members;
-use super::super::root::bracketed;
 use super::super::solve::refused;
 use super::super::{DRIVEN, DRIVER};
 use super::{AxialMotion, LinearisedForm, Spectrum, StabilityError, mode_shape, spectrum};
 use crate::input::Key;
+use crate::root::bracketed;
 use crate::stability::ROUNDING;
 use crate::{
     AxialMode, Drive, FormStability, FrictionLaw, Onset, PulleyStability, ShapePoint, SolveError,

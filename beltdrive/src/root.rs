@@ -2,7 +2,7 @@
 
 /// The root of a continuous function between two places at which it has these values; `None` if their
 /// signs are equal or a value is not a number.
-pub(super) fn bracketed(
+pub(crate) fn bracketed(
     mut function: impl FnMut(f64) -> f64,
     [one, other]: [f64; 2],
     [at_one, at_other]: [f64; 2],
@@ -30,7 +30,7 @@ const ESTIMATED: f64 = 1e-4;
 
 /// The root near a place, with the value there and an estimate of the slope, by the secant method: the last
 /// step is below `within`, and the error far below that. `None` if it is not found at once within a range.
-pub(super) fn near(
+pub(crate) fn near(
     mut function: impl FnMut(f64) -> f64,
     [mut place, mut value]: [f64; 2],
     mut slope: f64,

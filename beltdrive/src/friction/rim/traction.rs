@@ -25,13 +25,13 @@ use crate::{FrictionLaw, NormalForce};
 /// serves all pulleys and their torques balance. Source: Kim (2009), equations 3, 52-58 (thesis); the balance of
 /// momentum of an element, Bechtel, Vohra, Jacob and Carlson (2000), for the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Traction {
+pub(crate) struct Traction {
     /// Dynamic stiffness D = EA − m v², N; positive.
-    pub(super) stiffness: f64,
+    pub(crate) stiffness: f64,
     /// Axial stiffness EA, N.
     axial_stiffness: f64,
     /// What the inertia of the belt takes off the tension at T = 0: m c², N; 0 for `thesis`.
-    pub(super) inertia: f64,
+    pub(crate) inertia: f64,
     /// Slip rate of a pulley of radius 1 m with a coefficient of friction 1: a R/μ.
     slip_rate: f64,
     /// The stretch ds/dσ = α + β P.
@@ -40,7 +40,7 @@ pub(super) struct Traction {
 
 /// The convention in whose equations the friction of a law is stated: friction that depends on speeds and
 /// forces alone is the same with small and with finite strains.
-pub(super) fn convention(stated: NormalForce, law: FrictionLaw) -> NormalForce {
+pub(crate) fn convention(stated: NormalForce, law: FrictionLaw) -> NormalForce {
     match law {
         FrictionLaw::CreepRate { .. } => NormalForce::Inertia,
         _ => stated,
@@ -52,7 +52,7 @@ impl Traction {
     /// above, m/s.
     ///
     /// The stiffness D is not positive from the critical speed on, sqrt(EA/m).
-    pub(super) fn new(
+    pub(crate) fn new(
         convention: NormalForce,
         mass_per_length: f64,
         axial_stiffness: f64,
@@ -76,49 +76,49 @@ impl Traction {
     }
 
     /// The traction P of a tension T, N.
-    pub(super) fn of_tension(&self, tension: f64) -> f64 {
+    pub(crate) fn of_tension(&self, tension: f64) -> f64 {
         tension * self.stiffness / self.axial_stiffness - self.inertia
     }
 
     /// The tension T of a traction P, N.
-    pub(super) fn tension(&self, traction: f64) -> f64 {
+    pub(crate) fn tension(&self, traction: f64) -> f64 {
         self.axial_stiffness * self.strain(traction)
     }
 
     /// The strain T/EA of the belt at a traction P.
-    pub(super) fn strain(&self, traction: f64) -> f64 {
+    pub(crate) fn strain(&self, traction: f64) -> f64 {
         (traction + self.inertia) / self.stiffness
     }
 
     /// Elongation 1 − 1/(1 + T/EA) per length of the stretched belt, at a traction P: (P + m c²)/(P + S)
     /// with S of [`Self::offset`].
-    pub(super) fn elongation(&self, traction: f64) -> f64 {
+    pub(crate) fn elongation(&self, traction: f64) -> f64 {
         (traction + self.inertia) / (self.offset() + traction)
     }
 
     /// S = D (1 + T/EA) − P, N.
-    pub(super) fn offset(&self) -> f64 {
+    pub(crate) fn offset(&self) -> f64 {
         self.stiffness + self.inertia
     }
 
     /// Slip rate a on a pulley, 1/m: traction grows in a slip zone as exp(± a s).
-    pub(super) fn slip_rate(&self, friction_coefficient: f64, radius: f64) -> f64 {
+    pub(crate) fn slip_rate(&self, friction_coefficient: f64, radius: f64) -> f64 {
         friction_coefficient / radius * self.slip_rate
     }
 
     /// The stretch ds/dσ at a traction P.
-    pub(super) fn stretch(&self, traction: f64) -> f64 {
+    pub(crate) fn stretch(&self, traction: f64) -> f64 {
         let [alpha, beta] = self.stretch;
         alpha + beta * traction
     }
 
     /// Coefficient β of the stretch, 1/N.
-    pub(super) fn stretch_slope(&self) -> f64 {
+    pub(crate) fn stretch_slope(&self) -> f64 {
         self.stretch[1]
     }
 
     /// Coefficient α of the stretch.
-    pub(super) fn stretch_offset(&self) -> f64 {
+    pub(crate) fn stretch_offset(&self) -> f64 {
         self.stretch[0]
     }
 }

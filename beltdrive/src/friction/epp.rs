@@ -19,8 +19,8 @@
 //! faster than elastic friction can follow: the belt that slips sticks again, and there is a third,
 //! elastic zone. The first zone then ends before the elastic friction touches its limit from below.
 
-use super::contact::{Arc, Contact, ContactZone, Friction, Place, elastic};
-use super::root::bracketed;
+use super::rim::contact::{Arc, Contact, ContactZone, Friction, Place, elastic};
+use crate::root::bracketed;
 use std::cell::Cell;
 
 /// A stiffness in place of 0: it is so soft that the displacement is a parabola.
@@ -28,7 +28,7 @@ const SOFT: f64 = 1e-9;
 
 /// The contact of an arc with friction of stiffness `k_f`, N/m²; `None` if the load is not below the
 /// capacity of the arc.
-pub(super) fn solve(arc: Arc, stiffness: f64) -> Option<Contact> {
+pub(crate) fn solve(arc: Arc, stiffness: f64) -> Option<Contact> {
     let bristles = Bristles::new(arc, stiffness);
     let load = arc.load();
     if load >= arc.capacity() {
@@ -46,7 +46,7 @@ pub(super) fn solve(arc: Arc, stiffness: f64) -> Option<Contact> {
 }
 
 /// The stiffness below which friction is elastic over the whole arc, N/m², if there is one at this load.
-pub(super) fn smallest_stiffness(arc: Arc) -> Option<f64> {
+pub(crate) fn smallest_stiffness(arc: Arc) -> Option<f64> {
     let load = arc.load();
     let excess = |logarithm: f64| {
         let bristles = Bristles::new(arc, logarithm.exp());

@@ -16,7 +16,7 @@ const GAUSS: [[f64; 2]; 3] = [
 impl Contact {
     /// Shares of a zone that bound panels on which all quantities are smooth, finer towards the end,
     /// where displacements and slip velocities grow exponentially.
-    pub(super) fn panels(&self, zone: &ContactZone) -> Vec<f64> {
+    pub(crate) fn panels(&self, zone: &ContactZone) -> Vec<f64> {
         let extent = zone.end - zone.start.arc_length;
         let decays = match zone.friction {
             Friction::Adhesion => 0.0,
@@ -46,7 +46,7 @@ impl Contact {
     }
 
     /// The integral of a function of the place over the arc length of the whole contact.
-    pub(super) fn integral(&self, function: impl Fn(&Place) -> f64) -> f64 {
+    pub(crate) fn integral(&self, function: impl Fn(&Place) -> f64) -> f64 {
         self.zones
             .iter()
             .map(|zone| self.over(zone, &function))
@@ -54,13 +54,13 @@ impl Contact {
     }
 
     /// As [`Self::integral`], over one zone.
-    pub(super) fn over(&self, zone: &ContactZone, function: &impl Fn(&Place) -> f64) -> f64 {
+    pub(crate) fn over(&self, zone: &ContactZone, function: &impl Fn(&Place) -> f64) -> f64 {
         let [integral] = self.all_over(zone, &|place| [function(place)]);
         integral
     }
 
     /// As [`Self::over`], of several functions.
-    pub(super) fn all_over<const N: usize>(
+    pub(crate) fn all_over<const N: usize>(
         &self,
         zone: &ContactZone,
         functions: &impl Fn(&Place) -> [f64; N],
@@ -88,13 +88,13 @@ impl Contact {
 }
 
 /// The integral of a smooth function over a panel.
-pub(super) fn integral(ends: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn integral(ends: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
     let [integral] = integrals(ends, |place| [function(place)]);
     integral
 }
 
 /// The integrals of smooth functions over a panel.
-pub(super) fn integrals<const N: usize>(
+pub(crate) fn integrals<const N: usize>(
     [from, to]: [f64; 2],
     functions: impl Fn(f64) -> [f64; N],
 ) -> [f64; N] {

@@ -1,6 +1,6 @@
 //! A flat belt on one pulley: what is given, and the zones of the solution.
 
-use super::creep_rate::Creep;
+use super::super::creep_rate::Creep;
 use super::quadrature::integral;
 use super::traction::Traction;
 use crate::ZoneKind;
@@ -11,25 +11,25 @@ const SHORT: f64 = 0.05;
 
 /// The arc of contact of a pulley, and the traction of the belt at its ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Arc {
+pub(crate) struct Arc {
     /// The moving belt.
-    pub(super) belt: Traction,
+    pub(crate) belt: Traction,
     /// Sense of the friction force on the belt: +1 on the driven pulley, where it holds the belt back
     /// and the traction grows; −1 on the driver.
-    pub(super) sense: f64,
+    pub(crate) sense: f64,
     /// Slip rate a, 1/m.
-    pub(super) slip_rate: f64,
+    pub(crate) slip_rate: f64,
     /// Length L of the arc, m.
-    pub(super) length: f64,
+    pub(crate) length: f64,
     /// The smaller of the tractions P where the belt enters and leaves, N; positive.
-    pub(super) low: f64,
+    pub(crate) low: f64,
     /// The difference of the two, N; not negative.
-    pub(super) change: f64,
+    pub(crate) change: f64,
 }
 
 impl Arc {
     /// The traction where the belt enters, N.
-    pub(super) fn entry(&self) -> f64 {
+    pub(crate) fn entry(&self) -> f64 {
         match self.sense > 0.0 {
             true => self.low,
             false => self.low + self.change,
@@ -37,7 +37,7 @@ impl Arc {
     }
 
     /// The traction where the belt leaves, N.
-    pub(super) fn exit(&self) -> f64 {
+    pub(crate) fn exit(&self) -> f64 {
         match self.sense > 0.0 {
             true => self.low + self.change,
             false => self.low,
@@ -45,17 +45,17 @@ impl Arc {
     }
 
     /// The load |ln(P(L)/P(0))|. The arc carries less than a L.
-    pub(super) fn load(&self) -> f64 {
+    pub(crate) fn load(&self) -> f64 {
         (self.change / self.low).ln_1p()
     }
 
     /// The largest load, a L: the belt then slips on the whole arc.
-    pub(super) fn capacity(&self) -> f64 {
+    pub(crate) fn capacity(&self) -> f64 {
         self.slip_rate * self.length
     }
 
     /// Friction per coordinate σ at its limit, a P ds/dσ, N/m.
-    pub(super) fn friction_limit(&self, traction: f64) -> f64 {
+    pub(crate) fn friction_limit(&self, traction: f64) -> f64 {
         self.slip_rate * traction * self.belt.stretch(traction)
     }
 }
@@ -63,45 +63,45 @@ impl Arc {
 /// The belt at a place on a pulley. Tensions grow along the driven pulley and fall along the driver; the
 /// displacement and the friction force are magnitudes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Place {
+pub(crate) struct Place {
     /// Arc length from the entry, m.
-    pub(super) arc_length: f64,
+    pub(crate) arc_length: f64,
     /// Traction P, N.
-    pub(super) traction: f64,
+    pub(crate) traction: f64,
     /// Displacement |u| against the rim, m.
-    pub(super) displacement: f64,
+    pub(crate) displacement: f64,
     /// Friction force per arc length by the friction law, N/m; that of the balance of forces is
     /// |dP/ds|.
-    pub(super) friction: f64,
+    pub(crate) friction: f64,
 }
 
 /// A flat belt on one pulley: the solution.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Contact {
     /// What was given.
-    pub(super) arc: Arc,
+    pub(crate) arc: Arc,
     /// Strain |u′(0)| of the belt against the rim where it enters.
-    pub(super) strain: f64,
+    pub(crate) strain: f64,
     /// The zones, in the order in which the belt passes them.
-    pub(super) zones: Vec<ContactZone>,
+    pub(crate) zones: Vec<ContactZone>,
     /// Evaluations of scalar equations that it took.
-    pub(super) evaluations: usize,
+    pub(crate) evaluations: usize,
 }
 
 /// A part of the arc with friction of one kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ContactZone {
+pub(crate) struct ContactZone {
     /// The belt where the zone begins.
-    pub(super) start: Place,
+    pub(crate) start: Place,
     /// Where it ends, as arc length, m.
-    pub(super) end: f64,
+    pub(crate) end: f64,
     /// What happens in between.
-    pub(super) friction: Friction,
+    pub(crate) friction: Friction,
 }
 
 /// Friction in a zone.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Friction {
+pub(crate) enum Friction {
     /// No displacement, no friction.
     Adhesion,
     /// Elastic friction `k_f` |u| per coordinate: |u|″ = w² |u| with w² = `k_f`/D.
@@ -130,7 +130,7 @@ pub(super) enum Friction {
 
 impl Friction {
     /// The kind of zone.
-    pub(super) fn kind(&self) -> ZoneKind {
+    pub(crate) fn kind(&self) -> ZoneKind {
         match self {
             Self::Adhesion => ZoneKind::Adhesion,
             Self::Elastic { .. } => ZoneKind::Elastic,
@@ -142,13 +142,13 @@ impl Friction {
 
 impl Contact {
     /// Traction `P_o` at which the belt would run as fast as the rim, N.
-    pub(super) fn reference(&self) -> f64 {
+    pub(crate) fn reference(&self) -> f64 {
         self.arc.entry() - self.arc.sense * self.arc.belt.stiffness * self.strain
     }
 
     /// The belt at a share of a zone, from 0 where it begins to 1 where it ends. Shares are those of
     /// the coordinate σ in an elastic zone, of arc length elsewhere.
-    pub(super) fn at(&self, zone: &ContactZone, share: f64) -> Place {
+    pub(crate) fn at(&self, zone: &ContactZone, share: f64) -> Place {
         let Arc {
             belt,
             sense,
@@ -209,7 +209,7 @@ impl Contact {
     /// ```text
     /// P = P₀ exp(± a y)     |u| = |u₀| + ∫ |P − P_o|/D dσ     dσ = dP/(± a P (α + β P))
     /// ```
-    pub(super) fn slipped(&self, from: &Place, y: f64) -> Place {
+    pub(crate) fn slipped(&self, from: &Place, y: f64) -> Place {
         let Arc {
             belt,
             sense,
@@ -255,7 +255,7 @@ impl Contact {
     }
 
     /// The end of a zone.
-    pub(super) fn end(&self, zone: &ContactZone) -> Place {
+    pub(crate) fn end(&self, zone: &ContactZone) -> Place {
         self.at(zone, 1.0)
     }
 }
@@ -266,7 +266,7 @@ impl Contact {
 /// ```text
 /// b = [b₀ sinh w(l − x) + b₁ sinh w x]/sinh w l
 /// ```
-pub(super) fn elastic(rate: f64, length: f64, [first, last]: [f64; 2], x: f64) -> [f64; 2] {
+pub(crate) fn elastic(rate: f64, length: f64, [first, last]: [f64; 2], x: f64) -> [f64; 2] {
     // sinh(p)/sinh(q) and cosh(p)/sinh(q) for 0 ≤ p ≤ q.
     let ratios = |p: f64, q: f64| {
         let factor = (p - q).exp() / -(-2.0 * q).exp_m1();

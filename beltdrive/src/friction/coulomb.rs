@@ -1,24 +1,24 @@
 //! Coulomb friction: an arc of adhesion, then an arc of slip (Johnson, Contact Mechanics, 1985).
 
-use super::contact::{Arc, Contact, ContactZone, Friction, Place};
+use super::rim::contact::{Arc, Contact, ContactZone, Friction, Place};
 
 /// The contact of an arc with rigid friction: the belt enters as fast as the rim, keeps its tension
 /// over the arc of adhesion, and slips over the last ln(P(L)/P(0))/a of the arc. `None` if that is not
 /// less than the whole arc.
-pub(super) fn solve(arc: Arc) -> Option<Contact> {
+pub(crate) fn solve(arc: Arc) -> Option<Contact> {
     let slipping = arc.load() / arc.slip_rate;
     (slipping < arc.length).then(|| contact(arc, slipping))
 }
 
 /// As [`solve`], but an arc whose friction does not carry the load slips as a whole, with its friction
 /// raised to what does.
-pub(super) fn carried(arc: Arc) -> Contact {
+pub(crate) fn carried(arc: Arc) -> Contact {
     let (slip_rate, slipping) = slipping(&arc);
     contact(Arc { slip_rate, ..arc }, slipping)
 }
 
 /// The slip rate of an arc, raised to what carries the load, in 1/m, and the length on which it slips, m.
-pub(super) fn slipping(arc: &Arc) -> (f64, f64) {
+pub(crate) fn slipping(arc: &Arc) -> (f64, f64) {
     let load = arc.load();
     let slip_rate = arc.slip_rate.max(load / arc.length);
     (slip_rate, (load / slip_rate).min(arc.length))

@@ -12,8 +12,8 @@
 //! and both are dy/ds = (a/`v_s`) y (B ± y) with the upper sign on the driven pulley. The belt slips
 //! from its entry on, however slowly: there is no arc of adhesion.
 
-use super::contact::{Arc, Contact, ContactZone, Friction, Place};
-use super::root::bracketed;
+use super::rim::contact::{Arc, Contact, ContactZone, Friction, Place};
+use crate::root::bracketed;
 
 /// Loads below this many logarithms are not told apart from none by the first guess.
 const LEAST: f64 = 40.0;
@@ -21,7 +21,7 @@ const LEAST: f64 = 40.0;
 /// The contact of an arc on which friction is fully developed from the slip velocity `saturation`
 /// `v_s` on, m/s, for a belt whose unstretched parts move at `speed` c, m/s; `None` if the load is not
 /// below the capacity of the arc.
-pub(super) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
+pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
     let load = arc.load();
     if load >= arc.capacity() {
         return None;
@@ -88,13 +88,13 @@ pub(super) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
 ///
 /// Where `v_s` is small, x is the small difference of large numbers, so that it is counted from the end,
 /// where it is ln(B/`v_s` ± 1) if friction is fully developed there.
-pub(super) struct Creep {
+pub(crate) struct Creep {
     /// Sense of the friction force, as [`Arc::sense`].
     sense: f64,
     /// Rate a/`v_s`, s/m².
     rate: f64,
     /// Slip velocity at the entry, m/s.
-    pub(super) entry: f64,
+    pub(crate) entry: f64,
     /// Velocities q and B, m/s.
     unit: f64,
     b: f64,
@@ -106,7 +106,7 @@ pub(super) struct Creep {
 
 impl Creep {
     /// The slip velocity that begins with a given logarithm.
-    pub(super) fn with_logarithm(arc: &Arc, speed: f64, saturation: f64, logarithm: f64) -> Self {
+    pub(crate) fn with_logarithm(arc: &Arc, speed: f64, saturation: f64, logarithm: f64) -> Self {
         let (sense, rate) = (arc.sense, arc.slip_rate / saturation);
         let entry = logarithm.exp();
         let unit = speed * arc.entry() / arc.belt.stiffness;
@@ -145,7 +145,7 @@ impl Creep {
     }
 
     /// The slip velocity y at a distance before the end, m/s.
-    pub(super) fn velocity(&self, distance: f64) -> f64 {
+    pub(crate) fn velocity(&self, distance: f64) -> f64 {
         let [velocity, exponent] = self.last;
         if self.is_degenerate() {
             return (velocity.recip() + self.rate * distance).recip();
@@ -158,7 +158,7 @@ impl Creep {
     }
 
     /// Where friction is fully developed or the arc ends, m.
-    pub(super) fn end(&self) -> f64 {
+    pub(crate) fn end(&self) -> f64 {
         self.end
     }
 
@@ -169,7 +169,7 @@ impl Creep {
     /// ```
     ///
     /// of which the first form loses no digits for x > 0, the second for x < 0.
-    pub(super) fn load_before(&self, distance: f64) -> f64 {
+    pub(crate) fn load_before(&self, distance: f64) -> f64 {
         let Self { sense, unit, .. } = *self;
         if self.is_degenerate() {
             return ((self.velocity(distance) - self.entry) / unit).ln_1p();

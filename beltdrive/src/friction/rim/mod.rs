@@ -1,0 +1,5 @@
+//! A flat belt on the rim of a pulley, in closed form.
+
+pub(crate) mod contact;
+pub(crate) mod quadrature;
+pub(crate) mod traction;
