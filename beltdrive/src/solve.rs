@@ -2,10 +2,9 @@
 
 use crate::difficulty;
 use crate::report::six_digits;
-use crate::{
-    BeltKind, Check, Drive, FrictionLaw, Impossible, LimitReason, SpanTension, SteadyState,
-};
+use crate::{BeltKind, Check, Drive, Impossible, LimitReason, SpanTension, SteadyState};
 use crate::{flat, vbelt};
+use std::borrow::Cow;
 
 /// How a steady state is sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -95,7 +94,7 @@ pub enum SolveError {
     },
     /// There is no model of such a drive.
     #[error("{0}")]
-    NotModelled(&'static str),
+    NotModelled(Cow<'static, str>),
     /// The way to the steady state was not found.
     #[error("not converged: {}; {}", reached(*.tight), difficulty::of_solver(.cause))]
     NotConverged {
@@ -183,20 +182,17 @@ pub(crate) fn check(drive: &Drive, options: &SolveOptions) -> Result<(), SolveEr
     }
     let by_torque = |span| matches!(span, SpanTension::DrivenTorque(_));
     let torques = [drive.load.slack, drive.load.tight].map(by_torque);
-    let missing = match (drive.belt.kind, drive.law) {
-        (BeltKind::V(_), FrictionLaw::CreepRate { .. }) => {
-            Some("creep-rate is a law for flat belts")
+    if let Some(reason) = drive.law.row().unsuited(drive.belt.kind) {
+        return Err(SolveError::NotModelled(reason.into()));
+    }
+    let missing = match drive.belt.kind {
+        BeltKind::V(_) if torques != [false; 2] => {
+            "the load of a V-belt drive is given by both span tensions, not by a torque"
         }
-        (BeltKind::Flat { .. }, FrictionLaw::Bristle { .. }) => {
-            Some("bristle is a law for V-belts")
+        BeltKind::Flat { .. } if torques == [true; 2] => {
+            "one span needs a tension: both cannot follow from the driven torque"
         }
-        (BeltKind::V(_), _) if torques != [false; 2] => {
-            Some("the load of a V-belt drive is given by both span tensions, not by a torque")
-        }
-        (BeltKind::Flat { .. }, _) if torques == [true; 2] => {
-            Some("one span needs a tension: both cannot follow from the driven torque")
-        }
-        _ => None,
+        _ => return Ok(()),
     };
-    missing.map_or(Ok(()), |missing| Err(SolveError::NotModelled(missing)))
+    Err(SolveError::NotModelled(missing.into()))
 }

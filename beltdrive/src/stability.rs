@@ -131,7 +131,7 @@ pub fn stability(
     solve::check(drive, &SolveOptions::default())?;
     match drive.belt.kind {
         BeltKind::V(_) => Err(SolveError::NotModelled(
-            "the stability of V-belt drives is not modelled, only that of flat belts",
+            "the stability of V-belt drives is not modelled, only that of flat belts".into(),
         )),
         BeltKind::Flat { .. } => flat::stability(drive, modes, progress),
     }

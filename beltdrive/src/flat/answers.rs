@@ -15,7 +15,7 @@ impl ClosedForm {
         solve::check(drive, &SolveOptions::default())?;
         if let crate::BeltKind::V(_) = drive.belt.kind {
             return Err(SolveError::NotModelled(
-                "the closed form is that of flat belts",
+                "the closed form is that of flat belts".into(),
             ));
         }
         Self::find(drive).map_err(|refusal| refused(drive, refusal))

@@ -3,10 +3,9 @@
 use super::geometry::OpenBelt;
 use super::{DRIVEN, DRIVER};
 use crate::friction::rim::contact::{Arc, Contact};
-use crate::friction::rim::traction::{Traction, convention};
-use crate::friction::{coulomb, creep_rate, epp};
+use crate::friction::rim::traction::Traction;
 use crate::root::bracketed;
-use crate::{BeltKind, Drive, FrictionLaw, LimitReason, NormalForce, Pulley, SpanTension};
+use crate::{BeltKind, Drive, LimitReason, NormalForce, Pulley, SpanTension};
 
 /// Most steps of the secant method for the belt speed, which takes three or four unless the driver all
 /// but slips.
@@ -158,7 +157,7 @@ impl<'d> Statement<'d> {
         Self {
             drive,
             geometry: OpenBelt::new(drive),
-            convention: convention(normal_force, drive.law),
+            convention: drive.law.row().convention(normal_force),
         }
     }
 
@@ -283,11 +282,7 @@ impl<'d> Statement<'d> {
     /// The contact with a pulley, unless it slips grossly.
     fn contact(&self, loaded: &Loaded, pulley: usize) -> Option<Contact> {
         let arc = loaded.arc[pulley];
-        match self.drive.law {
-            FrictionLaw::Coulomb => coulomb::solve(arc),
-            FrictionLaw::Epp { stiffness } => epp::solve(arc, stiffness),
-            FrictionLaw::CreepRate { velocity } => creep_rate::solve(arc, loaded.speed, velocity),
-            FrictionLaw::Bristle { .. } => panic!("a law for flat belts was expected"),
-        }
+        let law = self.drive.law;
+        law.row().contact(arc, loaded.speed, law.parameter())
     }
 }

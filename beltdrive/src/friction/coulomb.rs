@@ -1,6 +1,21 @@
 //! Coulomb friction: an arc of adhesion, then an arc of slip (Johnson, Contact Mechanics, 1985).
 
+use super::Row;
 use super::rim::contact::{Arc, Contact, ContactZone, Friction, Place};
+use super::row::OnRims;
+use crate::FrictionLaw;
+
+pub(super) const ROW: Row = Row {
+    name: "coulomb",
+    title: "Coulomb",
+    parameter: None,
+    with: |_| FrictionLaw::Coulomb,
+    in_grooves: true,
+    on_rims: Some(OnRims {
+        solve: |arc, _, _| solve(arc),
+        convention: None,
+    }),
+};
 
 /// The contact of an arc with rigid friction: the belt enters as fast as the rim, keeps its tension
 /// over the arc of adhesion, and slips over the last ln(P(L)/P(0))/a of the arc. `None` if that is not

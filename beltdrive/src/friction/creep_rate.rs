@@ -13,10 +13,32 @@
 //! from its entry on, however slowly: there is no arc of adhesion.
 
 use super::rim::contact::{Arc, Contact, ContactZone, Friction, Place};
+use super::row::OnRims;
+use super::{Parameter, Row};
+use crate::quantity::Measure;
 use crate::root::bracketed;
+use crate::{FrictionLaw, NormalForce};
 
 /// Loads below this many logarithms are not told apart from none by the first guess.
 const LEAST: f64 = 40.0;
+
+pub(super) const ROW: Row = Row {
+    name: "creep-rate",
+    title: "creep-rate",
+    parameter: Some(Parameter {
+        path: "friction.velocity",
+        name: "creep velocity",
+        symbol: "v_s",
+        measure: Measure::Velocity,
+        example: "\"0.05 m/s\"",
+    }),
+    with: |velocity| FrictionLaw::CreepRate { velocity },
+    in_grooves: false,
+    on_rims: Some(OnRims {
+        solve,
+        convention: Some(NormalForce::Inertia),
+    }),
+};
 
 /// The contact of an arc on which friction is fully developed from the slip velocity `saturation`
 /// `v_s` on, m/s, for a belt whose unstretched parts move at `speed` c, m/s; `None` if the load is not

@@ -20,11 +20,33 @@
 //! elastic zone. The first zone then ends before the elastic friction touches its limit from below.
 
 use super::rim::contact::{Arc, Contact, ContactZone, Friction, Place, elastic};
+use super::row::OnRims;
+use super::{Parameter, Row};
+use crate::FrictionLaw;
+use crate::quantity::Measure;
 use crate::root::bracketed;
 use std::cell::Cell;
 
 /// A stiffness in place of 0: it is so soft that the displacement is a parabola.
 const SOFT: f64 = 1e-9;
+
+pub(super) const ROW: Row = Row {
+    name: "epp",
+    title: "elastic/perfectly-plastic",
+    parameter: Some(Parameter {
+        path: "friction.stiffness",
+        name: "friction stiffness",
+        symbol: "k_f",
+        measure: Measure::ForcePerArea,
+        example: "\"8.1e6 N/m^2\"",
+    }),
+    with: |stiffness| FrictionLaw::Epp { stiffness },
+    in_grooves: true,
+    on_rims: Some(OnRims {
+        solve: |arc, _, stiffness| solve(arc, stiffness),
+        convention: None,
+    }),
+};
 
 /// The contact of an arc with friction of stiffness `k_f`, N/m²; `None` if the load is not below the
 /// capacity of the arc.

@@ -1,9 +1,16 @@
 //! Friction between belt and pulley: one file a law.
+//!
+//! A law is a variant of [`FrictionLaw`] and a [`Row`] in its file that says all there is to know of it: drive
+//! files, reports and the mechanics of flat belts read it there.
 
+mod bristle;
 pub(crate) mod coulomb;
-pub(crate) mod creep_rate;
+mod creep_rate;
 pub(crate) mod epp;
 pub(crate) mod rim;
+mod row;
+
+pub(crate) use row::{Parameter, Row};
 
 /// How the friction force depends on slip. The coefficient μ is common to all laws.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,14 +35,32 @@ pub enum FrictionLaw {
     },
 }
 
+/// The rows of all laws, in the order in which messages list them.
+pub(crate) const ROWS: [&Row; 4] = [&coulomb::ROW, &epp::ROW, &bristle::ROW, &creep_rate::ROW];
+
 impl FrictionLaw {
     /// The name of the law in drive files and outputs.
     pub fn name(&self) -> &'static str {
+        self.row().name
+    }
+
+    /// The row of the law.
+    pub(crate) fn row(&self) -> &'static Row {
+        { *self }.parts().0
+    }
+
+    /// The value of its parameter beside the coefficient, SI, if it has one.
+    pub(crate) fn parameter(&self) -> Option<f64> {
+        { *self }.parts().1.copied()
+    }
+
+    /// The row of the law and the value of its parameter.
+    pub(crate) fn parts(&mut self) -> (&'static Row, Option<&mut f64>) {
         match self {
-            Self::Coulomb => "coulomb",
-            Self::Epp { .. } => "epp",
-            Self::Bristle { .. } => "bristle",
-            Self::CreepRate { .. } => "creep-rate",
+            Self::Coulomb => (&coulomb::ROW, None),
+            Self::Epp { stiffness } => (&epp::ROW, Some(stiffness)),
+            Self::Bristle { stiffness } => (&bristle::ROW, Some(stiffness)),
+            Self::CreepRate { velocity } => (&creep_rate::ROW, Some(velocity)),
         }
     }
 }

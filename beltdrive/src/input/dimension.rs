@@ -55,6 +55,23 @@ impl Dimension {
         (Self::TORQUE_PER_ANGLE, "a torque per angle"),
     ];
 
+    /// The dimensions that quantities of drive files have, as measures.
+    const MEASURES: [(Self, Measure); 13] = [
+        (Self::NUMBER, Measure::Number),
+        (Self::ANGLE, Measure::Angle),
+        (Self::LENGTH, Measure::Length),
+        (Self::FORCE, Measure::Force),
+        (Self::FORCE_PER_LENGTH, Measure::Stiffness),
+        (Self::TORQUE, Measure::Torque),
+        (Self::TORQUE_PER_ANGLE, Measure::AngularStiffness),
+        (Self::POWER, Measure::Power),
+        (Self::VELOCITY, Measure::Velocity),
+        (Self::ANGULAR_SPEED, Measure::AngularSpeed),
+        (Self::MASS_PER_LENGTH, Measure::MassPerLength),
+        (Self::FORCE_PER_AREA, Measure::ForcePerArea),
+        (Self::INVERSE_LENGTH, Measure::InverseLength),
+    ];
+
     const fn new(mass: i32, length: i32, time: i32, angle: i32) -> Self {
         Self {
             mass,
@@ -77,23 +94,16 @@ impl Dimension {
 
     /// What it is as a measure, if it has one.
     pub(super) fn measure(self) -> Option<Measure> {
-        let measures = [
-            (Self::NUMBER, Measure::Number),
-            (Self::ANGLE, Measure::Angle),
-            (Self::LENGTH, Measure::Length),
-            (Self::FORCE, Measure::Force),
-            (Self::FORCE_PER_LENGTH, Measure::Stiffness),
-            (Self::TORQUE, Measure::Torque),
-            (Self::TORQUE_PER_ANGLE, Measure::AngularStiffness),
-            (Self::POWER, Measure::Power),
-            (Self::VELOCITY, Measure::Velocity),
-            (Self::ANGULAR_SPEED, Measure::AngularSpeed),
-            (Self::MASS_PER_LENGTH, Measure::MassPerLength),
-            (Self::FORCE_PER_AREA, Measure::ForcePerArea),
-            (Self::INVERSE_LENGTH, Measure::InverseLength),
-        ];
-        let known = measures.into_iter().find(|(known, _)| *known == self);
+        let known = Self::MEASURES.into_iter().find(|(known, _)| *known == self);
         known.map(|(_, measure)| measure)
+    }
+
+    /// The dimension of a measure, if quantities of drive files have it.
+    pub(super) fn of(measure: Measure) -> Option<Self> {
+        let known = Self::MEASURES
+            .into_iter()
+            .find(|(_, known)| *known == measure);
+        known.map(|(dimension, _)| dimension)
     }
 }
 

@@ -45,12 +45,8 @@ fn missing(values: &Values<'_>) -> Vec<&'static str> {
         Some("v") => &["belt.radial_stiffness", "groove.half_angle"],
         _ => &[],
     };
-    let of_law: &[_] = match values.text("friction.law") {
-        Some("epp") => &["friction.stiffness"],
-        Some("bristle") => &["friction.bristle_stiffness"],
-        Some("creep-rate") => &["friction.velocity"],
-        _ => &[],
-    };
+    let of_law = friction::row(values).and_then(|row| row.parameter.as_ref());
+    let of_law = of_law.map(|parameter| parameter.path);
     let of_all = [
         "belt.type",
         "belt.mass_per_length",
@@ -62,7 +58,7 @@ fn missing(values: &Values<'_>) -> Vec<&'static str> {
         "pulleys.driven.radius",
         "layout.centre_distance",
     ];
-    let needed = of_all.iter().chain(of_belt).chain(of_law).copied();
+    let needed = of_all.iter().chain(of_belt).copied().chain(of_law);
     let is_given = |path: &str| {
         let mut others = schema::alternatives(path).into_iter();
         values.has(path) || others.any(|other| values.has(&other))

@@ -1,64 +1,46 @@
 //! From checked values to a friction law: which laws a belt can have, and what they need.
 
 use super::{belt, check, diagnostic::Finding, schema, values::Values};
+use crate::friction::{ROWS, Row};
 use crate::{BeltKind, FrictionLaw, NormalForce};
 
 /// The friction law. Parameters of the other laws may stand in the file for other runs.
 pub(super) fn law(values: &Values<'_>, belt: BeltKind) -> Result<FrictionLaw, Finding> {
     let name = values.required_text("friction.law")?;
-    suits(name, belt, values)?;
-    let number = |path| {
+    let row = row(values).expect("a law of the list");
+    suits(row, belt, values)?;
+    let value = row.parameter.as_ref().map(|parameter| {
         let needed = |finding: Finding| finding.help(format!("the friction law `{name}` needs it"));
-        values.required_number(path).map_err(needed)
-    };
-    Ok(match name {
-        "epp" => FrictionLaw::Epp {
-            stiffness: number("friction.stiffness")?,
-        },
-        "bristle" => FrictionLaw::Bristle {
-            stiffness: number("friction.bristle_stiffness")?,
-        },
-        "creep-rate" => FrictionLaw::CreepRate {
-            velocity: number("friction.velocity")?,
-        },
-        _ => FrictionLaw::Coulomb,
-    })
+        values.required_number(parameter.path).map_err(needed)
+    });
+    Ok((row.with)(value.transpose()?.unwrap_or_default()))
 }
 
-/// Whether a belt can have the law of a name.
-fn suits(name: &str, belt: BeltKind, values: &Values<'_>) -> Result<(), Finding> {
-    if !is_for(name, belt) {
-        let this = belt::name(belt);
-        let others = match belt {
-            BeltKind::V(_) => "flat belts",
-            BeltKind::Flat { .. } => "V-belts",
-        };
-        let laws: Vec<_> = schema::LAWS
+/// The row of the law that the values name.
+pub(super) fn row(values: &Values<'_>) -> Option<&'static Row> {
+    let name = values.text("friction.law")?;
+    ROWS.into_iter().find(|row| row.name == name)
+}
+
+/// Whether a belt can have a law.
+fn suits(row: &Row, belt: BeltKind, values: &Values<'_>) -> Result<(), Finding> {
+    let Some(reason) = row.unsuited(belt) else {
+        return Ok(());
+    };
+    if row.is_for(belt) {
+        let conventions: Vec<_> = NormalForce::ALL
             .into_iter()
-            .filter(|law| is_for(law, belt))
+            .filter(|&normal_force| row.unsuited(BeltKind::Flat { normal_force }).is_none())
+            .map(NormalForce::name)
             .collect();
-        let message = format!("{name} is a law for {others}; this drive has {this}");
-        return Err(
-            Finding::new(values.place("friction.law"), message).expected(check::one_of(&laws))
-        );
-    }
-    let thesis = BeltKind::Flat {
-        normal_force: NormalForce::Thesis,
-    };
-    if name == "creep-rate" && belt == thesis {
-        let message = "creep-rate friction needs the inertia of the belt in the normal force, \
-                       which `thesis` leaves out";
         let place = values.place(schema::NORMAL_FORCE);
-        return Err(Finding::new(place, message).expected(check::one_of(&["inertia", "exact"])));
+        return Err(Finding::new(place, reason).expected(check::one_of(&conventions)));
     }
-    Ok(())
-}
-
-/// Whether a law is one for a type of belt.
-fn is_for(law: &str, belt: BeltKind) -> bool {
-    match law {
-        "bristle" => matches!(belt, BeltKind::V(_)),
-        "creep-rate" => matches!(belt, BeltKind::Flat { .. }),
-        _ => true,
-    }
+    let laws: Vec<_> = ROWS
+        .into_iter()
+        .filter(|row| row.is_for(belt))
+        .map(|row| row.name)
+        .collect();
+    let message = format!("{reason}; this drive has {}", belt::name(belt));
+    Err(Finding::new(values.place("friction.law"), message).expected(check::one_of(&laws)))
 }

@@ -85,7 +85,7 @@ impl Key {
 
     /// Whether a drive has the entry.
     pub(super) fn applies(&self, drive: &Drive) -> bool {
-        (self.entry.slot)(&mut drive.clone()).is_some()
+        self.entry.slot(&mut drive.clone()).is_some()
     }
 
     /// The key of an entry, unless its dimension has no unit in reports.
@@ -96,7 +96,7 @@ impl Key {
     }
 
     fn slot<'d>(&self, drive: &'d mut Drive) -> &'d mut f64 {
-        (self.entry.slot)(drive).expect("an entry of this drive")
+        self.entry.slot(drive).expect("an entry of this drive")
     }
 }
 

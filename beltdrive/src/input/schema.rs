@@ -2,13 +2,11 @@
 
 mod rules;
 
-pub(super) use rules::LAWS;
-
 use super::{dimension::Dimension, spelling};
 use rules::RULES;
 
 /// One entry of a drive file.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Rule {
     /// Its dotted path; `*` stands for the name of a pulley.
     pub(super) path: &'static str,
@@ -19,7 +17,7 @@ pub(super) struct Rule {
 }
 
 /// What an entry holds.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Kind {
     /// Any text.
     Text,

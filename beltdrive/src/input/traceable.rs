@@ -1,7 +1,9 @@
 //! The entries that a branch can be traced over, and where their values stand in a drive.
 
 use super::schema;
-use crate::{BeltKind, Drive, FrictionLaw, Load, SpanTension, VBelt};
+use crate::friction::{ROWS, Row};
+use crate::{BeltKind, Drive, Load, SpanTension, VBelt};
+use std::sync::LazyLock;
 
 /// An entry with the place of its value in a drive.
 #[derive(Debug)]
@@ -10,105 +12,123 @@ pub(super) struct Traceable {
     pub(super) path: &'static str,
     /// What it is called.
     pub(super) name: &'static str,
+    slot: Slot,
+}
+
+/// Where the value of an entry stands.
+#[derive(Clone, Copy, Debug)]
+enum Slot {
+    /// At a place of the drive, if the entry applies.
+    Of(fn(&mut Drive) -> Option<&mut f64>),
+    /// It is the parameter of a friction law.
+    Parameter(&'static Row),
+}
+
+impl Traceable {
     /// Where its value stands; `None` where the entry does not apply.
-    pub(super) slot: fn(&mut Drive) -> Option<&mut f64>,
+    pub(super) fn slot<'d>(&self, drive: &'d mut Drive) -> Option<&'d mut f64> {
+        match self.slot {
+            Slot::Of(place) => place(drive),
+            Slot::Parameter(wanted) => {
+                let (row, value) = drive.law.parts();
+                value.filter(|_| row.name == wanted.name)
+            }
+        }
+    }
 }
 
 /// Every entry, in the order of the drive file.
-pub(super) const ENTRIES: [Traceable; 17] = [
+pub(super) static ENTRIES: LazyLock<Vec<Traceable>> = LazyLock::new(|| {
+    let parameters = ROWS.into_iter().filter_map(|row| {
+        let parameter = row.parameter.as_ref()?;
+        Some(Traceable {
+            path: parameter.path,
+            name: parameter.name,
+            slot: Slot::Parameter(row),
+        })
+    });
+    let up_to_friction = UP_TO_FRICTION.into_iter();
+    up_to_friction
+        .chain(parameters)
+        .chain(FROM_PULLEYS)
+        .collect()
+});
+
+/// The entries up to those that all friction laws have.
+const UP_TO_FRICTION: [Traceable; 5] = [
     Traceable {
         path: "belt.mass_per_length",
         name: "mass per length",
-        slot: |drive| Some(&mut drive.belt.mass_per_length),
+        slot: Slot::Of(|drive| Some(&mut drive.belt.mass_per_length)),
     },
     Traceable {
         path: "belt.axial_stiffness",
         name: "axial stiffness",
-        slot: |drive| Some(&mut drive.belt.axial_stiffness),
+        slot: Slot::Of(|drive| Some(&mut drive.belt.axial_stiffness)),
     },
     Traceable {
         path: "belt.radial_stiffness",
         name: "radial stiffness",
-        slot: |drive| v_belt(drive).map(|belt| &mut belt.radial_stiffness),
+        slot: Slot::Of(|drive| v_belt(drive).map(|belt| &mut belt.radial_stiffness)),
     },
     Traceable {
         path: "groove.half_angle",
         name: "half groove angle",
-        slot: |drive| v_belt(drive).map(|belt| &mut belt.half_angle),
+        slot: Slot::Of(|drive| v_belt(drive).map(|belt| &mut belt.half_angle)),
     },
     Traceable {
         path: "friction.coefficient",
         name: "coefficient of friction",
-        slot: |drive| Some(&mut drive.friction_coefficient),
+        slot: Slot::Of(|drive| Some(&mut drive.friction_coefficient)),
     },
-    Traceable {
-        path: "friction.stiffness",
-        name: "friction stiffness",
-        slot: |drive| match &mut drive.law {
-            FrictionLaw::Epp { stiffness } => Some(stiffness),
-            _ => None,
-        },
-    },
-    Traceable {
-        path: "friction.bristle_stiffness",
-        name: "bristle stiffness",
-        slot: |drive| match &mut drive.law {
-            FrictionLaw::Bristle { stiffness } => Some(stiffness),
-            _ => None,
-        },
-    },
-    Traceable {
-        path: "friction.velocity",
-        name: "creep velocity",
-        slot: |drive| match &mut drive.law {
-            FrictionLaw::CreepRate { velocity } => Some(velocity),
-            _ => None,
-        },
-    },
+];
+
+/// The entries from those of the pulleys on.
+const FROM_PULLEYS: [Traceable; 9] = [
     Traceable {
         path: "pulleys.driver.radius",
         name: "driver radius",
-        slot: |drive| Some(&mut drive.driver_radius),
+        slot: Slot::Of(|drive| Some(&mut drive.driver_radius)),
     },
     Traceable {
         path: "pulleys.driver.speed",
         name: "driver speed",
-        slot: |drive| Some(&mut drive.driver_speed),
+        slot: Slot::Of(|drive| Some(&mut drive.driver_speed)),
     },
     Traceable {
         path: "pulleys.driven.radius",
         name: "driven radius",
-        slot: |drive| Some(&mut drive.driven_radius),
+        slot: Slot::Of(|drive| Some(&mut drive.driven_radius)),
     },
     Traceable {
         path: "layout.centre_distance",
         name: "centre distance",
-        slot: |drive| Some(&mut drive.centre_distance),
+        slot: Slot::Of(|drive| Some(&mut drive.centre_distance)),
     },
     Traceable {
         path: schema::SLACK[0],
         name: "slack tractive tension",
-        slot: |drive| tractive(&mut drive.load.slack),
+        slot: Slot::Of(|drive| tractive(&mut drive.load.slack)),
     },
     Traceable {
         path: schema::SLACK[1],
         name: "slack tension",
-        slot: |drive| belt(&mut drive.load.slack),
+        slot: Slot::Of(|drive| belt(&mut drive.load.slack)),
     },
     Traceable {
         path: schema::TIGHT[0],
         name: "tight tractive tension",
-        slot: |drive| tractive(&mut drive.load.tight),
+        slot: Slot::Of(|drive| tractive(&mut drive.load.tight)),
     },
     Traceable {
         path: schema::TIGHT[1],
         name: "tight tension",
-        slot: |drive| belt(&mut drive.load.tight),
+        slot: Slot::Of(|drive| belt(&mut drive.load.tight)),
     },
     Traceable {
         path: schema::TORQUE,
         name: "driven torque",
-        slot: |drive| torque(&mut drive.load),
+        slot: Slot::Of(|drive| torque(&mut drive.load)),
     },
 ];
 

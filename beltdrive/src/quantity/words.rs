@@ -1,37 +1,31 @@
 //! What stands in words beside the numbers of an answer.
 
 use super::precision::six_digits;
+use super::{Measure, UnitSystem};
 use crate::{BeltKind, Check, FrictionLaw, NormalForce};
 
 /// A friction law in words, with its parameters and a coefficient that is the same for all pulleys; what
 /// varies has no value.
 pub(crate) fn law(law: FrictionLaw, coefficient: Option<f64>, varied: &[&str]) -> String {
-    let value = |symbol: &str, path: &str, value: f64, unit: &str| {
+    let part = |symbol: &str, path: &str, value: f64, measure: Measure| {
         if varied.contains(&path) {
-            format!(", {symbol} varied")
-        } else {
-            format!(", {symbol} = {}{unit}", six_digits(value))
+            return format!(", {symbol} varied");
         }
+        let unit = measure.shown(UnitSystem::Si).symbol;
+        let space = if unit.is_empty() { "" } else { " " };
+        format!(", {symbol} = {}{space}{unit}", six_digits(value))
     };
-    let (name, parameter) = match law {
-        FrictionLaw::Coulomb => ("Coulomb", String::new()),
-        FrictionLaw::Epp { stiffness } => (
-            "elastic/perfectly-plastic",
-            value("k_f", "friction.stiffness", stiffness, " N/m²"),
-        ),
-        FrictionLaw::Bristle { stiffness } => (
-            "bristle",
-            value("κ", "friction.bristle_stiffness", stiffness, " 1/m"),
-        ),
-        FrictionLaw::CreepRate { velocity } => (
-            "creep-rate",
-            value("v_s", "friction.velocity", velocity, " m/s"),
-        ),
-    };
-    let coefficient = coefficient.map(|number| value("μ", "friction.coefficient", number, ""));
+    let row = law.row();
+    let coefficient =
+        coefficient.map(|value| part("μ", "friction.coefficient", value, Measure::Number));
+    let parameter = row.parameter.as_ref().zip(law.parameter());
+    let parameter = parameter
+        .map(|(parameter, value)| part(parameter.symbol, parameter.path, value, parameter.measure));
     format!(
-        "{name} friction{}{parameter}",
-        coefficient.unwrap_or_default()
+        "{} friction{}{}",
+        row.title,
+        coefficient.unwrap_or_default(),
+        parameter.unwrap_or_default()
     )
 }
 

@@ -1,9 +1,10 @@
 //! What the statement of a belt loop has to be.
 
 use super::error::LoopError;
+use crate::BeltKind;
 use crate::drive::belt_loop::{BeltLoop, Closure, Duty, Guide, Mount, Tensioner, TensionerLoad};
 use crate::drive::layout::Side;
-use crate::{BeltKind, FrictionLaw, NormalForce};
+use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 
 /// Largest magnitude of a number, SI: squares and products of three are far from overflow.
@@ -19,14 +20,16 @@ const ROUNDED: f64 = 1e-9;
 /// Largest coefficient of friction: the exponential of friction times wrap is a number up to here.
 const LARGEST_FRICTION: f64 = 100.0;
 
+/// A part of the statement that is out of its range.
+fn refuse(subject: &str, problem: impl Into<Cow<'static, str>>) -> Result<(), LoopError> {
+    Err(LoopError::Statement {
+        subject: subject.to_owned(),
+        problem: problem.into(),
+    })
+}
+
 /// The first part of the statement that is out of its range.
 pub(crate) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
-    let refuse = |subject: &str, problem| {
-        Err(LoopError::Statement {
-            subject: subject.to_owned(),
-            problem,
-        })
-    };
     let belt = belt_loop.belt;
     if !(positive(belt.mass_per_length) && positive(belt.axial_stiffness)) {
         return refuse(
@@ -46,32 +49,17 @@ pub(crate) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
         }
     };
     let is_flat = normal_force.is_some();
-    match belt_loop.law {
-        FrictionLaw::Coulomb => {}
-        FrictionLaw::Bristle { .. } if is_flat => {
-            return refuse("friction", "`bristle` is the friction of V-belts");
-        }
-        FrictionLaw::Epp { stiffness } | FrictionLaw::Bristle { stiffness }
-            if positive(stiffness) => {}
-        FrictionLaw::Epp { .. } | FrictionLaw::Bristle { .. } => {
-            return refuse("friction", "the stiffness must be positive");
-        }
-        FrictionLaw::CreepRate { .. } if !is_flat => {
-            return refuse(
-                "friction",
-                "on V-belts only `coulomb`, `epp` and `bristle` are modelled",
-            );
-        }
-        FrictionLaw::CreepRate { .. } if normal_force == Some(NormalForce::Thesis) => {
-            return refuse(
-                "friction",
-                "`creep-rate` needs a normal force with the inertia of the belt, which `thesis` leaves out",
-            );
-        }
-        FrictionLaw::CreepRate { velocity } if positive(velocity) => {}
-        FrictionLaw::CreepRate { .. } => {
-            return refuse("friction", "the slip velocity must be positive");
-        }
+    let law = belt_loop.law;
+    if let Some(reason) = law.row().unsuited(belt.kind) {
+        return refuse("friction", reason);
+    }
+    if let (Some(parameter), Some(value)) = (&law.row().parameter, law.parameter())
+        && !positive(value)
+    {
+        return refuse(
+            "friction",
+            format!("the {} must be positive", parameter.name),
+        );
     }
     let [mut drivers, mut tensioners] = [0, 0];
     for pulley in &belt_loop.pulleys {

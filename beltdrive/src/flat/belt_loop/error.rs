@@ -2,6 +2,7 @@
 
 use crate::Check;
 use crate::drive::layout::LayoutError;
+use std::borrow::Cow;
 use thiserror::Error;
 
 /// Why a belt loop has no steady state.
@@ -17,7 +18,7 @@ pub enum LoopError {
         /// Of which part: the name of a pulley, or the part itself.
         subject: String,
         /// What is wrong with it.
-        problem: &'static str,
+        problem: Cow<'static, str>,
     },
     /// The belt cannot be laid round the pulleys.
     #[error(transparent)]

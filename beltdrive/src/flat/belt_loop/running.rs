@@ -5,9 +5,9 @@ use super::loads::Loads;
 use super::solve::Problem;
 use crate::drive::belt_loop::LoopPulley;
 use crate::drive::layout::Layout;
+use crate::friction::coulomb;
 use crate::friction::rim::contact::{Arc, Contact};
 use crate::friction::rim::traction::Traction;
-use crate::friction::{coulomb, creep_rate, epp};
 use crate::root::{bracketed, near};
 use crate::{FrictionLaw, NormalForce};
 
@@ -160,12 +160,12 @@ impl<'p> Running<'p> {
     /// The contact with a pulley.
     fn contact(&self, pulley: usize, moving: Moving) -> Option<Contact> {
         let arc = self.arc(pulley, moving);
-        match self.law {
-            FrictionLaw::Epp { stiffness } if arc.change != 0.0 => epp::solve(arc, stiffness),
-            FrictionLaw::CreepRate { velocity } if arc.change != 0.0 => {
-                creep_rate::solve(arc, moving.speed, velocity)
-            }
-            _ => Some(coulomb::carried(arc)),
+        match self.law == FrictionLaw::Coulomb || arc.change == 0.0 {
+            true => Some(coulomb::carried(arc)),
+            false => self
+                .law
+                .row()
+                .contact(arc, moving.speed, self.law.parameter()),
         }
     }
 

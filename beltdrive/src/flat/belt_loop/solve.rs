@@ -11,7 +11,6 @@ use super::state::LoopState;
 use super::tensioner::{Held, Towards, equilibrium, length_derivatives, within_travel};
 use crate::drive::belt_loop::{BeltLoop, Closure, Duty, LoopPulley};
 use crate::drive::layout::Layout;
-use crate::friction::rim::traction::convention;
 use crate::{BeltKind, FrictionLaw, NormalForce};
 
 /// Largest strain of the belt: at twice its length no belt is linear elastic, and far beyond it the length
@@ -141,7 +140,7 @@ fn with_torques(
         loads: Loads::new(belt_loop, torques),
         target,
         convention: match belt_loop.belt.kind {
-            BeltKind::Flat { normal_force } => convention(normal_force, belt_loop.law),
+            BeltKind::Flat { normal_force } => belt_loop.law.row().convention(normal_force),
             BeltKind::V(_) => panic!("a flat belt was expected"),
         },
         driver: belt_loop.driver(),

@@ -26,7 +26,7 @@ impl BoundaryValue {
         solve::check(drive, options)?;
         if let BeltKind::V(_) = drive.belt.kind {
             return Err(SolveError::NotModelled(
-                "this boundary value problem is that of flat belts",
+                "this boundary value problem is that of flat belts".into(),
             ));
         }
         Self::solve(drive, options.tolerance, SCHEME).map_err(|failure| match failure {

@@ -68,7 +68,8 @@ fn motion(drive: &Drive, solved: &ClosedForm, pulley: usize) -> Result<AxialMoti
         FrictionLaw::Coulomb => None,
         _ => {
             return Err(SolveError::NotModelled(
-                "the stability of a drive is modelled for the friction laws epp and coulomb only",
+                "the stability of a drive is modelled for the friction laws epp and coulomb only"
+                    .into(),
             ));
         }
     };
@@ -78,7 +79,8 @@ fn motion(drive: &Drive, solved: &ClosedForm, pulley: usize) -> Result<AxialMoti
         2 if slips(1) => contact.zones[0].end,
         _ => {
             return Err(SolveError::NotModelled(
-                "the stability of a belt that sticks again behind a slip zone is not modelled",
+                "the stability of a belt that sticks again behind a slip zone is not modelled"
+                    .into(),
             ));
         }
     };

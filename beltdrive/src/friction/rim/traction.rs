@@ -1,6 +1,6 @@
 //! The belt in steady motion: how tension, traction, stretch and normal force belong together.
 
-use crate::{FrictionLaw, NormalForce};
+use crate::NormalForce;
 
 /// A flat belt that moves with a given speed, under one convention for its normal force.
 ///
@@ -36,15 +36,6 @@ pub(crate) struct Traction {
     slip_rate: f64,
     /// The stretch ds/dσ = α + β P.
     stretch: [f64; 2],
-}
-
-/// The convention in whose equations the friction of a law is stated: friction that depends on speeds and
-/// forces alone is the same with small and with finite strains.
-pub(crate) fn convention(stated: NormalForce, law: FrictionLaw) -> NormalForce {
-    match law {
-        FrictionLaw::CreepRate { .. } => NormalForce::Inertia,
-        _ => stated,
-    }
 }
 
 impl Traction {

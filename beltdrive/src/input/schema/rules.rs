@@ -1,8 +1,10 @@
 //! Every entry of a drive file.
 
 use super::{Kind, NORMAL_FORCE, Range, Rule, TORQUE};
+use crate::friction::ROWS;
 use crate::input::dimension::Dimension;
 use std::f64::consts::FRAC_PI_2;
+use std::sync::LazyLock;
 
 /// The range of half a groove angle.
 const HALF_ANGLE: Range = Range::Below(FRAC_PI_2, "90 deg");
@@ -68,11 +70,34 @@ const fn refused(
     }
 }
 
-/// The friction laws.
-pub(in super::super) const LAWS: [&str; 4] = ["coulomb", "epp", "bristle", "creep-rate"];
+/// The names of the friction laws.
+const LAWS: [&str; ROWS.len()] = {
+    let mut names = [""; ROWS.len()];
+    let mut index = 0;
+    while index < names.len() {
+        names[index] = ROWS[index].name;
+        index += 1;
+    }
+    names
+};
 
 /// Every entry, in the order in which messages list them; `*` stands for the name of a pulley.
-pub(super) const RULES: &[Rule] = &[
+pub(super) static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
+    let laws = ROWS.into_iter().filter_map(|law| law.parameter.as_ref());
+    let laws = laws.filter_map(|parameter| {
+        let dimension = Dimension::of(parameter.measure)?;
+        Some(quantity(parameter.path, parameter.example, dimension))
+    });
+    [
+        UP_TO_FRICTION.to_vec(),
+        laws.collect(),
+        FROM_PULLEYS.to_vec(),
+    ]
+    .concat()
+});
+
+/// The entries up to those that all friction laws have.
+const UP_TO_FRICTION: &[Rule] = &[
     text("title", "\"Test drive\""),
     word("belt.type", "\"v\"", "belt type", &["v", "flat"]),
     quantity(
@@ -96,17 +121,10 @@ pub(super) const RULES: &[Rule] = &[
     ),
     word("friction.law", "\"coulomb\"", "friction law", &LAWS),
     quantity("friction.coefficient", "0.4", Dimension::NUMBER),
-    quantity(
-        "friction.stiffness",
-        "\"8.1e6 N/m^2\"",
-        Dimension::FORCE_PER_AREA,
-    ),
-    quantity(
-        "friction.bristle_stiffness",
-        "\"1620 1/m\"",
-        Dimension::INVERSE_LENGTH,
-    ),
-    quantity("friction.velocity", "\"0.05 m/s\"", Dimension::VELOCITY),
+];
+
+/// The entries from those of the pulleys on.
+const FROM_PULLEYS: &[Rule] = &[
     quantity("pulleys.driver.radius", "\"0.25 m\"", Dimension::LENGTH),
     quantity("pulleys.driver.diameter", "\"0.5 m\"", Dimension::LENGTH),
     quantity(

@@ -1,0 +1,94 @@
+//! What there is to know of a friction law.
+
+use super::rim::contact::{Arc, Contact};
+use crate::quantity::Measure;
+use crate::{BeltKind, FrictionLaw, NormalForce};
+
+/// A friction law.
+#[derive(Debug)]
+pub(crate) struct Row {
+    /// Its name in drive files and outputs.
+    pub(crate) name: &'static str,
+    /// What it is called in text.
+    pub(crate) title: &'static str,
+    /// Its parameter beside the coefficient of friction, if it has one.
+    pub(crate) parameter: Option<Parameter>,
+    /// The law with a value of its parameter, SI; without a parameter the value is ignored.
+    pub(crate) with: fn(f64) -> FrictionLaw,
+    /// Whether it is one for V-belts.
+    pub(crate) in_grooves: bool,
+    /// What it does with flat belts, if it is a law for these.
+    pub(crate) on_rims: Option<OnRims>,
+}
+
+/// The parameter of a law in drive files.
+#[derive(Debug)]
+pub(crate) struct Parameter {
+    /// Its dotted path.
+    pub(crate) path: &'static str,
+    /// What it is called.
+    pub(crate) name: &'static str,
+    /// Its symbol.
+    pub(crate) symbol: &'static str,
+    /// What it measures.
+    pub(crate) measure: Measure,
+    /// A right value as TOML.
+    pub(crate) example: &'static str,
+}
+
+/// A law on the rim of a pulley.
+#[derive(Debug)]
+pub(crate) struct OnRims {
+    /// The contact of an arc, for a belt whose unstretched parts move at a speed in m/s, with the value of the
+    /// parameter of the law; `None` if the load is not below the capacity of the arc.
+    pub(crate) solve: fn(Arc, f64, f64) -> Option<Contact>,
+    /// The convention in whose equations the law is stated, if one serves them all: friction that depends on
+    /// speeds and forces alone is the same with small and with finite strains.
+    pub(crate) convention: Option<NormalForce>,
+}
+
+impl Row {
+    /// Whether it is a law for a kind of belt.
+    pub(crate) fn is_for(&self, belt: BeltKind) -> bool {
+        match belt {
+            BeltKind::V(_) => self.in_grooves,
+            BeltKind::Flat { .. } => self.on_rims.is_some(),
+        }
+    }
+
+    /// The convention in which the law is stated for a flat belt with this one.
+    pub(crate) fn convention(&self, stated: NormalForce) -> NormalForce {
+        let own = self.on_rims.as_ref().and_then(|on_rims| on_rims.convention);
+        own.unwrap_or(stated)
+    }
+
+    /// Why a belt cannot have the law, if it cannot.
+    pub(crate) fn unsuited(&self, belt: BeltKind) -> Option<String> {
+        let name = self.name;
+        match belt {
+            _ if !self.is_for(belt) => Some(format!(
+                "{name} is a law for {}",
+                match belt {
+                    BeltKind::V(_) => "flat belts",
+                    BeltKind::Flat { .. } => "V-belts",
+                }
+            )),
+            BeltKind::Flat {
+                normal_force: stated @ NormalForce::Thesis,
+            } if self.convention(stated) != stated => Some(format!(
+                "{name} friction needs the inertia of the belt in the normal force, which `{}` leaves out",
+                stated.name()
+            )),
+            _ => None,
+        }
+    }
+
+    /// The contact of a flat belt on an arc, as [`OnRims::solve`].
+    ///
+    /// # Panics
+    /// If it is no law for flat belts.
+    pub(crate) fn contact(&self, arc: Arc, speed: f64, parameter: Option<f64>) -> Option<Contact> {
+        let on_rims = self.on_rims.as_ref().expect("a law for flat belts");
+        (on_rims.solve)(arc, speed, parameter.unwrap_or_default())
+    }
+}
