@@ -1,7 +1,8 @@
 //! Coulomb friction: an arc of adhesion, then an arc of slip (Johnson, Contact Mechanics, 1985).
 
 use super::Row;
-use super::rim::contact::{Arc, Contact, ContactZone, Friction, Place};
+use super::rim::contact::{Arc, Contact, Place};
+use super::rim::zone::{ContactZone, Friction};
 use super::row::OnRims;
 use crate::FrictionLaw;
 

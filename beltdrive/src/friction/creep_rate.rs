@@ -12,12 +12,13 @@
 //! and both are dy/ds = (a/`v_s`) y (B ± y) with the upper sign on the driven pulley. The belt slips
 //! from its entry on, however slowly: there is no arc of adhesion.
 
-use super::rim::contact::{Arc, Contact, ContactZone, Friction, Place};
+use super::rim::contact::{Arc, Contact, Place};
+use super::rim::zone::{ContactZone, Developing, Friction, Law};
 use super::row::OnRims;
 use super::{Parameter, Row};
 use crate::quantity::Measure;
 use crate::root::bracketed;
-use crate::{FrictionLaw, NormalForce};
+use crate::{FrictionLaw, NormalForce, ZoneKind};
 
 /// Loads below this many logarithms are not told apart from none by the first guess.
 const LEAST: f64 = 40.0;
@@ -81,11 +82,11 @@ pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
         zones: vec![ContactZone {
             start,
             end: saturated,
-            friction: Friction::Creep {
+            friction: Friction::Developing(Law::Creep(Creeping {
                 logarithm: entry,
                 speed,
                 saturation,
-            },
+            })),
         }],
         evaluations,
     };
@@ -100,6 +101,68 @@ pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
     Some(contact)
 }
 
+/// Friction a P y/`v_s` with the slip velocity y below `v_s`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Creeping {
+    /// Logarithm of the slip velocity at the entry in m/s.
+    logarithm: f64,
+    /// Speed c of the unstretched belt, m/s.
+    speed: f64,
+    /// Slip velocity `v_s` of full friction, m/s.
+    saturation: f64,
+}
+
+impl Developing for Creeping {
+    fn kind(&self) -> ZoneKind {
+        ZoneKind::Creep
+    }
+
+    fn at(&self, contact: &Contact, zone: &ContactZone, share: f64) -> Place {
+        let Self {
+            logarithm,
+            speed,
+            saturation,
+        } = *self;
+        let arc = &contact.arc;
+        let creep = Creep::with_logarithm(arc, speed, saturation, logarithm);
+        let extent = zone.end - zone.start.arc_length;
+        let distance = (1.0 - share) * extent;
+        let velocity = creep.velocity(distance);
+        let load = creep.load_before(distance);
+        let traction = arc.entry() * (arc.sense * load).exp();
+        Place {
+            arc_length: zone.start.arc_length + share * extent,
+            traction,
+            displacement: saturation / (arc.slip_rate * speed) * load,
+            friction: arc.slip_rate * traction * velocity / saturation,
+        }
+    }
+
+    fn decay_lengths(&self, contact: &Contact, zone: &ContactZone) -> f64 {
+        let (arc, saturation) = (&contact.arc, self.saturation);
+        let unit = self.speed * arc.entry() / arc.belt.stiffness;
+        let extent = zone.end - zone.start.arc_length;
+        arc.slip_rate * extent * (unit + 2.0 * saturation) / saturation
+    }
+
+    /// With ds = `v_s` D/(a c) dP/(P (P − `P_o`)) that of `P_o` times the length and, with S of
+    /// [`Traction::offset`](super::rim::traction::Traction::offset),
+    ///
+    /// ```text
+    /// v_s D²/(a c S (S + P_o)) ln( P₁ (S + P₀)/(P₀ (S + P₁)) )
+    /// ```
+    fn elongation(&self, contact: &Contact, zone: &ContactZone) -> f64 {
+        let (arc, belt) = (&contact.arc, contact.arc.belt);
+        let (reference, offset) = (contact.reference(), belt.offset());
+        let (from, to) = (zone.start.traction, contact.end(zone).traction);
+        let logarithm = (to / from * ((offset + from) / (offset + to))).ln();
+        let stiffness = belt.stiffness * belt.stiffness;
+        let unit = self.saturation * stiffness / (arc.slip_rate * self.speed * offset);
+        let length = zone.end - zone.start.arc_length;
+        length * belt.elongation(reference) + unit * logarithm / (offset + reference)
+    }
+}
+
 /// The slip velocity along an arc, until friction is fully developed.
 ///
 /// With q = c P(0)/D and the upper sign on the driven pulley it is
@@ -110,13 +173,13 @@ pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
 ///
 /// Where `v_s` is small, x is the small difference of large numbers, so that it is counted from the end,
 /// where it is ln(B/`v_s` ± 1) if friction is fully developed there.
-pub(crate) struct Creep {
+struct Creep {
     /// Sense of the friction force, as [`Arc::sense`].
     sense: f64,
     /// Rate a/`v_s`, s/m².
     rate: f64,
     /// Slip velocity at the entry, m/s.
-    pub(crate) entry: f64,
+    entry: f64,
     /// Velocities q and B, m/s.
     unit: f64,
     b: f64,
@@ -128,7 +191,7 @@ pub(crate) struct Creep {
 
 impl Creep {
     /// The slip velocity that begins with a given logarithm.
-    pub(crate) fn with_logarithm(arc: &Arc, speed: f64, saturation: f64, logarithm: f64) -> Self {
+    fn with_logarithm(arc: &Arc, speed: f64, saturation: f64, logarithm: f64) -> Self {
         let (sense, rate) = (arc.sense, arc.slip_rate / saturation);
         let entry = logarithm.exp();
         let unit = speed * arc.entry() / arc.belt.stiffness;
@@ -167,7 +230,7 @@ impl Creep {
     }
 
     /// The slip velocity y at a distance before the end, m/s.
-    pub(crate) fn velocity(&self, distance: f64) -> f64 {
+    fn velocity(&self, distance: f64) -> f64 {
         let [velocity, exponent] = self.last;
         if self.is_degenerate() {
             return (velocity.recip() + self.rate * distance).recip();
@@ -180,7 +243,7 @@ impl Creep {
     }
 
     /// Where friction is fully developed or the arc ends, m.
-    pub(crate) fn end(&self) -> f64 {
+    fn end(&self) -> f64 {
         self.end
     }
 
@@ -191,7 +254,7 @@ impl Creep {
     /// ```
     ///
     /// of which the first form loses no digits for x > 0, the second for x < 0.
-    pub(crate) fn load_before(&self, distance: f64) -> f64 {
+    fn load_before(&self, distance: f64) -> f64 {
         let Self { sense, unit, .. } = *self;
         if self.is_degenerate() {
             return ((self.velocity(distance) - self.entry) / unit).ln_1p();

@@ -5,7 +5,7 @@
 
 mod bristle;
 pub(crate) mod coulomb;
-mod creep_rate;
+pub(crate) mod creep_rate;
 pub(crate) mod epp;
 pub(crate) mod rim;
 mod row;

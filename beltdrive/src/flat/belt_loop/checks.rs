@@ -5,8 +5,9 @@ use super::error::LoopError;
 use super::state::{Contacts, LoopState};
 use crate::Check;
 use crate::drive::belt_loop::{BeltLoop, LoopPulley};
-use crate::friction::rim::contact::{Contact, ContactZone, Friction};
+use crate::friction::rim::contact::Contact;
 use crate::friction::rim::quadrature::integrals;
+use crate::friction::rim::zone::{ContactZone, Friction};
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
@@ -150,7 +151,7 @@ fn along(contact: &Contact, pulley: &LoopPulley, rim: f64) -> Along {
             Friction::Slip => slipping(contact, zone, |traction| {
                 densities(traction, arc.slip_rate * traction)
             }),
-            Friction::Elastic { .. } | Friction::Creep { .. } => {
+            Friction::Developing(_) => {
                 contact.all_over(zone, &|place| densities(place.traction, place.friction))
             }
         };

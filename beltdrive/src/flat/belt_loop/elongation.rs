@@ -6,15 +6,10 @@
 //! ```text
 //! | m c² ln(P₁/P₀) + D ln((S + P₁)/(S + P₀)) |/(a S)
 //! ```
-//!
-//! and where it creeps, ds = `v_s` D/(a c) dP/(P (P − `P_o`)), that of `P_o` times the length and
-//!
-//! ```text
-//! v_s D²/(a c S (S + P_o)) ln( P₁ (S + P₀)/(P₀ (S + P₁)) )
-//! ```
 
 use crate::friction::coulomb;
-use crate::friction::rim::contact::{Arc, Contact, Friction, Place};
+use crate::friction::rim::contact::{Arc, Contact};
+use crate::friction::rim::zone::Friction;
 
 /// The elongation of the belt on a pulley with rigid friction, raised where it does not carry the load, m.
 pub(super) fn rigid(arc: &Arc) -> f64 {
@@ -30,31 +25,19 @@ pub(super) fn rigid(arc: &Arc) -> f64 {
         )
 }
 
-/// The elongation of the belt on a pulley, m; by quadrature where friction is elastic.
+/// The elongation of the belt on a pulley, m.
 pub(super) fn elongation(contact: &Contact) -> f64 {
     let (belt, arc) = (contact.arc.belt, &contact.arc);
     let zones = contact.zones.iter().map(|zone| {
         let (length, from) = (zone.end - zone.start.arc_length, zone.start.traction);
-        match zone.friction {
+        match &zone.friction {
             Friction::Adhesion => length * belt.elongation(from),
             Friction::Slip => {
                 let extent = arc.slip_rate * length;
                 let grown = from * (arc.sense * extent).exp_m1();
                 slipped(arc, arc.slip_rate, extent, [from, grown])
             }
-            Friction::Creep {
-                speed, saturation, ..
-            } => {
-                let (reference, offset) = (contact.reference(), belt.offset());
-                let to = contact.end(zone).traction;
-                let logarithm = (to / from * ((offset + from) / (offset + to))).ln();
-                let stiffness = belt.stiffness * belt.stiffness;
-                let unit = saturation * stiffness / (arc.slip_rate * speed * offset);
-                length * belt.elongation(reference) + unit * logarithm / (offset + reference)
-            }
-            Friction::Elastic { .. } => {
-                contact.over(zone, &|place: &Place| belt.elongation(place.traction))
-            }
+            Friction::Developing(law) => law.elongation(contact, zone),
         }
     });
     zones.sum()

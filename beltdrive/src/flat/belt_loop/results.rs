@@ -9,7 +9,7 @@ use super::tensioner::Held;
 use crate::Belt;
 use crate::drive::belt_loop::{BeltLoop, Duty};
 use crate::drive::layout::Layout;
-use crate::friction::rim::contact::Friction;
+use crate::friction::rim::zone::Friction;
 
 /// Deflection of a span over its length, the customary one of tension gauges.
 pub(crate) const DEFLECTION: f64 = 1.0 / 64.0;

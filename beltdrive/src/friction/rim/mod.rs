@@ -3,3 +3,4 @@
 pub(crate) mod contact;
 pub(crate) mod quadrature;
 pub(crate) mod traction;
+pub(crate) mod zone;

@@ -1,6 +1,7 @@
 //! Where a zone changes quickly: places for profiles, and integrals along the belt.
 
-use super::contact::{Contact, ContactZone, Friction, Place};
+use super::contact::{Contact, Place};
+use super::zone::{ContactZone, Friction};
 
 /// Beyond so many decay lengths before the end of a zone nothing changes, to rounding.
 const DECAY_LENGTHS: f64 = 40.0;
@@ -17,17 +18,10 @@ impl Contact {
     /// Shares of a zone that bound panels on which all quantities are smooth, finer towards the end,
     /// where displacements and slip velocities grow exponentially.
     pub(crate) fn panels(&self, zone: &ContactZone) -> Vec<f64> {
-        let extent = zone.end - zone.start.arc_length;
-        let decays = match zone.friction {
+        let decays = match &zone.friction {
             Friction::Adhesion => 0.0,
-            Friction::Elastic { rate, length, .. } => rate * length,
-            Friction::Slip => self.arc.slip_rate * extent,
-            Friction::Creep {
-                speed, saturation, ..
-            } => {
-                let unit = speed * self.arc.entry() / self.arc.belt.stiffness;
-                self.arc.slip_rate * extent * (unit + 2.0 * saturation) / saturation
-            }
+            Friction::Slip => self.arc.slip_rate * (zone.end - zone.start.arc_length),
+            Friction::Developing(law) => law.decay_lengths(self, zone),
         };
         // Panels of two thirds of a decay length.
         let panel = (2.0 / 3.0 / decays).min(0.25);
@@ -80,9 +74,9 @@ impl Contact {
 
     /// Arc length per share of a zone, at a place, m.
     fn arc_per_share(&self, zone: &ContactZone, place: &Place) -> f64 {
-        match zone.friction {
-            Friction::Elastic { length, .. } => length * self.arc.belt.stretch(place.traction),
-            _ => zone.end - zone.start.arc_length,
+        match &zone.friction {
+            Friction::Developing(law) => law.arc_per_share(self, zone, place),
+            Friction::Adhesion | Friction::Slip => zone.end - zone.start.arc_length,
         }
     }
 }

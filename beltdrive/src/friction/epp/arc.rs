@@ -1,93 +1,13 @@
-//! Elastic/perfectly-plastic friction f = min(`k_f` |u|, μ n) in closed form (Kim 2009, chapter 2).
-//!
-//! ```text
-//! elastic   |u| = (e/w) sinh w σ       P = P_o ± D |u|′      w = sqrt(k_f/D), e = |u|′(0)
-//! slip      P = P₁ exp(± a (s − s₁))
-//! ```
-//!
-//! with the upper sign on the driven pulley. Where slip begins, at σ₁, friction is at its limit,
-//! `k_f` |u₁| = a P₁ (α + β P₁), and P₁ follows from σ₁ by a quadratic equation,
-//!
-//! ```text
-//! P₁ = P(0) ± (a/w) tanh(w σ₁/2) P₁ (α + β P₁)
-//! ```
-//!
-//! so that the load is an explicit function of σ₁, which is the unknown: the strain
-//! e = w |u₁|/sinh(w σ₁) would be one only as long as it is no smaller than 1e-308.
-//!
-//! Where the bristles are so soft that a > w, the limit of friction rises along the driven pulley
-//! faster than elastic friction can follow: the belt that slips sticks again, and there is a third,
-//! elastic zone. The first zone then ends before the elastic friction touches its limit from below.
+//! An arc whose friction is elastic up to its limit.
 
-use super::rim::contact::{Arc, Contact, ContactZone, Friction, Place, elastic};
-use super::row::OnRims;
-use super::{Parameter, Row};
-use crate::FrictionLaw;
-use crate::quantity::Measure;
+use super::zone::{Elastic, elastic};
+use crate::friction::rim::contact::{Arc, Contact, Place};
+use crate::friction::rim::zone::{ContactZone, Friction, Law};
 use crate::root::bracketed;
 use std::cell::Cell;
 
-/// A stiffness in place of 0: it is so soft that the displacement is a parabola.
-const SOFT: f64 = 1e-9;
-
-pub(super) const ROW: Row = Row {
-    name: "epp",
-    title: "elastic/perfectly-plastic",
-    parameter: Some(Parameter {
-        path: "friction.stiffness",
-        name: "friction stiffness",
-        symbol: "k_f",
-        measure: Measure::ForcePerArea,
-        example: "\"8.1e6 N/m^2\"",
-    }),
-    with: |stiffness| FrictionLaw::Epp { stiffness },
-    in_grooves: true,
-    on_rims: Some(OnRims {
-        solve: |arc, _, stiffness| solve(arc, stiffness),
-        convention: None,
-    }),
-};
-
-/// The contact of an arc with friction of stiffness `k_f`, N/m²; `None` if the load is not below the
-/// capacity of the arc.
-pub(crate) fn solve(arc: Arc, stiffness: f64) -> Option<Contact> {
-    let bristles = Bristles::new(arc, stiffness);
-    let load = arc.load();
-    if load >= arc.capacity() {
-        return None;
-    }
-    let last = bristles.last_transition()?;
-    let excess = bristles.load(last)? - load;
-    if excess >= 0.0 {
-        return bristles.all_elastic();
-    }
-    let residual = |place| bristles.load(place).map_or(f64::NAN, |found| found - load);
-    let ends = [arc.capacity() - load, excess];
-    let place = bracketed(residual, [0.0, last], ends)?;
-    bristles.slipping(place)
-}
-
-/// The stiffness below which friction is elastic over the whole arc, N/m², if there is one at this load.
-pub(crate) fn smallest_stiffness(arc: Arc) -> Option<f64> {
-    let load = arc.load();
-    let excess = |logarithm: f64| {
-        let bristles = Bristles::new(arc, logarithm.exp());
-        let carried = bristles
-            .last_transition()
-            .and_then(|last| bristles.load(last));
-        carried.map_or(f64::NAN, |carried| carried - load)
-    };
-    let unit = arc.belt.stiffness / (arc.length * arc.length);
-    let softest = (SOFT * unit).ln();
-    // With stiff bristles an elastic arc carries a load of a/w.
-    let stiffest = (arc.belt.stiffness * (4.0 * arc.slip_rate / load).powi(2)).ln();
-    let ends = [softest, stiffest.max(softest + 1.0)];
-    let root = bracketed(excess, ends, ends.map(excess))?;
-    Some(root.exp())
-}
-
 /// An arc with elastic friction.
-struct Bristles {
+pub(super) struct ElasticArc {
     arc: Arc,
     stiffness: f64,
     /// Rate w, 1/m.
@@ -104,8 +24,8 @@ struct Transition {
     place: Place,
 }
 
-impl Bristles {
-    fn new(arc: Arc, stiffness: f64) -> Self {
+impl ElasticArc {
+    pub(super) fn new(arc: Arc, stiffness: f64) -> Self {
         let rate = (stiffness / arc.belt.stiffness).sqrt();
         Self {
             arc,
@@ -164,7 +84,7 @@ impl Bristles {
 
     /// The last coordinate at which slip can begin: where the arc ends, or where elastic friction only
     /// touches its limit.
-    fn last_transition(&self) -> Option<f64> {
+    pub(super) fn last_transition(&self) -> Option<f64> {
         let Arc { belt, sense, .. } = self.arc;
         let entered = self.arc.length / belt.stretch(self.arc.entry());
         // The belt contracts on the driver, at most to P = 0.
@@ -205,7 +125,7 @@ impl Bristles {
     }
 
     /// The load |ln(P(L)/P(0))| if slip begins at σ₁.
-    fn load(&self, coordinate: f64) -> Option<f64> {
+    pub(super) fn load(&self, coordinate: f64) -> Option<f64> {
         let transition = self.transition(coordinate)?;
         let Arc { sense, .. } = self.arc;
         let entry = self.arc.entry();
@@ -303,12 +223,12 @@ impl Bristles {
 
     /// An elastic zone.
     fn elastic(&self, length: f64, end: f64) -> Friction {
-        Friction::Elastic {
+        Friction::Developing(Law::Elastic(Elastic {
             stiffness: self.stiffness,
             rate: self.rate,
             length,
             end,
-        }
+        }))
     }
 
     /// The contact with its first zone, elastic, up to where slip begins.
@@ -326,7 +246,7 @@ impl Bristles {
     }
 
     /// The contact in which slip begins at σ₁.
-    fn slipping(&self, coordinate: f64) -> Option<Contact> {
+    pub(super) fn slipping(&self, coordinate: f64) -> Option<Contact> {
         let transition = self.transition(coordinate)?;
         let mut contact = self.contact(&transition);
         let stick = self.stick(&transition);
@@ -340,7 +260,7 @@ impl Bristles {
     }
 
     /// The contact without slip. With the load ΔP, |u(L)| = ΔP/(D w tanh(w σ(L)/2)).
-    fn all_elastic(&self) -> Option<Contact> {
+    pub(super) fn all_elastic(&self) -> Option<Contact> {
         let Arc { belt, change, .. } = self.arc;
         let end = |x: f64| change / (belt.stiffness * self.rate * (0.5 * self.rate * x).tanh());
         let beyond = |x: f64| self.arc_length(x, end(x)) - self.arc.length;
