@@ -110,6 +110,7 @@ impl PartialEq for Key {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::friction::ROWS;
     use crate::{examples, input};
 
     /// An example with overrides.
@@ -136,15 +137,35 @@ mod tests {
         ),
     ];
 
+    /// The variants, and a drive with each friction law and its parameter.
+    fn variants() -> impl Iterator<Item = (&'static str, Vec<String>)> {
+        let own = |(example, overrides): Variant| {
+            let overrides = overrides.iter().map(|text| (*text).to_owned());
+            (example, overrides.collect())
+        };
+        let laws = ROWS.into_iter().map(|row| {
+            let example = match row.in_grooves {
+                true => "kim2009",
+                false => "kim2009-flat",
+            };
+            let law = format!("friction.law={}", row.name);
+            let parameter = row.parameter.as_ref();
+            let parameter = parameter.map(|of| format!("{}={}", of.path, of.example));
+            (example, [law].into_iter().chain(parameter).collect())
+        });
+        VARIANTS.into_iter().map(own).chain(laws)
+    }
+
     #[test]
     fn every_entry_applies_to_some_drive_and_is_the_one_of_the_file() {
         let mut found = Vec::new();
-        for (example, overrides) in VARIANTS {
-            let original = drive((example, overrides));
+        for (example, overrides) in variants() {
+            let overrides: Vec<_> = overrides.iter().map(String::as_str).collect();
+            let original = drive((example, &overrides));
             for key in Key::all(&original) {
                 let value = 1.1 * key.get(&original);
                 let assignment = format!("{}={value:e}", key.path());
-                let overrides = [overrides, &[assignment.as_str()]].concat();
+                let overrides = [&overrides[..], &[assignment.as_str()]].concat();
                 let mut changed = original.clone();
                 key.set(&mut changed, value);
                 assert_eq!(changed, drive((example, &overrides)), "{assignment}");
@@ -160,8 +181,9 @@ mod tests {
     #[test]
     fn columns_carry_units_and_are_unique() {
         let mut columns = Vec::new();
-        for variant in VARIANTS {
-            columns.extend(Key::all(&drive(variant)).map(|key| key.column()));
+        for (example, overrides) in variants() {
+            let overrides: Vec<_> = overrides.iter().map(String::as_str).collect();
+            columns.extend(Key::all(&drive((example, &overrides))).map(|key| key.column()));
         }
         columns.sort_unstable();
         columns.dedup();
