@@ -131,7 +131,7 @@ fn a_drive_in_other_units_is_the_same_drive() {
             FrictionLaw::Bristle { stiffness } => FrictionLaw::Bristle {
                 stiffness: stiffness / length,
             },
-            FrictionLaw::CreepRate { .. } => unreachable!("a law for flat belts"),
+            _ => unreachable!("a law for V-belts"),
         };
         scaled.driver_radius *= length;
         scaled.driven_radius *= length;

@@ -14,6 +14,7 @@ pub(crate) use row::{Parameter, Row};
 
 /// How the friction force depends on slip. The coefficient μ is common to all laws.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum FrictionLaw {
     /// Full friction μ p against the slip velocity.
     Coulomb,
@@ -36,7 +37,7 @@ pub enum FrictionLaw {
 }
 
 /// The rows of all laws, in the order in which messages list them.
-pub(crate) const ROWS: [&Row; 4] = [&coulomb::ROW, &epp::ROW, &bristle::ROW, &creep_rate::ROW];
+pub(crate) const ROWS: &[&Row] = &[&coulomb::ROW, &epp::ROW, &bristle::ROW, &creep_rate::ROW];
 
 impl FrictionLaw {
     /// The name of the law in drive files and outputs.

@@ -19,7 +19,7 @@ pub(super) fn law(values: &Values<'_>, belt: BeltKind) -> Result<FrictionLaw, Fi
 /// The row of the law that the values name.
 pub(super) fn row(values: &Values<'_>) -> Option<&'static Row> {
     let name = values.text("friction.law")?;
-    ROWS.into_iter().find(|row| row.name == name)
+    ROWS.iter().copied().find(|row| row.name == name)
 }
 
 /// Whether a belt can have a law.
@@ -37,7 +37,8 @@ fn suits(row: &Row, belt: BeltKind, values: &Values<'_>) -> Result<(), Finding> 
         return Err(Finding::new(place, reason).expected(check::one_of(&conventions)));
     }
     let laws: Vec<_> = ROWS
-        .into_iter()
+        .iter()
+        .copied()
         .filter(|row| row.is_for(belt))
         .map(|row| row.name)
         .collect();

@@ -143,7 +143,7 @@ mod tests {
             let overrides = overrides.iter().map(|text| (*text).to_owned());
             (example, overrides.collect())
         };
-        let laws = ROWS.into_iter().map(|row| {
+        let laws = ROWS.iter().copied().map(|row| {
             let example = match row.in_grooves {
                 true => "kim2009",
                 false => "kim2009-flat",

@@ -39,7 +39,7 @@ impl Traceable {
 
 /// Every entry, in the order of the drive file.
 pub(super) static ENTRIES: LazyLock<Vec<Traceable>> = LazyLock::new(|| {
-    let parameters = ROWS.into_iter().filter_map(|row| {
+    let parameters = ROWS.iter().copied().filter_map(|row| {
         let parameter = row.parameter.as_ref()?;
         Some(Traceable {
             path: parameter.path,

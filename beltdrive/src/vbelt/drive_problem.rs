@@ -75,7 +75,7 @@ impl DriveProblem {
                 FrictionLaw::Bristle { stiffness } => Law::Bristle {
                     stiffness: stiffness * radius,
                 },
-                FrictionLaw::CreepRate { .. } => panic!("a law for V-belts was expected"),
+                _ => panic!("a law for V-belts was expected"),
             };
             Groove {
                 strand: units.strand(),

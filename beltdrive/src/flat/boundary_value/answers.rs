@@ -4,7 +4,9 @@ use super::super::index;
 use super::super::solve::refused;
 use super::place::Place;
 use super::{BoundaryValue, Failure};
-use crate::{BeltKind, Check, Drive, Profile, Pulley, SolveError, SolveOptions, Zone, solve};
+use crate::{
+    BeltKind, Check, Drive, FrictionLaw, Profile, Pulley, SolveError, SolveOptions, Zone, solve,
+};
 use bvp::Scheme;
 use std::f64::consts::FRAC_PI_2;
 
@@ -27,6 +29,16 @@ impl BoundaryValue {
         if let BeltKind::V(_) = drive.belt.kind {
             return Err(SolveError::NotModelled(
                 "this boundary value problem is that of flat belts".into(),
+            ));
+        }
+        let is_stated = matches!(
+            drive.law,
+            FrictionLaw::Coulomb | FrictionLaw::Epp { .. } | FrictionLaw::CreepRate { .. }
+        );
+        if !is_stated {
+            return Err(SolveError::NotModelled(
+                "this boundary value problem is that of coulomb, epp and creep-rate friction"
+                    .into(),
             ));
         }
         Self::solve(drive, options.tolerance, SCHEME).map_err(|failure| match failure {

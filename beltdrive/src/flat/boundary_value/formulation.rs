@@ -112,7 +112,7 @@ impl Formulation {
         let (stiffness, saturation) = match drive.law {
             FrictionLaw::Epp { stiffness } => (Some(stiffness), f64::NAN),
             FrictionLaw::CreepRate { velocity } => (None, velocity),
-            FrictionLaw::Coulomb | FrictionLaw::Bristle { .. } => (None, f64::NAN),
+            _ => (None, f64::NAN),
         };
         let units = Units::new(drive);
         let axial = drive.belt.axial_stiffness;

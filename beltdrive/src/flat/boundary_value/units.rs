@@ -42,7 +42,7 @@ impl Units {
         let (stiffness, creep) = match drive.law {
             FrictionLaw::Epp { stiffness } => (Some(stiffness), 1.0),
             FrictionLaw::CreepRate { velocity } => (None, velocity / speed),
-            FrictionLaw::Coulomb | FrictionLaw::Bristle { .. } => (None, 1.0),
+            _ => (None, 1.0),
         };
         let force = match [drive.load.slack, drive.load.tight] {
             [SpanTension::DrivenTorque(_), other] => other.value(),

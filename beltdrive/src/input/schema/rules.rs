@@ -83,7 +83,10 @@ const LAWS: [&str; ROWS.len()] = {
 
 /// Every entry, in the order in which messages list them; `*` stands for the name of a pulley.
 pub(super) static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
-    let laws = ROWS.into_iter().filter_map(|law| law.parameter.as_ref());
+    let laws = ROWS
+        .iter()
+        .copied()
+        .filter_map(|law| law.parameter.as_ref());
     let laws = laws.filter_map(|parameter| {
         let dimension = Dimension::of(parameter.measure)?;
         Some(quantity(parameter.path, parameter.example, dimension))

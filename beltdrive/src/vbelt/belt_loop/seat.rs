@@ -104,6 +104,6 @@ pub(super) fn scaled_law(law: FrictionLaw, units: Units, radius: f64) -> Law {
             unstretched: 0.0,
             weight: 1.0,
         },
-        FrictionLaw::Coulomb | FrictionLaw::CreepRate { .. } => Law::Coulomb,
+        _ => Law::Coulomb,
     }
 }
