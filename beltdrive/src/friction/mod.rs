@@ -7,7 +7,6 @@ mod bristle;
 pub(crate) mod coulomb;
 pub(crate) mod creep_rate;
 pub(crate) mod epp;
-mod kinetic;
 pub(crate) mod rim;
 mod row;
 
@@ -35,21 +34,10 @@ pub enum FrictionLaw {
         /// Slip velocity `v_s` at which friction is fully developed, m/s.
         velocity: f64,
     },
-    /// Full friction in slip is a share of that at rest; flat belts only.
-    Kinetic {
-        /// The share, above 0.
-        ratio: f64,
-    },
 }
 
 /// The rows of all laws, in the order in which messages list them.
-pub(crate) const ROWS: &[&Row] = &[
-    &coulomb::ROW,
-    &epp::ROW,
-    &bristle::ROW,
-    &creep_rate::ROW,
-    &kinetic::ROW,
-];
+pub(crate) const ROWS: &[&Row] = &[&coulomb::ROW, &epp::ROW, &bristle::ROW, &creep_rate::ROW];
 
 impl FrictionLaw {
     /// The name of the law in drive files and outputs.
@@ -74,7 +62,6 @@ impl FrictionLaw {
             Self::Epp { stiffness } => (&epp::ROW, Some(stiffness)),
             Self::Bristle { stiffness } => (&bristle::ROW, Some(stiffness)),
             Self::CreepRate { velocity } => (&creep_rate::ROW, Some(velocity)),
-            Self::Kinetic { ratio } => (&kinetic::ROW, Some(ratio)),
         }
     }
 }
