@@ -1,10 +1,10 @@
-//! How long does the steady state of a flat-belt drive take, in closed form, with its profiles and
-//! checks, and as a boundary value problem? And that of a loop of many pulleys?
+//! How long does the steady state of a flat-belt drive take, in closed form, and with its profiles and
+//! checks? And that of a loop of many pulleys?
 
 use beltdrive::belt_loop::{
     self, BeltLoop, Closure, Duty, Guide, LoopPulley, Mount, Sense, Side, Tensioner, TensionerLoad,
 };
-use beltdrive::flat::{BoundaryValue, ClosedForm};
+use beltdrive::flat::ClosedForm;
 use beltdrive::input::Key;
 use beltdrive::{
     Belt, BeltKind, Drive, FrictionLaw, NormalForce, SolveOptions, examples, input, limits, solve,
@@ -43,18 +43,6 @@ fn closed_form(criterion: &mut Criterion) {
         let (drive, name) = (drive(statement), name(statement));
         group.bench_function(name, |b| {
             b.iter(|| ClosedForm::new(black_box(&drive)).expect("a load that the drive carries"));
-        });
-    }
-    group.finish();
-}
-
-fn boundary_value(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("flat, boundary value problem");
-    let options = SolveOptions::default();
-    for statement in DRIVES {
-        let (drive, name) = (drive(statement), name(statement));
-        group.bench_function(name, |b| {
-            b.iter(|| BoundaryValue::new(black_box(&drive), &options).expect("a solution"));
         });
     }
     group.finish();
@@ -183,12 +171,5 @@ fn name((law, convention, entry): (&str, &str, &str)) -> BenchmarkId {
     BenchmarkId::new(format!("{law}, {convention}"), entry)
 }
 
-criterion::criterion_group!(
-    benches,
-    closed_form,
-    boundary_value,
-    state,
-    loops,
-    whole_range
-);
+criterion::criterion_group!(benches, closed_form, state, loops, whole_range);
 criterion::criterion_main!(benches);

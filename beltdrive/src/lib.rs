@@ -9,8 +9,7 @@
 //!   geometry of the drive, for Coulomb, elastic/perfectly-plastic and bristle friction.
 //! - A **flat belt** is a string on the rims. Its state is known in closed form, for Coulomb,
 //!   elastic/perfectly-plastic and creep-rate friction and three conventions for the normal force
-//!   ([`NormalForce`]). [`flat::ClosedForm`] gives it without profiles, [`flat::BoundaryValue`] by
-//!   another way. [`stability`](stability()) examines its axial motion.
+//!   ([`NormalForce`]). [`flat::ClosedForm`] gives it without profiles. [`stability`](stability()) examines its axial motion.
 //!
 //! Belts round any number of pulleys, with a tensioner, are a module of their own: [`belt_loop`].
 //!

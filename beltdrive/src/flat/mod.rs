@@ -10,6 +10,7 @@
 
 mod answers;
 pub(crate) mod belt_loop;
+#[cfg(test)]
 mod boundary_value;
 mod closed_form;
 mod geometry;
@@ -22,7 +23,6 @@ mod stability;
 mod state;
 mod trace;
 
-pub use boundary_value::BoundaryValue;
 pub use closed_form::ClosedForm;
 pub(crate) use limit_curve::limit_curve;
 pub(crate) use limits::limits;

@@ -5,14 +5,12 @@
 //! of zones there are on each pulley, and nothing else: lengths of zones, tensions and speeds are
 //! unknowns that start from a rough guess ([`start`]). The wrap angles are those of the open belt.
 
-mod answers;
 mod coarse;
 mod formulation;
 mod place;
 mod start;
 mod units;
 
-#[cfg(test)]
 mod tests;
 
 use place::{BorderedZone, Place};
@@ -29,7 +27,7 @@ const INTERVALS: usize = 4;
 
 /// The steady state of a flat-belt drive by collocation.
 #[derive(Clone, Debug)]
-pub struct BoundaryValue {
+pub(super) struct BoundaryValue {
     formulation: Formulation,
     solution: Solution,
 }
@@ -100,7 +98,7 @@ impl BoundaryValue {
     }
 
     /// Speed c of the unstretched belt, m/s.
-    pub fn speed(&self) -> f64 {
+    fn speed(&self) -> f64 {
         self.solution.parameters()[SPEED] * self.formulation.units.speed
     }
 
@@ -117,14 +115,9 @@ impl BoundaryValue {
     }
 
     /// Belt tension of the slack and of the tight span, N.
-    pub fn tension(&self) -> [f64; 2] {
+    fn tension(&self) -> [f64; 2] {
         let p = self.solution.parameters();
         [p[SPANS], p[SPANS + 1]].map(|tension| tension * self.formulation.units.force)
-    }
-
-    /// Radius of a pulley, m.
-    fn radius(&self, pulley: usize) -> f64 {
-        self.formulation.units.radius[pulley]
     }
 
     /// The zones of a pulley, in the order in which the belt passes them.
@@ -161,12 +154,12 @@ impl BoundaryValue {
 
     /// The largest estimated error of all states and parameters, relative to one plus their value in
     /// the units of the problem.
-    pub fn error_estimate(&self) -> Option<f64> {
+    fn error_estimate(&self) -> Option<f64> {
         self.solution.error_estimate()
     }
 
     /// What the solution has cost.
-    pub fn stats(&self) -> &Stats {
+    fn stats(&self) -> &Stats {
         self.solution.stats()
     }
 }

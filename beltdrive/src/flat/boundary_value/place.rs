@@ -12,8 +12,6 @@ pub(super) struct Place {
     pub(super) arc_length: f64,
     /// Belt tension T, N.
     pub(super) tension: f64,
-    /// Tractive tension F = T − G V, N.
-    pub(super) tractive_tension: f64,
     /// Displacement u against the rim, m.
     pub(super) displacement: f64,
     /// Normal force n per arc length, N/m.
@@ -44,7 +42,6 @@ impl BoundaryValue {
         Place {
             arc_length: y[ARC_LENGTH] * units.radius[pulley],
             tension: tension * units.force,
-            tractive_tension: problem.tractive(tension, p[SPEED]) * units.force,
             displacement: y[DISPLACEMENT] * units.displacement(pulley, kind),
             normal: problem.normal(tension, p[SPEED]) * line_load,
             friction: friction * line_load,
