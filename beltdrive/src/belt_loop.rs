@@ -1,7 +1,5 @@
 //! Belts round any number of pulleys: layout, loads, tensioner, and the steady state.
 //!
-//! A module of the library only: drive files and the command line state drives with two pulleys.
-//!
 //! A [`BeltLoop`] states the belt, the pulleys in the order in which the belt meets them, what each of
 //! them does, and one [`Closure`] that fixes how tight the belt is. [`solve`] finds its steady state, or
 //! says why there is none ([`LoopError`]). [`Layout`] is the plane geometry by itself.
@@ -108,65 +106,12 @@ pub use crate::answers::{
     LoopBranch, LoopEnd, LoopLimit, LoopLimitCurve, LoopLimitPoint, LoopLimits, LoopPoint, Refusal,
     Varied, limit_curve, limits, trace,
 };
+pub use crate::answers::{load_limit, solve, solve_to};
 pub use crate::drive::belt_loop::{
     BeltLoop, Closure, Duty, Guide, LoopPulley, Mount, Tensioner, TensionerLoad,
 };
 pub use crate::drive::layout::{Layout, LayoutError, PlacedPulley, Sense, Side, Span};
-pub use crate::flat::belt_loop::{
-    GrooveState, LoadLimit, LoadedState, LoopConvergence, LoopError, LoopState, PulleyState,
-    SpanState, TensionerState,
+pub use crate::results::loop_error::{LoadedState, LoopError};
+pub use crate::results::loop_state::{
+    GrooveState, LoadLimit, LoopConvergence, LoopState, PulleyState, SpanState, TensionerState,
 };
-
-use crate::{BeltKind, SolveOptions, flat, vbelt};
-
-/// The steady state of a belt loop, to the relative tolerance 1e-6 where it is a V-belt.
-///
-/// A loop with a flat belt is judged with Coulomb friction first: it slips grossly if it does with Coulomb
-/// friction at the same closure, whatever its friction law.
-///
-/// # Errors
-/// Those of [`LoopError`]; of several reasons the first in the order given there.
-pub fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
-    solve_to(belt_loop, &SolveOptions::default())
-}
-
-/// The steady state of a belt loop to a tolerance. Flat belts are solved in closed form, to rounding: on
-/// them the tolerance has no effect.
-///
-/// # Errors
-/// As [`solve`], and [`LoopError::Tolerance`].
-pub fn solve_to(belt_loop: &BeltLoop, options: &SolveOptions) -> Result<LoopState, LoopError> {
-    check(belt_loop, options)?;
-    match belt_loop.belt.kind {
-        BeltKind::Flat { .. } => flat::belt_loop::solve(belt_loop),
-        BeltKind::V(_) => vbelt::belt_loop::solve(belt_loop, options.tolerance),
-    }
-}
-
-/// How far all torques of a loop can be raised at the same closure: of a flat belt with Coulomb friction, as
-/// in its state; of a V-belt with its own friction law, found by raising them until no steady state carries
-/// more. `None` without torques, or if nothing ends the range.
-///
-/// # Errors
-/// As [`solve_to`].
-pub fn load_limit(
-    belt_loop: &BeltLoop,
-    options: &SolveOptions,
-) -> Result<Option<LoadLimit>, LoopError> {
-    match belt_loop.belt.kind {
-        BeltKind::Flat { .. } => solve_to(belt_loop, options).map(|state| state.load_limit),
-        BeltKind::V(_) => {
-            check(belt_loop, options)?;
-            vbelt::belt_loop::load_limit(belt_loop, options.tolerance)
-        }
-    }
-}
-
-/// Whether the statement and the options are in range.
-fn check(belt_loop: &BeltLoop, options: &SolveOptions) -> Result<(), LoopError> {
-    let tolerance = options.tolerance;
-    if !(1e-12..=1e-2).contains(&tolerance) {
-        return Err(LoopError::Tolerance { tolerance });
-    }
-    flat::belt_loop::check(belt_loop)
-}

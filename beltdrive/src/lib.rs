@@ -99,44 +99,38 @@
 mod answers;
 mod belt;
 pub mod belt_loop;
-mod branch;
-mod difficulty;
 mod drive;
 pub mod examples;
 pub mod flat;
 mod friction;
 pub mod input;
-mod limit_curve;
-mod limits;
+mod mechanics;
+mod model;
 pub mod plot;
-mod possible;
 pub mod quantity;
 pub mod report;
-mod root;
-mod solve;
-mod stability;
-mod state_summary;
-mod steady_state;
+mod results;
 mod vbelt;
-pub mod verify;
 
+pub use answers::drive::{limit_curve, limits, solve, solve_from, stability, trace};
+pub use answers::verify::{self, Verification, verify};
 pub use belt::{Belt, BeltKind, NormalForce, VBelt};
-pub use branch::{Branch, BranchEnd, BranchEvent, EventKind, TraceConvergence, TracePoint, trace};
 pub use drive::{Drive, Load, SpanTension};
 pub use friction::FrictionLaw;
-pub use limit_curve::{LimitCurve, LimitCurvePoint, limit_curve};
-pub use limits::{Limit, LimitReason, Limits, RangeEnd, limits};
-pub use possible::Impossible;
-pub use solve::{SolveError, SolveOptions, solve, solve_from};
-pub use stability::{
-    AxialMode, FormStability, LinearisedForm, Onset, PulleyStability, ShapePoint, Stability,
-    stability,
+pub use results::branch::{
+    Branch, BranchEnd, BranchEvent, EventKind, TraceConvergence, TracePoint,
 };
-pub use state_summary::{PulleyErrors, PulleySummary, StateErrors, StateSummary};
-pub use steady_state::{
+pub use results::error::{SolveError, SolveOptions};
+pub use results::limit_curve::{LimitCurve, LimitCurvePoint};
+pub use results::limits::{Limit, LimitReason, Limits, RangeEnd};
+pub use results::possible::Impossible;
+pub use results::stability::{
+    AxialMode, FormStability, LinearisedForm, Onset, PulleyStability, ShapePoint, Stability,
+};
+pub use results::state_summary::{PulleyErrors, PulleySummary, StateErrors, StateSummary};
+pub use results::steady_state::{
     Check, Convergence, Entry, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind,
 };
-pub use verify::{Verification, verify};
 
 /// The examples of the README are tests.
 #[cfg(doctest)]

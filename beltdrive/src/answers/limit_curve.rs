@@ -4,8 +4,8 @@ use super::limits::{LoopEnd, LoopLimit, limits};
 use super::members::{Refusal, Varied};
 use super::trace::INTERVALS;
 use crate::SolveOptions;
-use crate::flat::samples;
 use crate::input::{DriveFile, FileKey};
+use crate::results::branch::samples;
 
 /// The largest value of a number over a second one.
 #[derive(Clone, Debug)]

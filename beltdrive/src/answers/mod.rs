@@ -1,10 +1,15 @@
-//! What is asked of loops of pulleys: their states over a number of the drive file, and its limits.
+//! What is asked of drives: of two pulleys, of loops over a number of the drive file, and of what was
+//! published.
 
+mod belt_loop;
+pub(crate) mod drive;
 mod limit_curve;
 mod limits;
 mod members;
 mod trace;
+pub mod verify;
 
+pub use belt_loop::{load_limit, solve, solve_to};
 pub use limit_curve::{LoopLimitCurve, LoopLimitPoint, limit_curve};
 pub use limits::{LoopEnd, LoopLimit, LoopLimits, limits};
 pub use members::{Refusal, Varied};

@@ -4,8 +4,8 @@ use super::limits::LoopEnd;
 use super::members::{Member, Members, Refusal, Varied};
 use crate::SolveOptions;
 use crate::belt_loop::{BeltLoop, LoopState};
-use crate::flat::samples;
 use crate::input::DriveFile;
+use crate::results::branch::samples;
 
 /// Intervals between the states of a branch.
 pub(super) const INTERVALS: usize = 40;

@@ -2,9 +2,10 @@
 
 use super::closed_form::ClosedForm;
 use super::index;
-use super::profile::zones;
 use super::solve::refused;
-use crate::{Drive, Pulley, SolveError, SolveOptions, Zone, solve};
+use crate::answers::drive::check;
+use crate::friction::rim::profile::zones;
+use crate::{Drive, Pulley, SolveError, SolveOptions, Zone};
 
 impl ClosedForm {
     /// The steady state of a flat-belt drive.
@@ -12,7 +13,7 @@ impl ClosedForm {
     /// # Errors
     /// As [`crate::solve`], of a flat-belt drive; [`SolveError::NotModelled`] for V-belts, too.
     pub fn new(drive: &Drive) -> Result<Self, SolveError> {
-        solve::check(drive, &SolveOptions::default())?;
+        check(drive, &SolveOptions::default())?;
         if let crate::BeltKind::V(_) = drive.belt.kind {
             return Err(SolveError::NotModelled(
                 "the closed form is that of flat belts".into(),

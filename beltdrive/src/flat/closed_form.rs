@@ -4,7 +4,7 @@ use super::geometry::OpenBelt;
 use super::{DRIVEN, DRIVER};
 use crate::friction::rim::contact::{Arc, Contact};
 use crate::friction::rim::traction::Traction;
-use crate::root::bracketed;
+use crate::mechanics::root::bracketed;
 use crate::{BeltKind, Drive, LimitReason, NormalForce, Pulley, SpanTension};
 
 /// Most steps of the secant method for the belt speed, which takes three or four unless the driver all

@@ -3,8 +3,8 @@
 use super::closed_form::Refusal;
 use super::limits::{LargestLoad, largest_load};
 use super::range::{Members, boundary};
-use super::trace::samples;
 use crate::input::Key;
+use crate::results::branch::samples;
 use crate::{
     BranchEnd, Drive, LimitCurve, LimitCurvePoint, SolveError, SolveOptions, TraceConvergence,
 };

@@ -16,7 +16,7 @@ mod closed_form;
 mod geometry;
 mod limit_curve;
 mod limits;
-mod profile;
+mod model;
 mod range;
 mod solve;
 mod stability;
@@ -24,12 +24,8 @@ mod state;
 mod trace;
 
 pub use closed_form::ClosedForm;
-pub(crate) use limit_curve::limit_curve;
-pub(crate) use limits::limits;
-pub(crate) use solve::solve;
+pub(crate) use model::FlatBelts;
 pub use stability::LinearisedForm;
-pub(crate) use stability::stability;
-pub(crate) use trace::{samples, trace};
 
 use crate::Pulley;
 

@@ -1,13 +1,13 @@
 //! The closed forms against published numbers and independent computations.
 
 use super::closed_form::ClosedForm;
-use super::{DRIVEN, DRIVER, solve};
+use super::{DRIVEN, DRIVER};
 use crate::friction::epp;
 use crate::friction::rim::contact::{Arc, Contact};
 use crate::friction::rim::traction::Traction;
 use crate::{
     Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SolveOptions, SpanTension, SteadyState,
-    ZoneKind,
+    ZoneKind, solve,
 };
 use std::f64::consts::PI;
 

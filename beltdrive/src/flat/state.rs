@@ -1,13 +1,14 @@
 //! The closed form as a steady state: profiles, powers, and the invariants it has to satisfy.
 
 use super::closed_form::ClosedForm;
-use super::profile::profile;
 use super::{DRIVEN, DRIVER};
 use crate::friction::epp;
 use crate::friction::rim::contact::{Contact, Place};
+use crate::friction::rim::profile::profile;
+use crate::results::possible;
 use crate::{
     BeltKind, Check, Convergence, Drive, Entry, FrictionLaw, NormalForce, PulleyState, SteadyState,
-    Warning, possible,
+    Warning,
 };
 use web_time::Instant;
 

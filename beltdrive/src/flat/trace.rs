@@ -7,6 +7,7 @@ use super::closed_form::Refusal;
 use super::range::{End, Members, boundary};
 use super::solve::refused;
 use crate::input::Key;
+use crate::results::branch::samples;
 use crate::{
     Branch, BranchEnd, BranchEvent, Drive, EventKind, LimitReason, Pulley, PulleySummary,
     SolveError, SolveOptions, TraceConvergence, TracePoint, Zone, ZoneKind,
@@ -15,8 +16,6 @@ use web_time::Instant;
 
 /// Intervals between the samples of a branch.
 const INTERVALS: usize = 48;
-/// A range is sampled in equal ratios if its ends have a larger one.
-const WIDE: f64 = 20.0;
 /// An interval is halved, at most so often, where the speed of the driven pulley or a slip arc bends by
 /// more than a share of the speed of the driver or of the wrap.
 const DEPTH: usize = 8;
@@ -80,20 +79,6 @@ pub(super) fn branch_between(
             seconds: start.elapsed().as_secs_f64(),
             ..TraceConvergence::default()
         },
-    })
-}
-
-/// The values of a range after its first, in equal differences or ratios.
-pub(crate) fn samples([from, to]: [f64; 2], intervals: usize) -> impl Iterator<Item = f64> {
-    let ratio = to / from;
-    let is_wide = from > 0.0 && ratio.is_normal() && ratio.max(ratio.recip()) > WIDE;
-    (1..=intervals).map(move |sample| {
-        let share = sample as f64 / intervals as f64;
-        match sample {
-            _ if sample == intervals => to,
-            _ if is_wide => from * ratio.powf(share),
-            _ => from + share * (to - from),
-        }
     })
 }
 

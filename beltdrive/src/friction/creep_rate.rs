@@ -16,8 +16,8 @@ use super::rim::contact::{Arc, Contact, Place};
 use super::rim::zone::{ContactZone, Developing, Friction, Law};
 use super::row::OnRims;
 use super::{Parameter, Row};
+use crate::mechanics::root::bracketed;
 use crate::quantity::Measure;
-use crate::root::bracketed;
 use crate::{FrictionLaw, NormalForce, ZoneKind};
 
 /// Loads below this many logarithms are not told apart from none by the first guess.

@@ -6,9 +6,10 @@ use super::state::describe;
 use super::tracer::{Tracer, Until};
 use super::watched::RATIOS;
 use crate::input::Key;
+use crate::results::possible;
 use crate::{
     Branch, BranchEnd, BranchEvent, Drive, EventKind, Limit, LimitReason, Limits, RangeEnd,
-    SolveError, SolveOptions, StateErrors, StateSummary, TracePoint, possible,
+    SolveError, SolveOptions, StateErrors, StateSummary, TracePoint,
 };
 use continuation::Direction;
 use std::f64::consts::PI;

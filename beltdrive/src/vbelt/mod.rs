@@ -25,6 +25,7 @@ mod laws;
 mod limit;
 mod limit_curve;
 mod limits;
+mod model;
 mod on_pulley;
 mod path;
 mod piece;
@@ -48,10 +49,7 @@ pub(crate) use scaling::{Scales, Strand, Units};
 
 use groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 
-pub(crate) use limit_curve::limit_curve;
-pub(crate) use limits::limits;
-pub(crate) use solve::{solve, solve_from};
-pub(crate) use trace::trace;
+pub(crate) use model::VBelts;
 pub(crate) use warnings::beyond_model;
 
 /// Index of the driven pulley, which comes first.

@@ -10,7 +10,7 @@ use super::state::describe;
 use super::tracer::{Tracer, Until};
 use super::watched::{FIRST_ZONE, RATIO, RATIOS};
 use super::zones::Split;
-use crate::difficulty;
+use crate::results::difficulty;
 use crate::{BranchEnd, Drive, EventKind, FrictionLaw, Pulley};
 use bvp::{Control, Family, Scheme};
 use continuation::{Branch, Direction, Kind, Options, Point};

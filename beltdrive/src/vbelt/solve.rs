@@ -3,7 +3,8 @@
 use super::limit::Found;
 use super::path::{Path, Solved, Stuck};
 use super::state::{describe, steady_state};
-use crate::{Drive, SolveError, SolveOptions, SpanTension, SteadyState, possible};
+use crate::results::possible;
+use crate::{Drive, SolveError, SolveOptions, SpanTension, SteadyState};
 use std::mem::discriminant;
 use web_time::Instant;
 

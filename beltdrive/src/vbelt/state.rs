@@ -3,8 +3,8 @@
 use super::on_pulley::{Integrals, OnPulley, Stretch, extend};
 use super::path::{Path, Solved};
 use super::{DRIVEN, DRIVER, DriveProblem, EndAngles, Law, Regime};
-use crate::possible;
-use crate::steady_state::{Check, Convergence, PulleyState, SteadyState, Zone, ZoneKind};
+use crate::results::possible;
+use crate::results::steady_state::{Check, Convergence, PulleyState, SteadyState, Zone, ZoneKind};
 use std::sync::Arc;
 use web_time::Instant;
 

@@ -12,8 +12,8 @@
 use super::path::Solved;
 use super::piece::PieceEnd;
 use super::solve::is_crossed;
-use crate::difficulty;
 use crate::input::Key;
+use crate::results::difficulty;
 use crate::{
     BranchEnd, BranchEvent, Drive, EventKind, StateErrors, StateSummary, SteadyState,
     TraceConvergence, TracePoint,

@@ -1,13 +1,13 @@
 //! The invariants of a state, from the friction law along the contacts and from the geometry, and not from the
 //! equations that were solved.
 
-use super::error::LoopError;
-use super::state::{Contacts, LoopState};
 use crate::Check;
 use crate::drive::belt_loop::{BeltLoop, LoopPulley};
 use crate::friction::rim::contact::Contact;
 use crate::friction::rim::quadrature::integrals;
 use crate::friction::rim::zone::{ContactZone, Friction};
+use crate::results::loop_error::LoopError;
+use crate::results::loop_state::{Contacts, LoopState};
 use std::cell::Cell;
 use std::f64::consts::TAU;
 

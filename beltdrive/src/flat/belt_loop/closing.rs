@@ -3,7 +3,7 @@
 use super::running::{LOOSEST, Running, RunningBelt};
 use super::solve::Problem;
 use crate::drive::layout::Layout;
-use crate::root::{bracketed, near};
+use crate::mechanics::root::{bracketed, near};
 use crate::{FrictionLaw, NormalForce};
 
 /// Where the search for the slackest tension begins, as a share of the axial stiffness: the strain of a

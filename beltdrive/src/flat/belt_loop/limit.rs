@@ -1,13 +1,13 @@
 //! How much of its load a loop carries: the load factor limit, and gross slip.
 
 use super::closing::Closing;
-use super::error::{LoadedState, LoopError};
 use super::solve::{Loaded, Problem};
-use super::state::LoadLimit;
-use super::tensioner::equilibrium;
 use crate::FrictionLaw;
 use crate::drive::layout::Layout;
-use crate::root::bracketed;
+use crate::mechanics::root::bracketed;
+use crate::mechanics::tensioner::equilibrium;
+use crate::results::loop_error::{LoadedState, LoopError};
+use crate::results::loop_state::LoadLimit;
 
 /// Largest load factor that is tried: beyond it the torques are but rounding errors of the driver's.
 const LARGEST: f64 = 1e12;

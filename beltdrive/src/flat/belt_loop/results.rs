@@ -1,18 +1,17 @@
 //! Everything that follows from the speed and the tensions of a loop.
 
-use super::super::profile::zones;
-use super::error::LoopError;
 use super::running::RunningBelt;
 use super::solve::Rest;
-use super::state::{Contacts, LoadLimit, LoopState, PulleyState, SpanState, TensionerState};
-use super::tensioner::Held;
-use crate::Belt;
 use crate::drive::belt_loop::{BeltLoop, Duty};
 use crate::drive::layout::Layout;
+use crate::friction::rim::profile::zones;
 use crate::friction::rim::zone::Friction;
-
-/// Deflection of a span over its length, the customary one of tension gauges.
-pub(crate) const DEFLECTION: f64 = 1.0 / 64.0;
+use crate::mechanics::span::{DEFLECTION, first_frequency, rest_frequency};
+use crate::mechanics::tensioner::Held;
+use crate::results::loop_error::LoopError;
+use crate::results::loop_state::{
+    Contacts, LoadLimit, LoopState, PulleyState, SpanState, TensionerState,
+};
 
 /// A solved loop.
 pub(super) struct Found<'l> {
@@ -175,25 +174,6 @@ impl Found<'_> {
             rest_constant: rest.constant,
         })
     }
-}
-
-/// First natural frequency in Hz of a span in m as a moving string, from its tractive and its belt tension
-/// in N, the belt speed in m/s and the mass flow in kg/s: with the wave speed w² = T V/G of the belt at
-/// rest, (w² − V²)/(2 ℓ w).
-pub(crate) fn first_frequency(
-    length: f64,
-    tractive: f64,
-    tension: f64,
-    speed: f64,
-    flow: f64,
-) -> f64 {
-    tractive / (2.0 * length) * (speed / (flow * tension)).sqrt()
-}
-
-/// First natural frequency in Hz of a span in m at rest under a tension in N.
-pub(crate) fn rest_frequency(length: f64, tension: f64, belt: &Belt) -> f64 {
-    let strain = tension / belt.axial_stiffness;
-    (tension * (1.0 + strain) / belt.mass_per_length).sqrt() / (2.0 * length)
 }
 
 /// The answer.

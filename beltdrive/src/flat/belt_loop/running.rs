@@ -8,7 +8,7 @@ use crate::drive::layout::Layout;
 use crate::friction::coulomb;
 use crate::friction::rim::contact::{Arc, Contact};
 use crate::friction::rim::traction::Traction;
-use crate::root::{bracketed, near};
+use crate::mechanics::root::{bracketed, near};
 use crate::{FrictionLaw, NormalForce};
 
 /// A tension in place of 0, N: its ratio to any other is a number.

@@ -2,15 +2,15 @@
 
 use super::checks::checked;
 use super::closing::{Closing, Target};
-use super::error::LoopError;
 use super::limit::{judged, largest, load_limit, slips};
 use super::loads::Loads;
 use super::results::{Found, state};
 use super::running::RunningBelt;
-use super::state::LoopState;
-use super::tensioner::{Held, Towards, equilibrium, length_derivatives, within_travel};
 use crate::drive::belt_loop::{BeltLoop, Closure, Duty, LoopPulley};
 use crate::drive::layout::Layout;
+use crate::mechanics::tensioner::{Held, Towards, equilibrium, length_derivatives, within_travel};
+use crate::results::loop_error::LoopError;
+use crate::results::loop_state::LoopState;
 use crate::{BeltKind, FrictionLaw, NormalForce};
 
 /// Largest strain of the belt: at twice its length no belt is linear elastic, and far beyond it the length

@@ -7,8 +7,8 @@ use super::super::solve::refused;
 use super::super::{DRIVEN, DRIVER};
 use super::{AxialMotion, LinearisedForm, Spectrum, StabilityError, mode_shape, spectrum};
 use crate::input::Key;
-use crate::root::bracketed;
-use crate::stability::ROUNDING;
+use crate::mechanics::root::bracketed;
+use crate::results::stability::ROUNDING;
 use crate::{
     AxialMode, Drive, FormStability, FrictionLaw, Onset, PulleyStability, ShapePoint, SolveError,
     Stability, ZoneKind,

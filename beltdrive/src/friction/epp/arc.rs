@@ -3,7 +3,7 @@
 use super::zone::{Elastic, elastic};
 use crate::friction::rim::contact::{Arc, Contact, Place};
 use crate::friction::rim::zone::{ContactZone, Friction, Law};
-use crate::root::bracketed;
+use crate::mechanics::root::bracketed;
 use std::cell::Cell;
 
 /// An arc with elastic friction.

@@ -28,8 +28,8 @@ use super::rim::contact::{Arc, Contact};
 use super::row::OnRims;
 use super::{Parameter, Row};
 use crate::FrictionLaw;
+use crate::mechanics::root::bracketed;
 use crate::quantity::Measure;
-use crate::root::bracketed;
 use arc::ElasticArc;
 
 /// A stiffness in place of 0: it is so soft that the displacement is a parabola.

@@ -1,7 +1,7 @@
 //! Words and numbers that the reports and figures of stability share.
 
 use crate::quantity::precision::known;
-use crate::stability::ROUNDING;
+use crate::results::stability::ROUNDING;
 use crate::{AxialMode, FormStability, LinearisedForm, Pulley, PulleyStability, Stability};
 
 /// Significant digits of an eigenvalue in text.

@@ -4,7 +4,7 @@
 use super::super::path::Effort;
 use super::problem::LoopProblem;
 use super::solve::{Search, Solved};
-use crate::difficulty;
+use crate::results::difficulty;
 use bvp::{Control, Family, Options, Problem, Scheme, Solution};
 use continuation::{Branch, Direction, Kind};
 use std::f64::consts::FRAC_PI_2;

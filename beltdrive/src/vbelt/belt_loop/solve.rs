@@ -8,12 +8,12 @@ use super::problem::{LoopProblem, Target};
 use super::rest::{Cost, Known, Rest, RestProblem};
 use super::rest_guess::RestGuess;
 use super::state::state;
-use crate::difficulty;
 use crate::drive::belt_loop::{BeltLoop, Closure};
 use crate::drive::layout::Layout;
-use crate::flat::belt_loop::{
-    LoadLimit, LoopError, LoopState, Towards, equilibrium, length_derivatives, within_travel,
-};
+use crate::mechanics::tensioner::{Towards, equilibrium, length_derivatives, within_travel};
+use crate::results::difficulty;
+use crate::results::loop_error::LoopError;
+use crate::results::loop_state::{LoadLimit, LoopState};
 use bvp::{Ends, Problem, Solution};
 
 /// Shares of the load that are tried in turn from nothing; from all but the first the load is then raised.

@@ -11,9 +11,10 @@ use super::rest_guess::RestNear;
 use super::solve::{Search, Solved};
 use super::tensioner::{held, length_derivatives};
 use crate::drive::belt_loop::{Duty, Mount};
-use crate::flat::belt_loop::{
-    Contacts, DEFLECTION, GrooveState, LoopConvergence, LoopError, LoopState, PulleyState,
-    SpanState, TensionerState, first_frequency, rest_frequency,
+use crate::mechanics::span::{DEFLECTION, first_frequency, rest_frequency};
+use crate::results::loop_error::LoopError;
+use crate::results::loop_state::{
+    Contacts, GrooveState, LoopConvergence, LoopState, PulleyState, SpanState, TensionerState,
 };
 use crate::{FrictionLaw, Profile, Zone, ZoneKind};
 

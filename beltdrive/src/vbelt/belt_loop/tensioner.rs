@@ -5,7 +5,7 @@ use super::rest::{Known, Rest, RestProblem};
 use super::rest_guess::RestNear;
 use super::solve::Search;
 use crate::drive::belt_loop::{Guide, Tensioner};
-use crate::flat::belt_loop::Held;
+use crate::mechanics::tensioner::Held;
 use bvp::Real;
 
 /// Share of the tension over which the compliance of the belt is a difference.

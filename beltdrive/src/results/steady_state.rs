@@ -1,7 +1,8 @@
 //! The steady state of a drive: everything that reports, tables and figures show.
 
+use crate::results::possible;
 use crate::vbelt::Solved;
-use crate::{Drive, SolveError, possible};
+use crate::{Drive, SolveError};
 use serde::Serialize;
 use std::sync::Arc;
 

@@ -1,10 +1,7 @@
 //! A branch of steady states over one entry of the drive file.
 
 use crate::input::Key;
-use crate::{
-    BeltKind, Drive, LimitReason, Pulley, SolveError, SolveOptions, StateErrors, StateSummary,
-    ZoneKind, flat, solve, vbelt,
-};
+use crate::{Drive, LimitReason, Pulley, StateErrors, StateSummary, ZoneKind};
 use std::fmt;
 
 /// The steady states that belong together over one entry of the drive file, the parameter.
@@ -158,35 +155,6 @@ impl TraceConvergence {
     }
 }
 
-/// Traces the branch of steady states of a drive over one entry of the drive file, from the value
-/// `range[0]` to `range[1]` (SI), around limit points where there are any.
-///
-/// The branch ends where it reaches the end of the range, where it has come back by a quarter of
-/// its way behind a limit point, or where the driven pulley stands still: beyond that no state is a drive
-/// state. What happens on the way — limit points, an inclination of 90°, friction zones that vanish —
-/// is located and carries an error estimate. `progress` is called with the share of the range that is
-/// done and what is being done.
-///
-/// # Errors
-/// Those of [`solve`](crate::solve) at the beginning of the range. A branch that cannot be followed
-/// to its end is no error; its end says so.
-///
-/// # Panics
-/// If the entry is none of this drive.
-pub fn trace(
-    drive: &Drive,
-    key: &Key,
-    range: [f64; 2],
-    options: &SolveOptions,
-    progress: &mut dyn FnMut(f64, &str),
-) -> Result<Branch, SolveError> {
-    solve::check(drive, options)?;
-    match drive.belt.kind {
-        BeltKind::V(_) => vbelt::trace(drive, key, range, options, progress),
-        BeltKind::Flat { .. } => flat::trace(drive, key, range, options),
-    }
-}
-
 impl Branch {
     /// The states of the branch and of its events, in order of arclength, each with what happens
     /// there.
@@ -211,6 +179,23 @@ impl Branch {
         let fold = events.find(|event| event.kind == EventKind::LimitPoint);
         fold.map(|event| event.point.arclength)
     }
+}
+
+/// A range is sampled in equal ratios if its ends have a larger one.
+const WIDE: f64 = 20.0;
+
+/// The values of a range after its first, in equal differences or ratios.
+pub(crate) fn samples([from, to]: [f64; 2], intervals: usize) -> impl Iterator<Item = f64> {
+    let ratio = to / from;
+    let is_wide = from > 0.0 && ratio.is_normal() && ratio.max(ratio.recip()) > WIDE;
+    (1..=intervals).map(move |sample| {
+        let share = sample as f64 / intervals as f64;
+        match sample {
+            _ if sample == intervals => to,
+            _ if is_wide => from * ratio.powf(share),
+            _ => from + share * (to - from),
+        }
+    })
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! What the statement of a belt loop has to be.
 
-use super::error::LoopError;
 use crate::BeltKind;
 use crate::drive::belt_loop::{BeltLoop, Closure, Duty, Guide, Mount, Tensioner, TensionerLoad};
 use crate::drive::layout::Side;
+use crate::results::loop_error::LoopError;
 use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 

@@ -1,9 +1,8 @@
-//! Steady states of every kind of drive: a drive in, a state or the reason why there is none out.
+//! How a steady state is sought, and why there is none.
 
-use crate::difficulty;
-use crate::report::six_digits;
-use crate::{BeltKind, Check, Drive, Impossible, LimitReason, SpanTension, SteadyState};
-use crate::{flat, vbelt};
+use crate::quantity::precision::six_digits;
+use crate::results::difficulty;
+use crate::{Check, Impossible, LimitReason};
 use std::borrow::Cow;
 
 /// How a steady state is sought.
@@ -136,63 +135,4 @@ fn reached(tight: Option<f64>) -> String {
         ),
         None => "no state was found on the way".to_owned(),
     }
-}
-
-/// Finds the steady state of a drive, from nothing but the drive.
-///
-/// Every state returned satisfies its differential equations and conditions to the tolerance and
-/// has passed the checks listed in [`SteadyState::checks`].
-///
-/// # Errors
-/// [`SolveError::NoSteadyState`], [`SolveError::GrossSlip`] and [`SolveError::LiftsOff`] where the
-/// drive does not carry the load, [`SolveError::NotConverged`] where that could not be decided,
-/// [`SolveError::Violated`] if an invariant fails, [`SolveError::Tolerance`],
-/// [`SolveError::NotModelled`].
-pub fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
-    check(drive, options)?;
-    match drive.belt.kind {
-        BeltKind::V(_) => vbelt::solve(drive, options),
-        BeltKind::Flat { .. } => flat::solve(drive, options),
-    }
-}
-
-/// Finds the steady state of a drive that differs little from one that is solved, much faster than
-/// [`solve`]; where the difference turns out too great, or the friction law or the kind of belt is
-/// another one, from nothing.
-///
-/// # Errors
-/// As [`solve`].
-pub fn solve_from(
-    neighbour: &SteadyState,
-    drive: &Drive,
-    options: &SolveOptions,
-) -> Result<SteadyState, SolveError> {
-    check(drive, options)?;
-    match drive.belt.kind {
-        BeltKind::V(_) => vbelt::solve_from(neighbour, drive, options),
-        BeltKind::Flat { .. } => flat::solve(drive, options),
-    }
-}
-
-/// Whether the options are in range and there is a model of the drive.
-pub(crate) fn check(drive: &Drive, options: &SolveOptions) -> Result<(), SolveError> {
-    let tolerance = options.tolerance;
-    if !(1e-12..=1e-2).contains(&tolerance) {
-        return Err(SolveError::Tolerance { tolerance });
-    }
-    let by_torque = |span| matches!(span, SpanTension::DrivenTorque(_));
-    let torques = [drive.load.slack, drive.load.tight].map(by_torque);
-    if let Some(reason) = drive.law.row().unsuited(drive.belt.kind) {
-        return Err(SolveError::NotModelled(reason.into()));
-    }
-    let missing = match drive.belt.kind {
-        BeltKind::V(_) if torques != [false; 2] => {
-            "the load of a V-belt drive is given by both span tensions, not by a torque"
-        }
-        BeltKind::Flat { .. } if torques == [true; 2] => {
-            "one span needs a tension: both cannot follow from the driven torque"
-        }
-        _ => return Ok(()),
-    };
-    Err(SolveError::NotModelled(missing.into()))
 }

@@ -1,8 +1,8 @@
 //! The steady state of a belt loop, as it is answered.
 
-use super::super::profile::profile;
 use crate::drive::layout::Layout;
 use crate::friction::rim::contact::Contact;
+use crate::friction::rim::profile::profile;
 use crate::{Belt, Check, Profile, Zone};
 
 /// The steady state of a belt loop; lists are in belt order.

@@ -1,6 +1,6 @@
 //! What holds of every state that is shown, examined on the numbers that are shown.
 
-use crate::report::six_digits;
+use crate::quantity::precision::six_digits;
 use crate::{BeltKind, Check, Profile, Pulley, PulleyState, SteadyState};
 
 /// Share of the accuracy that a pressure may be negative by, relative to the largest one. At the ends of the

@@ -1,6 +1,6 @@
 //! The belt along a pulley as points, and its zones as angles.
 
-use crate::friction::rim::contact::{Contact, Place};
+use super::contact::{Contact, Place};
 use crate::{Belt, BeltKind, NormalForce, Profile, Zone};
 use std::f64::consts::FRAC_PI_2;
 
@@ -9,7 +9,7 @@ const POINTS: usize = 240;
 const PANEL_POINTS: usize = 4;
 
 /// The belt along a pulley of a radius in m, in SI units; `speed` is that of the unstretched belt, m/s.
-pub(super) fn profile(contact: &Contact, belt: Belt, radius: f64, speed: f64) -> Profile {
+pub(crate) fn profile(contact: &Contact, belt: Belt, radius: f64, speed: f64) -> Profile {
     let flow = belt.mass_per_length * speed;
     let thesis = BeltKind::Flat {
         normal_force: NormalForce::Thesis,
@@ -56,7 +56,7 @@ pub(super) fn profile(contact: &Contact, belt: Belt, radius: f64, speed: f64) ->
 }
 
 /// The zones of a contact with a pulley of a radius in m, in the order in which the belt passes them.
-pub(super) fn zones(contact: &Contact, radius: f64) -> Vec<Zone> {
+pub(crate) fn zones(contact: &Contact, radius: f64) -> Vec<Zone> {
     let zones = contact.zones.iter();
     zones
         .map(|zone| Zone {

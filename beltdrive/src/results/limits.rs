@@ -1,10 +1,7 @@
 //! Both ends of the range of a parameter over which a drive has steady states.
 
 use crate::input::Key;
-use crate::{
-    BeltKind, Branch, Drive, Pulley, SolveError, SolveOptions, StateErrors, StateSummary, Warning,
-    flat, solve, vbelt,
-};
+use crate::{BeltKind, Branch, Drive, Pulley, StateErrors, StateSummary, Warning, vbelt};
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
@@ -56,27 +53,6 @@ pub enum RangeEnd {
     NoLoad,
     /// The search ended at a value that the drive still carries.
     NotFound,
-}
-
-/// Finds the smallest and the largest value of an entry, such as [`Key::load`], that the
-/// drive carries, why the range ends there, and the branch between.
-///
-/// # Errors
-/// Those of [`solve`](crate::solve), if no state is found from which to search.
-///
-/// # Panics
-/// If the entry is none of this drive.
-pub fn limits(
-    drive: &Drive,
-    key: &Key,
-    options: &SolveOptions,
-    progress: &mut dyn FnMut(f64, &str),
-) -> Result<Limits, SolveError> {
-    solve::check(drive, options)?;
-    match drive.belt.kind {
-        BeltKind::V(_) => vbelt::limits(drive, key, options, progress),
-        BeltKind::Flat { .. } => flat::limits(drive, key, options),
-    }
 }
 
 impl fmt::Display for RangeEnd {

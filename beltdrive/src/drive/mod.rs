@@ -1,6 +1,7 @@
 //! A drive as its engineer describes it, in SI units.
 
 pub(crate) mod belt_loop;
+pub(crate) mod check;
 pub(crate) mod layout;
 
 use crate::{Belt, FrictionLaw};

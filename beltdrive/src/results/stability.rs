@@ -1,8 +1,8 @@
 //! The stability of the axial motion of a flat belt on its pulleys.
 
-use crate::{BeltKind, Drive, SolveError, SolveOptions, flat, solve};
+use crate::Drive;
 
-pub use flat::LinearisedForm;
+pub use crate::flat::LinearisedForm;
 
 /// Whether small axial motions of the belt about the steady state of a drive grow.
 #[derive(Clone, Debug)]
@@ -108,31 +108,5 @@ impl FormStability {
     /// The largest rate of growth Re λ among the modes, 1/s.
     pub fn largest_growth(&self) -> f64 {
         self.modes[self.least_stable].growth
-    }
-}
-
-/// Finds the lowest `modes` of the axial motion on each pulley of a flat-belt drive, whether they
-/// grow, and from which load on, in each [`LinearisedForm`] of the linearised problem. The zones of the steady
-/// state are held.
-///
-/// Every eigenvalue is found twice, by spectral elements and by Newton's method on the exact
-/// characteristic function, and all are counted by the argument principle. `progress` is called with
-/// the share of the work that is done and what is being done.
-///
-/// # Errors
-/// Those of [`solve`](crate::solve); [`SolveError::NotModelled`] for V-belts, for creep-rate friction,
-/// and where the belt sticks again behind a slip zone; [`SolveError::Stability`] where the methods
-/// disagree.
-pub fn stability(
-    drive: &Drive,
-    modes: usize,
-    progress: &mut dyn FnMut(f64, &str),
-) -> Result<Stability, SolveError> {
-    solve::check(drive, &SolveOptions::default())?;
-    match drive.belt.kind {
-        BeltKind::V(_) => Err(SolveError::NotModelled(
-            "the stability of V-belt drives is not modelled, only that of flat belts".into(),
-        )),
-        BeltKind::Flat { .. } => flat::stability(drive, modes, progress),
     }
 }

@@ -1,9 +1,9 @@
 //! The tensioner: its equilibrium, its stiffness and how well it holds the tension.
 
-use super::error::LoopError;
 use crate::drive::belt_loop::{BeltLoop, Guide, Tensioner};
 use crate::drive::layout::Layout;
-use crate::root::{bracketed, near};
+use crate::mechanics::root::{bracketed, near};
+use crate::results::loop_error::LoopError;
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 

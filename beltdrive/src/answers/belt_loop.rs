@@ -1,0 +1,50 @@
+//! What is asked of the steady state of a loop of pulleys.
+
+use crate::SolveOptions;
+use crate::belt_loop::{BeltLoop, LoadLimit, LoopError, LoopState};
+use crate::drive::check;
+use crate::model::model;
+
+/// The steady state of a belt loop, to the relative tolerance 1e-6 where it is a V-belt.
+///
+/// A loop with a flat belt is judged with Coulomb friction first: it slips grossly if it does with Coulomb
+/// friction at the same closure, whatever its friction law.
+///
+/// # Errors
+/// Those of [`LoopError`]; of several reasons the first in the order given there.
+pub fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
+    solve_to(belt_loop, &SolveOptions::default())
+}
+
+/// The steady state of a belt loop to a tolerance. Flat belts are solved in closed form, to rounding: on
+/// them the tolerance has no effect.
+///
+/// # Errors
+/// As [`solve`], and [`LoopError::Tolerance`].
+pub fn solve_to(belt_loop: &BeltLoop, options: &SolveOptions) -> Result<LoopState, LoopError> {
+    check(belt_loop, options)?;
+    model(belt_loop.belt.kind).solve_loop(belt_loop, options)
+}
+
+/// How far all torques of a loop can be raised at the same closure: of a flat belt with Coulomb friction, as
+/// in its state; of a V-belt with its own friction law, found by raising them until no steady state carries
+/// more. `None` without torques, or if nothing ends the range.
+///
+/// # Errors
+/// As [`solve_to`].
+pub fn load_limit(
+    belt_loop: &BeltLoop,
+    options: &SolveOptions,
+) -> Result<Option<LoadLimit>, LoopError> {
+    check(belt_loop, options)?;
+    model(belt_loop.belt.kind).load_limit(belt_loop, options)
+}
+
+/// Whether the statement and the options are in range.
+fn check(belt_loop: &BeltLoop, options: &SolveOptions) -> Result<(), LoopError> {
+    let tolerance = options.tolerance;
+    if !(1e-12..=1e-2).contains(&tolerance) {
+        return Err(LoopError::Tolerance { tolerance });
+    }
+    check::check(belt_loop)
+}

@@ -1,0 +1,79 @@
+//! What is asked of flat belts.
+
+use crate::belt_loop::{BeltLoop, LoadLimit, LoopError, LoopState};
+use crate::input::Key;
+use crate::model::{Model, Progress};
+use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
+
+/// Flat belts: strings on the rims, in closed form.
+pub(crate) struct FlatBelts;
+
+impl Model for FlatBelts {
+    fn solve(&self, drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
+        super::solve::solve(drive, options)
+    }
+
+    fn solve_from(
+        &self,
+        _: &SteadyState,
+        drive: &Drive,
+        options: &SolveOptions,
+    ) -> Result<SteadyState, SolveError> {
+        self.solve(drive, options)
+    }
+
+    fn trace(
+        &self,
+        drive: &Drive,
+        key: &Key,
+        range: [f64; 2],
+        options: &SolveOptions,
+        _: &mut Progress<'_>,
+    ) -> Result<Branch, SolveError> {
+        super::trace::trace(drive, key, range, options)
+    }
+
+    fn limits(
+        &self,
+        drive: &Drive,
+        key: &Key,
+        options: &SolveOptions,
+        _: &mut Progress<'_>,
+    ) -> Result<Limits, SolveError> {
+        super::limits::limits(drive, key, options)
+    }
+
+    fn limit_curve(
+        &self,
+        drive: &Drive,
+        key: &Key,
+        second: &Key,
+        range: [f64; 2],
+        options: &SolveOptions,
+        _: &mut Progress<'_>,
+    ) -> Result<LimitCurve, SolveError> {
+        super::limit_curve::limit_curve(drive, key, second, range, options)
+    }
+
+    fn stability(
+        &self,
+        drive: &Drive,
+        modes: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<Stability, SolveError> {
+        super::stability::stability(drive, modes, progress)
+    }
+
+    fn solve_loop(&self, belt_loop: &BeltLoop, _: &SolveOptions) -> Result<LoopState, LoopError> {
+        super::belt_loop::solve(belt_loop)
+    }
+
+    fn load_limit(
+        &self,
+        belt_loop: &BeltLoop,
+        options: &SolveOptions,
+    ) -> Result<Option<LoadLimit>, LoopError> {
+        self.solve_loop(belt_loop, options)
+            .map(|state| state.load_limit)
+    }
+}

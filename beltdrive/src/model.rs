@@ -1,0 +1,86 @@
+//! What a model of belts answers. A model is a folder with an implementation of [`Model`], and a line of
+//! [`model`].
+
+use crate::belt_loop::{BeltLoop, LoadLimit, LoopError, LoopState};
+use crate::input::Key;
+use crate::{
+    BeltKind, Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState,
+    flat, vbelt,
+};
+
+/// What is called with the share of the work that is done, from 0 to 1, and what is being done.
+pub(crate) type Progress<'p> = dyn FnMut(f64, &str) + 'p;
+
+/// A model of belts. Statements and options are in range.
+pub(crate) trait Model {
+    /// As [`crate::solve`].
+    fn solve(&self, drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError>;
+
+    /// As [`crate::solve_from`].
+    fn solve_from(
+        &self,
+        neighbour: &SteadyState,
+        drive: &Drive,
+        options: &SolveOptions,
+    ) -> Result<SteadyState, SolveError>;
+
+    /// As [`crate::trace`].
+    fn trace(
+        &self,
+        drive: &Drive,
+        key: &Key,
+        range: [f64; 2],
+        options: &SolveOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Branch, SolveError>;
+
+    /// As [`crate::limits`].
+    fn limits(
+        &self,
+        drive: &Drive,
+        key: &Key,
+        options: &SolveOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Limits, SolveError>;
+
+    /// As [`crate::limit_curve`].
+    fn limit_curve(
+        &self,
+        drive: &Drive,
+        key: &Key,
+        second: &Key,
+        range: [f64; 2],
+        options: &SolveOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<LimitCurve, SolveError>;
+
+    /// As [`crate::stability`].
+    fn stability(
+        &self,
+        drive: &Drive,
+        modes: usize,
+        progress: &mut Progress<'_>,
+    ) -> Result<Stability, SolveError>;
+
+    /// As [`crate::belt_loop::solve_to`].
+    fn solve_loop(
+        &self,
+        belt_loop: &BeltLoop,
+        options: &SolveOptions,
+    ) -> Result<LoopState, LoopError>;
+
+    /// As [`crate::belt_loop::load_limit`].
+    fn load_limit(
+        &self,
+        belt_loop: &BeltLoop,
+        options: &SolveOptions,
+    ) -> Result<Option<LoadLimit>, LoopError>;
+}
+
+/// The model of a kind of belt.
+pub(crate) fn model(kind: BeltKind) -> &'static dyn Model {
+    match kind {
+        BeltKind::V(_) => &vbelt::VBelts,
+        BeltKind::Flat { .. } => &flat::FlatBelts,
+    }
+}

@@ -1,0 +1,13 @@
+//! What is found of a drive: states, branches, limits, and why there are none.
+
+pub(crate) mod branch;
+pub(crate) mod difficulty;
+pub(crate) mod error;
+pub(crate) mod limit_curve;
+pub(crate) mod limits;
+pub(crate) mod loop_error;
+pub(crate) mod loop_state;
+pub(crate) mod possible;
+pub(crate) mod stability;
+pub(crate) mod state_summary;
+pub(crate) mod steady_state;

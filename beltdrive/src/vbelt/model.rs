@@ -1,0 +1,83 @@
+//! What is asked of V-belts.
+
+use crate::belt_loop::{BeltLoop, LoadLimit, LoopError, LoopState};
+use crate::input::Key;
+use crate::model::{Model, Progress};
+use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
+
+/// V-belts: strings that sink into the grooves, as boundary value problems.
+pub(crate) struct VBelts;
+
+impl Model for VBelts {
+    fn solve(&self, drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
+        super::solve::solve(drive, options)
+    }
+
+    fn solve_from(
+        &self,
+        neighbour: &SteadyState,
+        drive: &Drive,
+        options: &SolveOptions,
+    ) -> Result<SteadyState, SolveError> {
+        super::solve::solve_from(neighbour, drive, options)
+    }
+
+    fn trace(
+        &self,
+        drive: &Drive,
+        key: &Key,
+        range: [f64; 2],
+        options: &SolveOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Branch, SolveError> {
+        super::trace::trace(drive, key, range, options, progress)
+    }
+
+    fn limits(
+        &self,
+        drive: &Drive,
+        key: &Key,
+        options: &SolveOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Limits, SolveError> {
+        super::limits::limits(drive, key, options, progress)
+    }
+
+    fn limit_curve(
+        &self,
+        drive: &Drive,
+        key: &Key,
+        second: &Key,
+        range: [f64; 2],
+        options: &SolveOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<LimitCurve, SolveError> {
+        super::limit_curve::limit_curve(drive, key, second, range, options, progress)
+    }
+
+    fn stability(
+        &self,
+        _: &Drive,
+        _: usize,
+        _: &mut Progress<'_>,
+    ) -> Result<Stability, SolveError> {
+        let reason = "the stability of V-belt drives is not modelled, only that of flat belts";
+        Err(SolveError::NotModelled(reason.into()))
+    }
+
+    fn solve_loop(
+        &self,
+        belt_loop: &BeltLoop,
+        options: &SolveOptions,
+    ) -> Result<LoopState, LoopError> {
+        super::belt_loop::solve(belt_loop, options.tolerance)
+    }
+
+    fn load_limit(
+        &self,
+        belt_loop: &BeltLoop,
+        options: &SolveOptions,
+    ) -> Result<Option<LoadLimit>, LoopError> {
+        super::belt_loop::load_limit(belt_loop, options.tolerance)
+    }
+}
