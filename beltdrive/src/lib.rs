@@ -121,9 +121,9 @@ pub use results::branch::{
     Branch, BranchEnd, BranchEvent, EventKind, TraceConvergence, TracePoint,
 };
 pub use results::error::{SolveError, SolveOptions};
+pub use results::impossible::Impossible;
 pub use results::limit_curve::{LimitCurve, LimitCurvePoint};
 pub use results::limits::{Limit, LimitReason, Limits, RangeEnd};
-pub use results::possible::Impossible;
 pub use results::stability::{
     AxialMode, FormStability, LinearisedForm, Onset, PulleyStability, ShapePoint, Stability,
 };

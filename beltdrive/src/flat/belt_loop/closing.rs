@@ -1,7 +1,7 @@
 //! The running belt on pulleys at fixed places that the closure asks for.
 
+use super::problem::Problem;
 use super::running::{LOOSEST, Running, RunningBelt};
-use super::solve::Problem;
 use crate::drive::layout::Layout;
 use crate::mechanics::root::{bracketed, near};
 use crate::{FrictionLaw, NormalForce};

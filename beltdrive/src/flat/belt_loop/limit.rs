@@ -1,7 +1,7 @@
 //! How much of its load a loop carries: the load factor limit, and gross slip.
 
 use super::closing::Closing;
-use super::solve::{Loaded, Problem};
+use super::problem::{Loaded, Problem};
 use crate::FrictionLaw;
 use crate::drive::layout::Layout;
 use crate::mechanics::root::bracketed;

@@ -5,6 +5,8 @@ mod closing;
 mod elongation;
 mod limit;
 mod loads;
+mod problem;
+mod rest;
 mod results;
 mod running;
 mod solve;

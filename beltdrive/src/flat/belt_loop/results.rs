@@ -1,7 +1,7 @@
 //! Everything that follows from the speed and the tensions of a loop.
 
+use super::rest::Rest;
 use super::running::RunningBelt;
-use super::solve::Rest;
 use crate::drive::belt_loop::{BeltLoop, Duty};
 use crate::drive::layout::Layout;
 use crate::friction::rim::profile::zones;

@@ -2,7 +2,7 @@
 
 use super::elongation::{self, elongation};
 use super::loads::Loads;
-use super::solve::Problem;
+use super::problem::Problem;
 use crate::drive::belt_loop::LoopPulley;
 use crate::drive::layout::Layout;
 use crate::friction::coulomb;

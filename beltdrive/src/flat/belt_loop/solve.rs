@@ -1,17 +1,18 @@
 //! From a loop to its steady state: rest, unloaded loop, load factor limit, loaded loop.
 
 use super::checks::checked;
-use super::closing::{Closing, Target};
+use super::closing::Target;
 use super::limit::{judged, largest, load_limit, slips};
 use super::loads::Loads;
+use super::problem::{Loaded, Problem};
+use super::rest::rest_of_closure;
 use super::results::{Found, state};
 use super::running::RunningBelt;
 use crate::drive::belt_loop::{BeltLoop, Closure, Duty, LoopPulley};
-use crate::drive::layout::Layout;
-use crate::mechanics::tensioner::{Held, Towards, equilibrium, length_derivatives, within_travel};
+use crate::mechanics::tensioner::{Towards, within_travel};
 use crate::results::loop_error::LoopError;
 use crate::results::loop_state::LoopState;
-use crate::{BeltKind, FrictionLaw, NormalForce};
+use crate::{BeltKind, FrictionLaw};
 
 /// Largest strain of the belt: at twice its length no belt is linear elastic, and far beyond it the length
 /// of the unstretched belt is lost in rounding.
@@ -28,42 +29,6 @@ const POWERS: usize = 30;
 /// The slope of the torque asked for with the torque is taken from changes above this, relative, far above
 /// rounding errors; it is no more than the second number, which limits a step to ten times the change.
 const SLOPE: (f64, f64) = (1e-10, 0.9);
-
-/// The belt at rest: uniform tension, no friction.
-#[derive(Clone, Debug)]
-pub(super) struct Rest {
-    /// Coordinate of the tensioner, rad or m; without one it means nothing.
-    pub(super) coordinate: f64,
-    pub(super) layout: Layout,
-    /// Belt tension, N.
-    pub(super) tension: f64,
-    /// Length `L_0` of the unstretched belt, m.
-    pub(super) unstretched: f64,
-}
-
-/// The loop under load.
-pub(super) struct Loaded {
-    /// Coordinate of the tensioner, rad or m; without one it means nothing.
-    pub(super) coordinate: f64,
-    pub(super) layout: Layout,
-    /// The belt; `None` if it does not press on all pulleys, or not enough for elastic friction.
-    pub(super) belt: Option<RunningBelt>,
-}
-
-/// A loop with its torques and what its closure asks of the running belt.
-pub(super) struct Problem<'l> {
-    pub(super) belt_loop: &'l BeltLoop,
-    pub(super) loads: Loads,
-    pub(super) target: Target,
-    pub(super) convention: NormalForce,
-    /// Index of the driver.
-    pub(super) driver: usize,
-    /// Circumferential speed R ω of the driver, m/s.
-    pub(super) rim: f64,
-    /// Where the equilibrium of the tensioner is sought from.
-    pub(super) start: f64,
-    pub(super) towards: Towards,
-}
 
 /// The steady state of a belt loop.
 ///
@@ -235,189 +200,5 @@ fn presses(belt: &RunningBelt) -> Result<(), LoopError> {
             })
         }
         _ => Ok(()),
-    }
-}
-
-/// The belt at rest where its length or its tension at rest is given.
-fn rest_of_closure(belt_loop: &BeltLoop, start: f64) -> Result<Rest, LoopError> {
-    let axial = belt_loop.belt.axial_stiffness;
-    let (coordinate, layout) = match belt_loop.closure {
-        Closure::UnstretchedLength(length) => {
-            return rest_of_length(belt_loop, start, length);
-        }
-        Closure::SetupTension(tension) => {
-            equilibrium(belt_loop, start, Towards::Newton, "at rest", |_| {
-                Ok([tension, 0.0])
-            })?
-        }
-        Closure::RestCoordinate(_)
-        | Closure::SpanTension { .. }
-        | Closure::SpanTractiveTension { .. } => (start, belt_loop.layout(start)?),
-    };
-    let tension = match (belt_loop.closure, belt_loop.tensioner()) {
-        (Closure::RestCoordinate(_), Some((pulley, tensioner))) => {
-            let [slope, _] = length_derivatives(&layout, pulley, &tensioner.guide, coordinate);
-            tensioner.load_at(coordinate)[0] / slope
-        }
-        (Closure::SetupTension(tension), _) => tension,
-        _ => f64::NAN,
-    };
-    let unstretched = layout.length() / (1.0 + tension / axial);
-    stable_rest(
-        belt_loop,
-        Rest {
-            coordinate,
-            layout,
-            tension,
-            unstretched,
-        },
-    )
-}
-
-/// The belt of a given unstretched length at rest.
-fn rest_of_length(belt_loop: &BeltLoop, start: f64, length: f64) -> Result<Rest, LoopError> {
-    let axial = belt_loop.belt.axial_stiffness;
-    let tension = |layout: &Layout| axial * ((layout.length() - length) / length);
-    let found = equilibrium(belt_loop, start, Towards::Force, "at rest", |layout| {
-        Ok([tension(layout), axial / length])
-    });
-    let (coordinate, layout) = match found {
-        Ok(found) => found,
-        Err(error) => {
-            let tension = tension(&belt_loop.layout(start)?);
-            return Err(match tension <= 0.0 {
-                true => LoopError::Slack { tension },
-                false => error,
-            });
-        }
-    };
-    stable_rest(
-        belt_loop,
-        Rest {
-            coordinate,
-            tension: tension(&layout),
-            layout,
-            unstretched: length,
-        },
-    )
-}
-
-/// A belt at rest that is in tension, with its tensioner in a stable equilibrium.
-fn stable_rest(belt_loop: &BeltLoop, rest: Rest) -> Result<Rest, LoopError> {
-    let tension = rest.tension;
-    if tension <= 0.0 {
-        return Err(LoopError::Slack { tension });
-    }
-    let Some((pulley, tensioner)) = belt_loop.tensioner() else {
-        return Ok(rest);
-    };
-    let Rest {
-        coordinate,
-        unstretched,
-        ..
-    } = rest;
-    let carried = (pulley, tensioner);
-    let held = Held::new(
-        belt_loop,
-        carried,
-        &rest.layout,
-        coordinate,
-        tension,
-        unstretched,
-    );
-    match tension.is_finite() && held.stiffness > 0.0 {
-        true => Ok(rest),
-        false => Err(LoopError::NoEquilibrium {
-            pulley: belt_loop.pulleys[pulley].name.clone(),
-            which: "at rest",
-        }),
-    }
-}
-
-impl Problem<'_> {
-    /// Coordinate of the tensioner in the running loop without torques, whose tension is uniform; an error
-    /// if the belt lifts off.
-    fn unloaded(&self) -> Result<f64, LoopError> {
-        let belt = self.belt_loop.belt;
-        let rim = self.rim;
-        let tractive = |layout: &Layout| {
-            let strain = match self.target {
-                Target::Unstretched { length, elongation } => {
-                    let elongation = layout.length() - length + elongation;
-                    elongation / (layout.length() - elongation)
-                }
-                Target::Tension { tension, .. } => tension / belt.axial_stiffness,
-                Target::TractiveTension { tension, .. } => return tension,
-            };
-            let flow = belt.mass_per_length * rim / (1.0 + strain);
-            belt.axial_stiffness * strain - flow * rim
-        };
-        let presses = |coordinate: f64| {
-            let tractive_tension = tractive(&self.belt_loop.layout(coordinate)?);
-            match tractive_tension > 0.0 {
-                true => Ok(coordinate),
-                false => Err(LoopError::LiftsOff {
-                    tractive_tension,
-                    speed: rim,
-                    is_loaded: false,
-                }),
-            }
-        };
-        let found = equilibrium(
-            self.belt_loop,
-            self.start,
-            self.towards,
-            "without load",
-            |layout| Ok([tractive(layout), self.tension_per_length()]),
-        );
-        match found {
-            Ok((coordinate, _)) => presses(coordinate),
-            Err(error) => Err(presses(self.start).err().unwrap_or(error)),
-        }
-    }
-
-    /// The loop under its torques multiplied by a factor.
-    pub(super) fn loaded(&self, factor: f64, law: FrictionLaw) -> Result<Loaded, LoopError> {
-        let lost = LoopError::NotFound {
-            what: "tension of the running belt",
-        };
-        let pulley = self.belt_loop.tensioner().map_or(0, |(pulley, _)| pulley);
-        let (coordinate, layout) = equilibrium(
-            self.belt_loop,
-            self.start,
-            self.towards,
-            "under load",
-            |layout| {
-                let running = Closing::new(self, layout, law, factor);
-                let tractive = running.closed_tractive(pulley);
-                let tractive = tractive.map_err(|()| lost.clone())?;
-                Ok([tractive, self.tension_per_length()])
-            },
-        )?;
-        let belt = Closing::new(self, &layout, law, factor).closed();
-        Ok(Loaded {
-            coordinate,
-            belt: belt.map_err(|()| lost)?,
-            layout,
-        })
-    }
-
-    /// How fast the tension grows with the length of the loop, about, N/m.
-    pub(super) fn tension_per_length(&self) -> f64 {
-        match self.target {
-            Target::Unstretched { length, elongation } => {
-                self.belt_loop.belt.axial_stiffness / (length - elongation)
-            }
-            Target::Tension { .. } | Target::TractiveTension { .. } => 0.0,
-        }
-    }
-
-    /// The belt of a loaded loop at rest, if it presses on all pulleys.
-    fn rest_of(&self, loaded: &Loaded) -> Result<Option<Rest>, LoopError> {
-        let rest = loaded.belt.as_ref().map(|belt| {
-            let unstretched = loaded.layout.length() - belt.elongation;
-            rest_of_length(self.belt_loop, loaded.coordinate, unstretched)
-        });
-        rest.transpose()
     }
 }

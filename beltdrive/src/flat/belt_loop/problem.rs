@@ -1,0 +1,123 @@
+//! A loop with its torques: without them, and under a share of them.
+
+use super::closing::{Closing, Target};
+use super::loads::Loads;
+use super::rest::{Rest, rest_of_length};
+use super::running::RunningBelt;
+use crate::drive::belt_loop::BeltLoop;
+use crate::drive::layout::Layout;
+use crate::mechanics::tensioner::{Towards, equilibrium};
+use crate::results::loop_error::LoopError;
+use crate::{FrictionLaw, NormalForce};
+
+/// The loop under load.
+pub(super) struct Loaded {
+    /// Coordinate of the tensioner, rad or m; without one it means nothing.
+    pub(super) coordinate: f64,
+    pub(super) layout: Layout,
+    /// The belt; `None` if it does not press on all pulleys, or not enough for elastic friction.
+    pub(super) belt: Option<RunningBelt>,
+}
+
+/// A loop with its torques and what its closure asks of the running belt.
+pub(super) struct Problem<'l> {
+    pub(super) belt_loop: &'l BeltLoop,
+    pub(super) loads: Loads,
+    pub(super) target: Target,
+    pub(super) convention: NormalForce,
+    /// Index of the driver.
+    pub(super) driver: usize,
+    /// Circumferential speed R ω of the driver, m/s.
+    pub(super) rim: f64,
+    /// Where the equilibrium of the tensioner is sought from.
+    pub(super) start: f64,
+    pub(super) towards: Towards,
+}
+
+impl Problem<'_> {
+    /// Coordinate of the tensioner in the running loop without torques, whose tension is uniform; an error
+    /// if the belt lifts off.
+    pub(super) fn unloaded(&self) -> Result<f64, LoopError> {
+        let belt = self.belt_loop.belt;
+        let rim = self.rim;
+        let tractive = |layout: &Layout| {
+            let strain = match self.target {
+                Target::Unstretched { length, elongation } => {
+                    let elongation = layout.length() - length + elongation;
+                    elongation / (layout.length() - elongation)
+                }
+                Target::Tension { tension, .. } => tension / belt.axial_stiffness,
+                Target::TractiveTension { tension, .. } => return tension,
+            };
+            let flow = belt.mass_per_length * rim / (1.0 + strain);
+            belt.axial_stiffness * strain - flow * rim
+        };
+        let presses = |coordinate: f64| {
+            let tractive_tension = tractive(&self.belt_loop.layout(coordinate)?);
+            match tractive_tension > 0.0 {
+                true => Ok(coordinate),
+                false => Err(LoopError::LiftsOff {
+                    tractive_tension,
+                    speed: rim,
+                    is_loaded: false,
+                }),
+            }
+        };
+        let found = equilibrium(
+            self.belt_loop,
+            self.start,
+            self.towards,
+            "without load",
+            |layout| Ok([tractive(layout), self.tension_per_length()]),
+        );
+        match found {
+            Ok((coordinate, _)) => presses(coordinate),
+            Err(error) => Err(presses(self.start).err().unwrap_or(error)),
+        }
+    }
+
+    /// The loop under its torques multiplied by a factor.
+    pub(super) fn loaded(&self, factor: f64, law: FrictionLaw) -> Result<Loaded, LoopError> {
+        let lost = LoopError::NotFound {
+            what: "tension of the running belt",
+        };
+        let pulley = self.belt_loop.tensioner().map_or(0, |(pulley, _)| pulley);
+        let (coordinate, layout) = equilibrium(
+            self.belt_loop,
+            self.start,
+            self.towards,
+            "under load",
+            |layout| {
+                let running = Closing::new(self, layout, law, factor);
+                let tractive = running.closed_tractive(pulley);
+                let tractive = tractive.map_err(|()| lost.clone())?;
+                Ok([tractive, self.tension_per_length()])
+            },
+        )?;
+        let belt = Closing::new(self, &layout, law, factor).closed();
+        Ok(Loaded {
+            coordinate,
+            belt: belt.map_err(|()| lost)?,
+            layout,
+        })
+    }
+
+    /// How fast the tension grows with the length of the loop, about, N/m.
+    pub(super) fn tension_per_length(&self) -> f64 {
+        match self.target {
+            Target::Unstretched { length, elongation } => {
+                self.belt_loop.belt.axial_stiffness / (length - elongation)
+            }
+            Target::Tension { .. } | Target::TractiveTension { .. } => 0.0,
+        }
+    }
+
+    /// The belt of a loaded loop at rest, if it presses on all pulleys.
+    pub(super) fn rest_of(&self, loaded: &Loaded) -> Result<Option<Rest>, LoopError> {
+        let rest = loaded.belt.as_ref().map(|belt| {
+            let unstretched = loaded.layout.length() - belt.elongation;
+            rest_of_length(self.belt_loop, loaded.coordinate, unstretched)
+        });
+        rest.transpose()
+    }
+}

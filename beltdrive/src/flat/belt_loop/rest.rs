@@ -1,0 +1,118 @@
+//! The belt at rest.
+
+use crate::drive::belt_loop::{BeltLoop, Closure};
+use crate::drive::layout::Layout;
+use crate::mechanics::tensioner::{Held, Towards, equilibrium, length_derivatives};
+use crate::results::loop_error::LoopError;
+
+/// The belt at rest: uniform tension, no friction.
+#[derive(Clone, Debug)]
+pub(super) struct Rest {
+    /// Coordinate of the tensioner, rad or m; without one it means nothing.
+    pub(super) coordinate: f64,
+    pub(super) layout: Layout,
+    /// Belt tension, N.
+    pub(super) tension: f64,
+    /// Length `L_0` of the unstretched belt, m.
+    pub(super) unstretched: f64,
+}
+
+/// The belt at rest where its length or its tension at rest is given.
+pub(super) fn rest_of_closure(belt_loop: &BeltLoop, start: f64) -> Result<Rest, LoopError> {
+    let axial = belt_loop.belt.axial_stiffness;
+    let (coordinate, layout) = match belt_loop.closure {
+        Closure::UnstretchedLength(length) => {
+            return rest_of_length(belt_loop, start, length);
+        }
+        Closure::SetupTension(tension) => {
+            equilibrium(belt_loop, start, Towards::Newton, "at rest", |_| {
+                Ok([tension, 0.0])
+            })?
+        }
+        Closure::RestCoordinate(_)
+        | Closure::SpanTension { .. }
+        | Closure::SpanTractiveTension { .. } => (start, belt_loop.layout(start)?),
+    };
+    let tension = match (belt_loop.closure, belt_loop.tensioner()) {
+        (Closure::RestCoordinate(_), Some((pulley, tensioner))) => {
+            let [slope, _] = length_derivatives(&layout, pulley, &tensioner.guide, coordinate);
+            tensioner.load_at(coordinate)[0] / slope
+        }
+        (Closure::SetupTension(tension), _) => tension,
+        _ => f64::NAN,
+    };
+    let unstretched = layout.length() / (1.0 + tension / axial);
+    stable_rest(
+        belt_loop,
+        Rest {
+            coordinate,
+            layout,
+            tension,
+            unstretched,
+        },
+    )
+}
+
+/// The belt of a given unstretched length at rest.
+pub(super) fn rest_of_length(
+    belt_loop: &BeltLoop,
+    start: f64,
+    length: f64,
+) -> Result<Rest, LoopError> {
+    let axial = belt_loop.belt.axial_stiffness;
+    let tension = |layout: &Layout| axial * ((layout.length() - length) / length);
+    let found = equilibrium(belt_loop, start, Towards::Force, "at rest", |layout| {
+        Ok([tension(layout), axial / length])
+    });
+    let (coordinate, layout) = match found {
+        Ok(found) => found,
+        Err(error) => {
+            let tension = tension(&belt_loop.layout(start)?);
+            return Err(match tension <= 0.0 {
+                true => LoopError::Slack { tension },
+                false => error,
+            });
+        }
+    };
+    stable_rest(
+        belt_loop,
+        Rest {
+            coordinate,
+            tension: tension(&layout),
+            layout,
+            unstretched: length,
+        },
+    )
+}
+
+/// A belt at rest that is in tension, with its tensioner in a stable equilibrium.
+fn stable_rest(belt_loop: &BeltLoop, rest: Rest) -> Result<Rest, LoopError> {
+    let tension = rest.tension;
+    if tension <= 0.0 {
+        return Err(LoopError::Slack { tension });
+    }
+    let Some((pulley, tensioner)) = belt_loop.tensioner() else {
+        return Ok(rest);
+    };
+    let Rest {
+        coordinate,
+        unstretched,
+        ..
+    } = rest;
+    let carried = (pulley, tensioner);
+    let held = Held::new(
+        belt_loop,
+        carried,
+        &rest.layout,
+        coordinate,
+        tension,
+        unstretched,
+    );
+    match tension.is_finite() && held.stiffness > 0.0 {
+        true => Ok(rest),
+        false => Err(LoopError::NoEquilibrium {
+            pulley: belt_loop.pulleys[pulley].name.clone(),
+            which: "at rest",
+        }),
+    }
+}
