@@ -6,6 +6,8 @@ mod cases;
 mod invariants;
 #[path = "belt_loops/random.rs"]
 mod random;
+#[path = "support/random.rs"]
+mod random_numbers;
 
 use beltdrive::belt_loop::{
     BeltLoop, Closure, Duty, Guide, Layout, LayoutError, LoopError, LoopPulley, LoopState, Mount,

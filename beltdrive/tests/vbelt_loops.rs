@@ -1,10 +1,14 @@
 //! V-belts round n pulleys: against the drive with two pulleys, invariants, symmetries and random loops.
 
+#[path = "support/random.rs"]
+mod random_numbers;
+
 use beltdrive::belt_loop::{
     BeltLoop, Closure, Duty, Guide, LoopError, LoopPulley, LoopState, Mount, Sense, Side,
     Tensioner, TensionerLoad, load_limit, solve, solve_to,
 };
 use beltdrive::{Belt, BeltKind, Drive, FrictionLaw, SolveOptions, VBelt, examples, input};
+use random_numbers::Random;
 
 fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> LoopPulley {
     LoopPulley {
@@ -556,18 +560,6 @@ fn statements_out_of_range_are_refused() {
     let tolerance = SolveOptions { tolerance: 0.1 };
     let tolerance = solve_to(&accessories(Closure::SetupTension(500.0)), &tolerance);
     assert!(matches!(tolerance, Err(LoopError::Tolerance { .. })));
-}
-
-/// Numbers between 0 and 1 (Marsaglia, Xorshift RNGs, J. Stat. Softw. 8, 2003).
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        low + (high - low) * (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
 }
 
 /// Three or four pulleys; of four one presses on the back, on a spring half of the times.

@@ -25,7 +25,6 @@ mod trace;
 
 pub use closed_form::ClosedForm;
 pub(crate) use model::FlatBelts;
-pub use stability::LinearisedForm;
 
 use crate::Pulley;
 

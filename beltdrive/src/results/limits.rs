@@ -1,7 +1,8 @@
 //! Both ends of the range of a parameter over which a drive has steady states.
 
+use super::v_warnings;
 use crate::input::Key;
-use crate::{BeltKind, Branch, Drive, Pulley, StateErrors, StateSummary, Warning, vbelt};
+use crate::{BeltKind, Branch, Drive, Pulley, StateErrors, StateSummary, Warning};
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
@@ -37,7 +38,7 @@ impl Limit {
         let mut drive = drive.clone();
         key.set(&mut drive, self.value);
         match drive.belt.kind {
-            BeltKind::V(_) => vbelt::beyond_model(&drive, &self.state),
+            BeltKind::V(_) => v_warnings::beyond_model(&drive, &self.state),
             BeltKind::Flat { .. } => Vec::new(),
         }
     }

@@ -12,3 +12,4 @@ pub(crate) mod possible;
 pub(crate) mod stability;
 pub(crate) mod state_summary;
 pub(crate) mod steady_state;
+pub(crate) mod v_warnings;

@@ -2,7 +2,39 @@
 
 use crate::Drive;
 
-pub use crate::flat::LinearisedForm;
+/// A form of the linearised problem.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinearisedForm {
+    /// Slip friction changes with the elastic tension, and the belt leaves without strain:
+    ///
+    /// ```text
+    /// m λ² f + (2 m v λ + EA η) f' − D f'' + κ f = 0,   f'(L) = 0
+    /// ```
+    ///
+    /// Kim (2009), equations 69 to 74.
+    Thesis,
+    /// The same equation with the natural outlet condition of Hamilton's principle,
+    ///
+    /// ```text
+    /// D f'(L) = m v λ f(L)
+    /// ```
+    NaturalOutlet,
+    /// Slip friction changes with the normal force n = (T − G V)/R, inertia included, and the
+    /// outlet is natural. With the axial momentum flow P = D f' − m v λ f:
+    ///
+    /// ```text
+    /// m λ (λ f + v f') − P' + η P + κ f = 0,   P(L) = 0
+    /// ```
+    ///
+    /// This is the Euler-Lagrange equation of the Lagrangian density weighted by
+    /// exp(−η (s − s*)): the motion is conservative and Re λ = 0.
+    Conservative,
+}
+
+impl LinearisedForm {
+    /// Every form.
+    pub const ALL: [Self; 3] = [Self::Thesis, Self::NaturalOutlet, Self::Conservative];
+}
 
 /// Whether small axial motions of the belt about the steady state of a drive grow.
 #[derive(Clone, Debug)]

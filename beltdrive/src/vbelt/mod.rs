@@ -35,7 +35,6 @@ mod state;
 mod steps;
 mod trace;
 mod tracer;
-mod warnings;
 mod watched;
 mod zones;
 
@@ -50,7 +49,6 @@ pub(crate) use scaling::{Scales, Strand, Units};
 use groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 
 pub(crate) use model::VBelts;
-pub(crate) use warnings::beyond_model;
 
 /// Index of the driven pulley, which comes first.
 pub(crate) const DRIVEN: usize = 0;

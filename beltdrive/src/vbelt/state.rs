@@ -5,6 +5,7 @@ use super::path::{Path, Solved};
 use super::{DRIVEN, DRIVER, DriveProblem, EndAngles, Law, Regime};
 use crate::results::possible;
 use crate::results::steady_state::{Check, Convergence, PulleyState, SteadyState, Zone, ZoneKind};
+use crate::results::v_warnings;
 use std::sync::Arc;
 use web_time::Instant;
 
@@ -88,7 +89,7 @@ pub(super) fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
         restart: None,
     };
     state.checks.extend(possible::checks(&state));
-    state.warnings = super::warnings::warnings(&state);
+    state.warnings = v_warnings::warnings(&state);
     state
 }
 

@@ -2,24 +2,13 @@
 
 use super::invariants::hold;
 use super::pulley;
+use super::random_numbers::Random;
 use beltdrive::belt_loop::{
     BeltLoop, Closure, Duty, Guide, LoopError, Mount, Sense, Side, Tensioner, TensionerLoad, solve,
 };
 use beltdrive::{Belt, BeltKind, FrictionLaw, NormalForce};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
-
-/// Numbers between 0 and 1 (Marsaglia, Xorshift RNGs, J. Stat. Softw. 8, 2003).
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        low + (high - low) * (self.0 >> 11) as f64 / (1u64 << 53) as f64
-    }
-}
 
 fn random_loop(random: &mut Random) -> BeltLoop {
     let count = random.between(2.0, 10.0).floor();

@@ -37,8 +37,8 @@ mod examples;
 #[cfg(test)]
 mod tests;
 
+use crate::results::stability::LinearisedForm;
 pub(crate) use drive::stability;
-pub use motion::LinearisedForm;
 
 use motion::AxialMotion;
 use shape::mode_shape;

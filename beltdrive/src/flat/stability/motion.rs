@@ -1,5 +1,7 @@
 //! What the stability of the axial motion depends on.
 
+use crate::results::stability::LinearisedForm;
+
 /// The belt on one pulley, with the steady state about which it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct AxialMotion {
@@ -18,40 +20,6 @@ pub(crate) struct AxialMotion {
     /// Rate η at which the tension grows along the slip zone, 1/m: F' = η F with F = T − G v where
     /// the normal force is F/R. It is +μ/R on the driven pulley and −μ/R on the driver.
     pub(crate) slip_rate: f64,
-}
-
-/// A form of the linearised problem.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LinearisedForm {
-    /// Slip friction changes with the elastic tension, and the belt leaves without strain:
-    ///
-    /// ```text
-    /// m λ² f + (2 m v λ + EA η) f' − D f'' + κ f = 0,   f'(L) = 0
-    /// ```
-    ///
-    /// Kim (2009), equations 69 to 74.
-    Thesis,
-    /// The same equation with the natural outlet condition of Hamilton's principle,
-    ///
-    /// ```text
-    /// D f'(L) = m v λ f(L)
-    /// ```
-    NaturalOutlet,
-    /// Slip friction changes with the normal force n = (T − G V)/R, inertia included, and the
-    /// outlet is natural. With the axial momentum flow P = D f' − m v λ f:
-    ///
-    /// ```text
-    /// m λ (λ f + v f') − P' + η P + κ f = 0,   P(L) = 0
-    /// ```
-    ///
-    /// This is the Euler-Lagrange equation of the Lagrangian density weighted by
-    /// exp(−η (s − s*)): the motion is conservative and Re λ = 0.
-    Conservative,
-}
-
-impl LinearisedForm {
-    /// Every form.
-    pub const ALL: [Self; 3] = [Self::Thesis, Self::NaturalOutlet, Self::Conservative];
 }
 
 impl AxialMotion {

@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_2;
 const LARGE_STRETCH: f64 = 0.05;
 
 /// The remarks on a state.
-pub(super) fn warnings(state: &SteadyState) -> Vec<Warning> {
+pub(crate) fn warnings(state: &SteadyState) -> Vec<Warning> {
     let pulleys = [
         (Pulley::Driven, &state.driven),
         (Pulley::Driver, &state.driver),
