@@ -1,14 +1,13 @@
 //! `beltdrive limits`: the smallest and the largest load that a drive carries.
 
-use super::output::{Answered, Report};
+use super::output::Answered;
 use super::{common::Common, failure::Failure, origin::Origin, parameter};
 use beltdrive::belt_loop::{self, Varied};
 use beltdrive::input::{Argument, DriveFile, Key, Stated};
-use beltdrive::quantity::UnitSystem;
+use beltdrive::plot;
 use beltdrive::quantity::{self, Answer};
-use beltdrive::{plot, report};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const HELP: &str = "\
 Example:
@@ -42,7 +41,13 @@ impl Limits {
         let limits = self
             .common
             .with_progress(|progress| beltdrive::limits(&drive, &key, &options, progress))?;
-        self.common.output.write(&limits, &origin)
+        let answer = &quantity::limits::answer(&limits);
+        let draw = |directory: &Path, metadata: &str| {
+            plot::write_branch(&limits.branch, directory, Some(metadata))
+        };
+        self.common
+            .output
+            .write(&Answered { answer, draw }, &origin)
     }
 
     fn of_loop(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
@@ -72,23 +77,5 @@ impl Limits {
             plot::write_rows(&chart, "branch.svg", directory, Some(metadata))
         };
         self.common.output.write(&Answered { answer, draw }, origin)
-    }
-}
-
-impl Report for beltdrive::Limits {
-    fn table(&self, _units: UnitSystem) -> String {
-        report::limits::table(self)
-    }
-
-    fn json(&self) -> String {
-        report::limits::json(self)
-    }
-
-    fn csv(&self) -> String {
-        report::limits::csv(self)
-    }
-
-    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_branch(&self.branch, directory, Some(metadata))
     }
 }

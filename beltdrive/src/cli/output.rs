@@ -24,7 +24,7 @@ pub(super) struct Output {
     /// Draw figures into a directory
     #[arg(long, value_name = "DIR")]
     plot: Option<PathBuf>,
-    /// Units of the table for loops; a plain drive with two pulleys is shown in SI units
+    /// Units of the table
     #[arg(long, value_name = "SYSTEM", default_value = "engineering")]
     units: Units,
     /// Print neither the table nor the names of written files
@@ -77,15 +77,15 @@ where
     F: Fn(&Path, &str) -> Result<Vec<PathBuf>, plot::Error>,
 {
     fn table(&self, units: UnitSystem) -> String {
-        report::answer::table(self.answer, units)
+        report::table(self.answer, units)
     }
 
     fn json(&self) -> String {
-        report::answer::json(self.answer)
+        report::json(self.answer)
     }
 
     fn csv(&self) -> String {
-        report::answer::csv(self.answer)
+        report::csv(self.answer)
     }
 
     fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {

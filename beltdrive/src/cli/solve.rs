@@ -1,13 +1,13 @@
 //! `beltdrive solve`: the steady state of a drive.
 
-use super::output::{Answered, Report};
-use super::{common::Common, failure::Failure};
+use super::output::Answered;
+use super::{common::Common, failure::Failure, origin::Origin};
 use beltdrive::belt_loop;
 use beltdrive::input::Stated;
-use beltdrive::quantity::{Group, UnitSystem, two_pulleys};
-use beltdrive::{BeltKind, SteadyState, plot, quantity, report};
+use beltdrive::quantity::{Group, two_pulleys};
+use beltdrive::{BeltKind, SteadyState, plot, quantity};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const HELP: &str = "\
 Example:
@@ -28,10 +28,7 @@ impl Solve {
         match file.stated().map_err(Failure::usage)? {
             Stated::Drive(drive) => {
                 let state = beltdrive::solve(&drive, &self.common.options())?;
-                let groups = two_pulleys::groups(&state);
-                self.common
-                    .output
-                    .write(&SolvedDrive { state, groups }, &origin)
+                self.write_drive(&state, two_pulleys::groups(&state), &origin)
             }
             Stated::Loop(belt_loop) => {
                 let options = self.common.options();
@@ -45,10 +42,7 @@ impl Solve {
                 if let Some(drive) = two_pulleys::as_drive(&belt_loop, &state) {
                     let groups = two_pulleys::of_loop(&belt_loop, &state);
                     let state = beltdrive::solve(&drive, &options)?;
-                    return self
-                        .common
-                        .output
-                        .write(&SolvedDrive { state, groups }, &origin);
+                    return self.write_drive(&state, groups, &origin);
                 }
                 let answer = &quantity::belt_loop::answer(&belt_loop, &state);
                 let draw = |directory: &Path, metadata: &str| {
@@ -60,28 +54,17 @@ impl Solve {
             }
         }
     }
-}
 
-/// The steady state of a drive with two pulleys, and what there is to tell of it as a loop.
-struct SolvedDrive {
-    state: SteadyState,
-    groups: Vec<Group>,
-}
-
-impl Report for SolvedDrive {
-    fn table(&self, _units: UnitSystem) -> String {
-        report::table(&self.state, &self.groups)
-    }
-
-    fn json(&self) -> String {
-        report::json(&self.state, &self.groups)
-    }
-
-    fn csv(&self) -> String {
-        report::csv(&self.state)
-    }
-
-    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_all(&self.state, directory, Some(metadata))
+    /// Writes the steady state of a drive with two pulleys, and what there is to tell of it as a loop.
+    fn write_drive(
+        &self,
+        state: &SteadyState,
+        as_loop: [Group; 3],
+        origin: &Origin,
+    ) -> Result<(), Failure> {
+        let answer = &two_pulleys::answer(state, as_loop);
+        let draw =
+            |directory: &Path, metadata: &str| plot::write_all(state, directory, Some(metadata));
+        self.common.output.write(&Answered { answer, draw }, origin)
     }
 }

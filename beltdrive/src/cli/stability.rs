@@ -1,11 +1,8 @@
 //! `beltdrive stability`: whether small axial motions of a flat belt on its pulleys grow.
 
-use super::{
-    failure::Failure, origin::Origin, output::Output, output::Report, progress::with_bar,
-    read::read,
-};
-use beltdrive::quantity::UnitSystem;
-use beltdrive::{Stability, input, plot, report};
+use super::output::{Answered, Output};
+use super::{failure::Failure, origin::Origin, progress::with_bar, read::read};
+use beltdrive::{input, plot, quantity};
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
 
@@ -41,24 +38,10 @@ impl Command {
         let stability = with_bar(self.output.quiet, |progress| {
             beltdrive::stability(&drive, self.modes.into(), progress)
         })?;
-        self.output.write(&stability, &origin)
-    }
-}
-
-impl Report for Stability {
-    fn table(&self, _units: UnitSystem) -> String {
-        report::stability::table(self)
-    }
-
-    fn json(&self) -> String {
-        report::stability::json(self)
-    }
-
-    fn csv(&self) -> String {
-        report::stability::csv(self)
-    }
-
-    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_stability(self, directory, Some(metadata))
+        let answer = &quantity::stability::answer(&stability);
+        let draw = |directory: &Path, metadata: &str| {
+            plot::write_stability(&stability, directory, Some(metadata))
+        };
+        self.output.write(&Answered { answer, draw }, &origin)
     }
 }

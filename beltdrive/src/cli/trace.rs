@@ -1,14 +1,13 @@
 //! `beltdrive trace`: a branch of steady states, or of limits, over one entry of the drive file.
 
-use super::output::{Answered, Report};
+use super::output::Answered;
 use super::{common::Common, failure::Failure, origin::Origin, parameter};
 use beltdrive::belt_loop::{self, Varied};
 use beltdrive::input::{Argument, DriveFile, FileKey, Key, Stated};
 use beltdrive::quantity;
-use beltdrive::quantity::UnitSystem;
-use beltdrive::{Branch, BranchEnd, Drive, LimitCurve, plot, report};
+use beltdrive::{BranchEnd, Drive, plot};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 const HELP: &str = "\
 Example:
@@ -66,7 +65,13 @@ impl Trace {
         let branch = self
             .common
             .with_progress(|progress| beltdrive::trace(drive, &key, range, &options, progress))?;
-        self.common.output.write(&branch, origin)?;
+        let answer = &quantity::branch::answer(&branch);
+        let draw = |directory: &Path, metadata: &str| {
+            plot::write_branch(&branch, directory, Some(metadata))
+        };
+        self.common
+            .output
+            .write(&Answered { answer, draw }, origin)?;
         finished(&branch.end)
     }
 
@@ -85,7 +90,13 @@ impl Trace {
         let curve = self.common.with_progress(|progress| {
             beltdrive::limit_curve(drive, &key, &second, range, &options, progress)
         })?;
-        self.common.output.write(&curve, origin)?;
+        let answer = &quantity::limit_curve::answer(&curve);
+        let draw = |directory: &Path, metadata: &str| {
+            plot::write_limit_curve(&curve, directory, Some(metadata))
+        };
+        self.common
+            .output
+            .write(&Answered { answer, draw }, origin)?;
         finished(&curve.end)
     }
 
@@ -146,41 +157,5 @@ fn finished(end: &BranchEnd) -> Result<(), Failure> {
     match end {
         BranchEnd::NotConverged { .. } => Err(Failure::Unsolved(format!("error: {end}"))),
         _ => Ok(()),
-    }
-}
-
-impl Report for Branch {
-    fn table(&self, _units: UnitSystem) -> String {
-        report::branch::table(self)
-    }
-
-    fn json(&self) -> String {
-        report::branch::json(self)
-    }
-
-    fn csv(&self) -> String {
-        report::branch::csv(self)
-    }
-
-    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_branch(self, directory, Some(metadata))
-    }
-}
-
-impl Report for LimitCurve {
-    fn table(&self, _units: UnitSystem) -> String {
-        report::limit_curve::table(self)
-    }
-
-    fn json(&self) -> String {
-        report::limit_curve::json(self)
-    }
-
-    fn csv(&self) -> String {
-        report::limit_curve::csv(self)
-    }
-
-    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
-        plot::write_limit_curve(self, directory, Some(metadata))
     }
 }

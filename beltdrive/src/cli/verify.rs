@@ -4,7 +4,8 @@ use super::destinations::Destinations;
 use super::failure::Failure;
 use super::output::{is_stream, note, print, write_text};
 use super::progress::with_bar;
-use beltdrive::report::verification::{csv, json, markdown, table};
+use beltdrive::quantity::{UnitSystem, verification};
+use beltdrive::report::{csv, json, markdown, table};
 use beltdrive::verify::Verdict;
 use beltdrive::{Verification, verify};
 use clap::Args;
@@ -56,7 +57,8 @@ impl Verify {
         let on_stdout = self.outputs().any(|(path, _)| is_stream(path));
         let verification = with_bar(self.quiet, verify);
         if !self.quiet && !on_stdout {
-            print(&table(&verification))?;
+            let answer = verification::answer(&verification);
+            print(&table(&answer, UnitSystem::default()))?;
         }
         for (path, form) in self.outputs() {
             let written = write_text(path, &form(&verification))?;
@@ -70,9 +72,9 @@ impl Verify {
     /// The outputs asked for.
     fn outputs(&self) -> impl Iterator<Item = (&Path, Form)> {
         let outputs = [
-            (&self.json, json as Form),
+            (&self.json, (|of| json(&verification::answer(of))) as Form),
             (&self.markdown, markdown),
-            (&self.csv, csv),
+            (&self.csv, |of| csv(&verification::answer(of))),
         ];
         let asked_for = outputs.into_iter();
         asked_for.filter_map(|(path, form)| Some((path.as_deref()?, form)))

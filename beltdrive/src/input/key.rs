@@ -55,11 +55,20 @@ impl Key {
     /// The name of the entry in JSON and CSV, with its unit: the last part of its path, after the
     /// pulley where it belongs to one.
     pub fn column(&self) -> String {
-        let name = match self.path().strip_prefix("pulleys.") {
+        self.stem() + self.measure.stored().0
+    }
+
+    /// The name in JSON and CSV without its unit.
+    pub(crate) fn stem(&self) -> String {
+        match self.path().strip_prefix("pulleys.") {
             Some(name) => name.replace('.', "_"),
             None => schema::split(self.path()).1.to_owned(),
-        };
-        name + self.measure.stored().0
+        }
+    }
+
+    /// What it measures.
+    pub(crate) fn measure(&self) -> Measure {
+        self.measure
     }
 
     /// A value in SI units in the unit of reports.

@@ -10,22 +10,11 @@ use crate::{BeltKind, Check, NormalForce, Profile};
 
 /// The steady state of a loop.
 pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
-    let scale = Scale::of(state);
-    let count = state.pulleys.len();
-    let pulleys = (0..count).map(|index| pulley(belt_loop, state, index, &scale));
-    let spans = state.spans.iter().enumerate().map(|(index, span)| {
-        let names = [index, (index + 1) % count].map(|pulley| &*state.pulleys[pulley].name);
-        self::span(belt_loop, names, span, &scale)
-    });
-    let mut groups = vec![
-        single("", statement(belt_loop)),
-        list("pulleys", pulleys.collect()),
-        list("spans", spans.collect()),
-        single("loop", whole(belt_loop, state, &scale)),
-    ];
+    let mut groups = vec![single("", statement(belt_loop))];
+    groups.extend(self::groups(belt_loop, state));
     if let (Some((_, tensioner)), Some(found)) = (belt_loop.tensioner(), &state.tensioner) {
         let name = &state.pulleys[found.pulley].name;
-        let subject = self::tensioner(name, &tensioner.guide, found, &scale);
+        let subject = self::tensioner(name, &tensioner.guide, found, &Scale::of(state));
         groups.push(single("tensioner", subject));
     }
     let checks = state.checks.iter().map(check);
@@ -45,8 +34,24 @@ pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
     }
 }
 
+/// The groups `pulleys`, `spans` and `loop`.
+pub(super) fn groups(belt_loop: &BeltLoop, state: &LoopState) -> [Group; 3] {
+    let scale = Scale::of(state);
+    let count = state.pulleys.len();
+    let pulleys = (0..count).map(|index| pulley(belt_loop, state, index, &scale));
+    let spans = state.spans.iter().enumerate().map(|(index, span)| {
+        let names = [index, (index + 1) % count].map(|pulley| &*state.pulleys[pulley].name);
+        self::span(belt_loop, names, span, &scale)
+    });
+    [
+        list("pulleys", pulleys.collect()),
+        list("spans", spans.collect()),
+        single("loop", whole(belt_loop, state, &scale)),
+    ]
+}
+
 /// A verified invariant, for programs.
-fn check(check: &Check) -> Subject {
+pub(super) fn check(check: &Check) -> Subject {
     let number = |key, value| Quantity::number(key, "", Measure::Number, value, 0.0);
     Subject {
         head: String::new(),
@@ -60,9 +65,8 @@ fn check(check: &Check) -> Subject {
 
 /// How a state was found and how accurate it is.
 fn convergence(found: &LoopConvergence) -> Subject {
-    let error = |key, label, value: f64| Quantity::number(key, label, Measure::Error, value, 0.0);
-    let count =
-        |key, label, count: usize| Quantity::number(key, label, Measure::Number, count as f64, 0.5);
+    let error = |key, label, value: f64| Quantity::error(key, label, Measure::Number, value);
+    let count = Quantity::count;
     let is_regularised = found.slip_normalisation > 0.0;
     let effect = if is_regularised { "effect of ε" } else { "" };
     Subject {
@@ -384,7 +388,7 @@ fn pulley(belt_loop: &BeltLoop, state: &LoopState, index: usize, scale: &Scale) 
 }
 
 /// The belt along a pulley.
-fn along(profile: &Profile) -> [Quantity; 10] {
+pub(super) fn along(profile: &Profile) -> [Quantity; 10] {
     let series = |key, measure, values: &Vec<f64>| {
         Quantity::data(key, measure, Value::Series(values.clone()))
     };
@@ -514,10 +518,9 @@ fn whole(belt_loop: &BeltLoop, state: &LoopState, scale: &Scale) -> Subject {
                 Measure::Number,
                 f64::from(belt_loop.turning_number),
             ),
-            Quantity::data(
+            Quantity::json(
                 "crossing_spans",
-                Measure::Number,
-                Value::Indices(state.layout.crossing_spans()),
+                serde_json::json!(state.layout.crossing_spans()),
             ),
         ],
     }

@@ -40,7 +40,7 @@ pub fn limits(limits: &LoopLimits) -> Answer {
         groups: vec![
             single("", statement(&limits.smallest.point, &limits.varied)),
             Group {
-                key: "ends",
+                key: "",
                 layout: Layout::Named,
                 subjects: subjects.to_vec(),
             },

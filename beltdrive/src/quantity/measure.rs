@@ -7,8 +7,6 @@ use std::f64::consts::PI;
 pub enum Measure {
     /// A pure number.
     Number,
-    /// A relative error, of which two digits are shown.
-    Error,
     /// A share, shown in per cent.
     Share,
     /// An angle.
@@ -31,6 +29,12 @@ pub enum Measure {
     AngularSpeed,
     /// A frequency of vibration.
     Frequency,
+    /// An angular frequency of vibration.
+    AngularFrequency,
+    /// A rate of growth.
+    Growth,
+    /// A time.
+    Time,
     /// A mass flow.
     MassFlow,
     /// A mass per length.
@@ -85,7 +89,7 @@ impl Measure {
     /// The end of a key with this measure in JSON and CSV, and the factor from SI to that unit.
     pub(crate) fn stored(self) -> (&'static str, f64) {
         match self {
-            Self::Number | Self::Error | Self::Share => ("", 1.0),
+            Self::Number | Self::Share => ("", 1.0),
             Self::Angle => ("_deg", DEGREE.factor),
             Self::Length => ("_m", 1.0),
             Self::Force => ("_N", 1.0),
@@ -93,7 +97,9 @@ impl Measure {
             Self::Torque => ("_N_m", 1.0),
             Self::Power | Self::Loss => ("_W", 1.0),
             Self::Velocity => ("_m_per_s", 1.0),
-            Self::AngularSpeed => ("_rad_per_s", 1.0),
+            Self::AngularSpeed | Self::AngularFrequency => ("_rad_per_s", 1.0),
+            Self::Growth => ("_per_s", 1.0),
+            Self::Time => ("_s", 1.0),
             Self::Frequency => ("_Hz", 1.0),
             Self::MassFlow => ("_kg_per_s", 1.0),
             Self::MassPerLength => ("_kg_per_m", 1.0),
@@ -106,7 +112,7 @@ impl Measure {
     /// The unit in which a system shows it.
     pub(crate) fn shown(self, system: UnitSystem) -> Unit {
         let [si, engineering, us] = match self {
-            Self::Number | Self::Error => [unit("", 1.0); 3],
+            Self::Number => [unit("", 1.0); 3],
             Self::Share => [unit("%", 100.0); 3],
             Self::Angle => [DEGREE; 3],
             Self::Length => [unit("m", 1.0), unit("mm", 1e3), unit("in", 1.0 / INCH)],
@@ -134,6 +140,9 @@ impl Measure {
             ],
             Self::AngularSpeed => [unit("rad/s", 1.0), RPM, RPM],
             Self::Frequency => [unit("Hz", 1.0); 3],
+            Self::AngularFrequency => [unit("rad/s", 1.0); 3],
+            Self::Growth => [unit("1/s", 1.0); 3],
+            Self::Time => [unit("s", 1.0); 3],
             Self::MassFlow => [
                 unit("kg/s", 1.0),
                 unit("kg/s", 1.0),

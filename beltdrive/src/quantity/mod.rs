@@ -4,11 +4,21 @@
 //! units, a value in SI units and an error. Tables, JSON and CSV are written from it, each once, in
 //! [`crate::report`]; a new quantity is one line where the answer is described.
 
+mod as_loop;
 pub mod belt_loop;
+pub mod branch;
+pub(crate) mod events;
+pub mod limit_curve;
+pub mod limits;
 pub mod loop_range;
 mod measure;
+mod parameter;
 pub(crate) mod precision;
+mod scalars;
+pub mod stability;
 pub mod two_pulleys;
+pub(crate) mod value;
+pub mod verification;
 pub(crate) mod words;
 
 pub use measure::{Measure, UnitSystem};
@@ -31,7 +41,8 @@ pub struct Answer {
 /// Quantities of subjects of one kind, such as all pulleys.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
-    /// Key in JSON.
+    /// Key in JSON. Without one, the quantities of a single subject and named subjects stand at the top, and
+    /// all others only in tables and CSV.
     pub key: &'static str,
     /// How the subjects stand beside each other.
     pub layout: Layout,
@@ -46,16 +57,16 @@ pub enum Layout {
     Single,
     /// An array in JSON, and columns of a table.
     Columns,
-    /// An array in JSON, and rows of a table.
+    /// An array in JSON, and rows of a table. Of many rows a table leaves some out, but none with a head.
     Rows,
-    /// Each an entry of its own in JSON, under its head, and columns of a table.
+    /// An entry of an object in JSON each, under its head, and columns of a table.
     Named,
 }
 
 /// Something that has quantities: a pulley, a span, the whole loop.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Subject {
-    /// Head of its column in a table.
+    /// Head of its column in a table, and its key where it is named.
     pub head: String,
     /// Its quantities.
     pub quantities: Vec<Quantity>,
@@ -64,7 +75,7 @@ pub struct Subject {
 /// A quantity of a subject.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Quantity {
-    /// Key in JSON and CSV, without its unit.
+    /// Key in JSON and CSV, without its unit; empty for one that only people read.
     pub key: Cow<'static, str>,
     /// What it is called in a table; empty for one that only programs read.
     pub label: Cow<'static, str>,
@@ -74,40 +85,103 @@ pub struct Quantity {
     pub value: Value,
     /// Largest absolute error, SI: no table shows digits below it.
     pub error: f64,
+    /// Most significant digits in a table. One or two are those of a power of ten.
+    pub digits: u8,
 }
+
+/// Most digits of a number, of a located one, and of an error.
+const USUAL: u8 = 6;
+const LOCATED: u8 = 10;
+const OF_ERROR: u8 = 2;
 
 /// A value in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A number, if there is one.
     Number(Option<f64>),
-    /// Components along x and y, or both ends of something.
+    /// A whole number.
+    Count(usize),
+    /// Components along x and y.
     Pair([f64; 2]),
+    /// Numbers with names: an object in JSON, and a line or a column each elsewhere.
+    Parts(Vec<(&'static str, f64)>),
     /// Values along the belt.
     Series(Vec<f64>),
     /// A word or a name, if there is one.
     Word(Option<String>),
-    /// Pairs of subjects of another group, by their places in it.
-    Indices(Vec<[usize; 2]>),
     /// Subjects of its own.
     List(Vec<Subject>),
+    /// A subject of its own, if there is one: an object in JSON, and a line or a column for each of its
+    /// quantities elsewhere.
+    Object(Option<Vec<Quantity>>),
+    /// What only JSON holds, in the units that its key states.
+    Json(serde_json::Value),
 }
 
-impl Answer {
-    /// The quantities of other keys than these, for a table that has shown these already.
-    #[must_use]
-    pub fn without(groups: &[Group], keys: &[&str]) -> Self {
-        let mut groups = groups.to_vec();
-        for subject in groups.iter_mut().flat_map(|group| &mut group.subjects) {
-            subject
-                .quantities
-                .retain(|quantity| !keys.contains(&&*quantity.key));
-        }
+impl Group {
+    /// One subject.
+    pub(crate) fn single(key: &'static str, quantities: Vec<Quantity>) -> Self {
+        let subject = Subject {
+            head: String::new(),
+            quantities,
+        };
+        Self::new(key, Layout::Single, vec![subject])
+    }
+
+    /// Subjects in a layout.
+    pub(crate) fn new(key: &'static str, layout: Layout, subjects: Vec<Subject>) -> Self {
         Self {
-            groups,
-            ..Self::default()
+            key,
+            layout,
+            subjects,
         }
     }
+}
+
+impl Subject {
+    /// A subject with a head.
+    pub(crate) fn new(head: impl Into<String>, quantities: Vec<Quantity>) -> Self {
+        Self {
+            head: head.into(),
+            quantities,
+        }
+    }
+}
+
+/// Quantities with the parts and objects among them taken apart: a part or a quantity of an object has its
+/// name behind that of the whole, in keys and labels, and no label where the whole has none.
+pub(crate) fn flat(quantities: &[Quantity]) -> Vec<Quantity> {
+    let mut flat = Vec::new();
+    for whole in quantities {
+        let named = |label: String| match whole.label.is_empty() {
+            true => Cow::Borrowed(""),
+            false => label.into(),
+        };
+        match &whole.value {
+            Value::Parts(parts) => flat.extend(parts.iter().map(|(part, value)| Quantity {
+                key: format!("{part}_{}", whole.key).into(),
+                label: named(format!("{part} {}", whole.label)),
+                value: Value::Number(Some(*value)),
+                ..whole.clone()
+            })),
+            Value::Object(inner) => {
+                let inner = self::flat(inner.as_deref().unwrap_or_default());
+                flat.extend(inner.into_iter().map(|quantity| Quantity {
+                    key: match quantity.key.is_empty() {
+                        true => quantity.key,
+                        false => format!("{}_{}", whole.key, quantity.key).into(),
+                    },
+                    label: match quantity.label.is_empty() {
+                        true => quantity.label,
+                        false => named(format!("{}: {}", whole.label, quantity.label)),
+                    },
+                    ..quantity
+                }));
+            }
+            _ => flat.push(whole.clone()),
+        }
+    }
+    flat
 }
 
 impl Quantity {
@@ -125,6 +199,7 @@ impl Quantity {
             measure,
             value: Value::Number(value.into()),
             error,
+            digits: USUAL,
         }
     }
 
@@ -136,17 +211,58 @@ impl Quantity {
             measure,
             value,
             error: 0.0,
+            digits: USUAL,
         }
     }
 
     /// A word or a name.
-    pub fn word(key: &'static str, label: &'static str, word: Option<String>) -> Self {
+    pub fn word(
+        key: &'static str,
+        label: impl Into<Cow<'static, str>>,
+        word: impl Into<Option<String>>,
+    ) -> Self {
         Self {
-            key: key.into(),
             label: label.into(),
-            measure: Measure::Number,
-            value: Value::Word(word),
-            error: 0.0,
+            ..Self::data(key, Measure::Number, Value::Word(word.into()))
         }
+    }
+
+    /// A whole number.
+    pub(crate) fn count(key: &'static str, label: &'static str, count: usize) -> Self {
+        Self {
+            label: label.into(),
+            ..Self::data(key, Measure::Number, Value::Count(count))
+        }
+    }
+
+    /// An estimated error.
+    pub(crate) fn error(
+        key: &'static str,
+        label: impl Into<Cow<'static, str>>,
+        measure: Measure,
+        error: impl Into<Option<f64>>,
+    ) -> Self {
+        Self {
+            digits: OF_ERROR,
+            ..Self::number(key, label, measure, error, 0.0)
+        }
+    }
+
+    /// What only JSON holds, in the units that its key states.
+    pub(crate) fn json(key: &'static str, value: impl Into<serde_json::Value>) -> Self {
+        Self::data(key, Measure::Number, Value::Json(value.into()))
+    }
+
+    /// The same, for people only and under another name.
+    pub(crate) fn shown_as(self, label: impl Into<Cow<'static, str>>) -> Self {
+        let label = label.into();
+        let key = "".into();
+        Self { key, label, ..self }
+    }
+
+    /// The same, for programs only.
+    pub(crate) fn unlabelled(self) -> Self {
+        let label = "".into();
+        Self { label, ..self }
     }
 }

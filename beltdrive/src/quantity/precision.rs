@@ -40,27 +40,6 @@ impl Precision {
     pub(crate) fn show_against(&self, value: f64, scale: f64) -> String {
         known(value, self.error * scale.abs(), self.digits)
     }
-
-    /// As [`show_against`](Self::show_against), but without digits below a unit.
-    pub(crate) fn show_above(&self, value: f64, scale: f64, unit: f64) -> String {
-        known(value, (self.error * scale.abs()).max(unit), self.digits)
-    }
-
-    /// A value of any magnitude as a power of ten, to at most so many digits; its error is relative
-    /// to `scale`.
-    pub(crate) fn show_power(&self, value: f64, scale: f64, digits: u8) -> String {
-        if !value.is_finite() {
-            return "not known".to_owned();
-        }
-        let known = (-(self.error * scale.abs()).log10()).floor();
-        let digits = (value.abs().log10().floor() + 1.0 + known).min(f64::from(digits));
-        if value == 0.0 || digits < 1.0 {
-            return "0".to_owned();
-        }
-        #[expect(clippy::cast_possible_truncation, reason = "1 … 255, less 1")]
-        let places = digits as usize - 1;
-        format!("{value:.places$e}")
-    }
 }
 
 /// A value with the digits that an absolute error leaves, and no more than so many.
@@ -144,23 +123,6 @@ mod tests {
         assert_eq!(known(8_221.013_4, 0.004, 10.0), "8221.01");
         assert_eq!(known(8_221.013_4, 0.004, 5.0), "8221.0");
         assert_eq!(known(8_221.013_4, 2.0, 10.0), "8220");
-    }
-
-    #[test]
-    fn a_column_of_fixed_width_bounds_the_digits() {
-        let precision = precision(1e-12);
-        assert_eq!(precision.show_above(0.001_234_567, 100.0, 1e-5), "0.00123");
-        assert_eq!(precision.show_above(12.345_678_9, 100.0, 1e-5), "12.3457");
-    }
-
-    #[test]
-    fn a_power_of_ten_has_the_digits_that_are_known() {
-        let shown = |error| precision(error).show_power(-2.512_6e-7, 7e-3, 3);
-        let shown = [1e-12, 1e-6, 1e-3].map(shown);
-        assert_eq!(shown, ["-2.51e-7", "-2.5e-7", "0"]);
-        assert_eq!(precision(1e-12).show_power(8.1e7, 8.1e7, 6), "8.10000e7");
-        assert_eq!(precision(1e-12).show_power(0.0, 0.0, 6), "0");
-        assert_eq!(precision(1e-12).show_power(f64::NAN, 1.0, 6), "not known");
     }
 
     #[test]

@@ -1,277 +1,218 @@
-//! What there is to tell of a drive with two pulleys as the loop that it is.
-//!
-//! The driver stands at the origin, the driven pulley to its right, and the belt runs counter-clockwise: the
-//! slack span leaves the driver below.
+//! What there is to tell of the steady state of a drive with two pulleys.
 
-use super::belt_loop::{self, Scale, list, single};
-use super::{Group, Measure, Quantity, Subject, Value};
-use crate::belt_loop::{self as loops, BeltLoop, Closure, Duty, LoopPulley, Mount, Sense, Side};
-use crate::{BeltKind, Drive, PulleyState, SteadyState};
-use std::f64::consts::PI;
+pub use super::as_loop::{as_drive, groups, of_loop};
+use super::scalars::Scalars;
+use super::{Answer, Group, Layout, Measure, Quantity, Subject, belt_loop, words};
+use crate::{BeltKind, Convergence, Drive, PulleyState, StateSummary, SteadyState, Warning};
+use std::borrow::Cow;
 
-/// The groups `pulleys`, `spans` and `loop` of a steady state. That of a flat belt is solved again as a loop,
-/// which also tells of the belt at rest and of margins.
-pub fn groups(state: &SteadyState) -> Vec<Group> {
-    let as_loop = as_loop(state);
-    let solved = match state.drive.belt.kind {
-        BeltKind::Flat { .. } => loops::solve(&as_loop).ok(),
-        BeltKind::V(_) => None,
-    };
-    match solved {
-        Some(found) => of_loop(&as_loop, &found),
-        None => of_state(state),
+/// The steady state, with `as_loop`: the pulleys, the spans and the loop, as of any loop of pulleys.
+pub fn answer(state: &SteadyState, as_loop: [Group; 3]) -> Answer {
+    let summary = StateSummary::from(state);
+    let scalars = Scalars::of(&state.drive, &summary, 0.0, None);
+    let [mut driver, mut driven] = scalars.pulleys();
+    let zones = [&state.driver.zones, &state.driven.zones];
+    let longest = zones.map(Vec::len).into_iter().max().unwrap_or(0);
+    for (pulley, zones) in [&mut driver, &mut driven].into_iter().zip(zones) {
+        pulley.extend((0..longest).map(|place| scalars.extent(place, zones.get(place))));
     }
-}
-
-/// The groups `pulleys`, `spans` and `loop` of a drive with two pulleys that was solved as a loop.
-pub fn of_loop(belt_loop: &BeltLoop, state: &loops::LoopState) -> Vec<Group> {
-    let mut groups = belt_loop::answer(belt_loop, state).groups;
-    groups.retain(|group| ["pulleys", "spans", "loop"].contains(&group.key));
-    for group in groups.iter_mut().filter(|group| group.key == "spans") {
-        let names = ["slack span", "tight span"];
-        let first = belt_loop.driver();
-        for (place, subject) in group.subjects.iter_mut().enumerate() {
-            subject.head = names[usize::from(place != first)].to_owned();
-        }
-    }
-    // The profiles have a place of their own.
-    for subject in groups.iter_mut().flat_map(|group| &mut group.subjects) {
-        let is_series = |quantity: &Quantity| matches!(quantity.value, Value::Series(_));
-        subject.quantities.retain(|quantity| !is_series(quantity));
-    }
-    groups
-}
-
-/// The drive as a loop that is closed by its slack tension.
-fn as_loop(state: &SteadyState) -> BeltLoop {
-    let drive = &state.drive;
-    let pulley = |name: &str, x: f64, radius, duty| LoopPulley {
-        name: name.to_owned(),
-        mount: Mount::Fixed([x, 0.0]),
-        radius,
-        side: Side::Inside,
-        friction_coefficient: drive.friction_coefficient,
-        half_angle: None,
-        duty,
-    };
-    let driver = Duty::Driver(drive.driver_speed);
-    let driven = Duty::Torque(state.driven.torque);
-    BeltLoop {
-        title: drive.title.clone(),
-        belt: drive.belt,
-        law: drive.law,
-        sense: Sense::CounterClockwise,
-        turning_number: 1,
-        pulleys: vec![
-            pulley("driver", 0.0, drive.driver_radius, driver),
-            pulley("driven", drive.centre_distance, drive.driven_radius, driven),
+    let pulleys = Group::new(
+        "",
+        Layout::Named,
+        vec![
+            Subject::new("driver", driver),
+            Subject::new("driven", driven),
         ],
-        closure: Closure::SpanTractiveTension {
-            span: 0,
-            tension: state.slack_tractive_tension,
-        },
-    }
-}
-
-/// The drive with two pulleys that a loop in a known state is, closed by its tractive tensions: if there are
-/// no more than two pulleys with the belt round both on the same side and one coefficient of friction, and
-/// the second one takes power.
-pub fn as_drive(belt_loop: &BeltLoop, state: &loops::LoopState) -> Option<Drive> {
-    let [one, other] = &belt_loop.pulleys[..] else {
-        return None;
-    };
-    let driver = belt_loop.driver();
-    let [first, second] = if driver == 0 {
-        [one, other]
-    } else {
-        [other, one]
-    };
-    let (Mount::Fixed(here), Mount::Fixed(there)) = (first.mount, second.mount) else {
-        return None;
-    };
-    let is_plain = one.side == Side::Inside
-        && other.side == Side::Inside
-        && one.friction_coefficient == other.friction_coefficient
-        && one.half_angle.is_none()
-        && other.half_angle.is_none();
-    let Duty::Driver(driver_speed) = first.duty else {
-        return None;
-    };
-    let [slack, tight] = [driver, 1 - driver].map(|span| state.spans[span].tractive_tension);
-    (is_plain && slack <= tight).then(|| Drive {
-        title: belt_loop.title.clone(),
-        belt: belt_loop.belt,
-        friction_coefficient: one.friction_coefficient,
-        law: belt_loop.law,
-        driver_radius: first.radius,
-        driver_speed,
-        driven_radius: second.radius,
-        centre_distance: (there[0] - here[0]).hypot(there[1] - here[1]),
-        load: crate::Load {
-            slack: crate::SpanTension::Tractive(slack),
-            tight: crate::SpanTension::Tractive(tight),
-        },
-    })
-}
-
-/// The groups as the state itself has them.
-fn of_state(state: &SteadyState) -> Vec<Group> {
-    let convergence = &state.convergence;
-    let error = convergence.error_estimate;
-    let scale = Scale {
-        error: error.max(convergence.slip_normalisation_effect),
-        tension: state.tight_tension,
-        speed: state.mass_flow / state.drive.belt.mass_per_length,
-    };
-    let drive = &state.drive;
-    let directions = directions(state);
-    let tractive = [state.slack_tractive_tension, state.tight_tractive_tension];
-    // Of the force with which the belt pulls, from its exit span and against its entry span.
-    let hub = |leaving: usize| {
-        let arriving = 1 - leaving;
-        let part = |of: fn(f64) -> f64| {
-            tractive[leaving] * of(directions[leaving])
-                - tractive[arriving] * of(directions[arriving])
-        };
-        [part(f64::cos), part(f64::sin)]
-    };
-    let pulley = |name: &str, of: &PulleyState, x: f64, radius: f64, hub_load: [f64; 2]| {
-        let torque = scale.tension * radius;
-        let power = of.torque * of.angular_speed;
-        let [magnitude, direction] = belt_loop::polar(hub_load);
-        let sign = if name == "driver" { -1.0 } else { 1.0 };
-        let angle = |key, label, value| scale.against(key, label, Measure::Angle, value, 1.0);
-        let speed = scale.relative(
-            "angular_speed",
-            "speed",
-            Measure::AngularSpeed,
-            of.angular_speed,
-        );
-        Subject {
-            head: name.to_owned(),
-            quantities: vec![
-                Quantity::word("name", "", Some(name.to_owned())),
-                Quantity::data("centre", Measure::Length, Value::Pair([x, 0.0])),
-                Quantity::data("radius", Measure::Length, Value::Number(Some(radius))),
-                speed,
-                scale.against(
-                    "torque",
-                    "torque",
-                    Measure::Torque,
-                    sign * of.torque,
-                    torque,
-                ),
-                scale.against(
-                    "power",
-                    "power",
-                    Measure::Power,
-                    sign * power,
-                    scale.tension * scale.speed,
-                ),
-                angle("wrap_angle", "wrap angle", of.wrap_angle),
-                Quantity::data("hub_load", Measure::Force, Value::Pair(hub_load)),
-                scale.against(
-                    "hub_load_magnitude",
-                    "hub load",
-                    Measure::Force,
-                    magnitude,
-                    scale.tension,
-                ),
-                angle("hub_load_direction", "  direction from x", direction),
-            ],
-        }
-    };
-    let span = |from: &str, to: &str, index: usize, tension: f64, length: f64| {
-        let speed = scale.speed * (1.0 + tension / drive.belt.axial_stiffness);
-        let wave = (speed / (state.mass_flow * tension)).sqrt();
-        let force =
-            |key, label, value| scale.against(key, label, Measure::Force, value, scale.tension);
-        Subject {
-            head: from.to_owned(),
-            quantities: vec![
-                Quantity::word("from_pulley", "", Some(from.to_owned())),
-                Quantity::word("to_pulley", "span from there to", Some(to.to_owned())),
-                force("tension", "belt tension T", tension),
-                force("tractive_tension", "tractive tension F", tractive[index]),
-                scale.relative("length", "length", Measure::Length, length),
-                scale.against(
-                    "direction",
-                    "",
-                    Measure::Angle,
-                    directions[index].rem_euclid(2.0 * PI),
-                    1.0,
-                ),
-                scale.relative("speed", "", Measure::Velocity, speed),
-                scale.relative(
-                    "frequency",
-                    "first frequency",
-                    Measure::Frequency,
-                    tractive[index] / (2.0 * length) * wave,
-                ),
-            ],
-        }
-    };
-    let powers = [&state.driver, &state.driven].map(|of| of.torque * of.angular_speed);
-    let power = scale.tension * scale.speed;
-    let whole = Subject {
-        head: String::new(),
-        quantities: vec![
-            scale.relative(
-                "belt_length_unstretched",
-                "belt length, unstretched",
-                Measure::Length,
-                state.belt_length,
-            ),
-            scale.relative("mass_flow", "mass flow", Measure::MassFlow, state.mass_flow),
-            scale.against("power_in", "power in", Measure::Power, powers[0], power),
-            scale.against("power_out", "power out", Measure::Power, powers[1], power),
-            scale.against(
-                "power_loss",
-                "friction loss",
-                Measure::Loss,
-                state.friction_loss,
-                power,
-            ),
-            scale.against(
-                "efficiency",
-                "efficiency",
-                Measure::Share,
-                state.efficiency,
-                1.0,
-            ),
-        ],
-    };
-    let driver = pulley("driver", &state.driver, 0.0, drive.driver_radius, hub(0));
-    let distance = drive.centre_distance;
-    let driven = pulley(
-        "driven",
-        &state.driven,
-        distance,
-        drive.driven_radius,
-        hub(1),
     );
-    let mut slack = span("driver", "driven", 0, state.slack_tension, state.slack_span);
-    let mut tight = span("driven", "driver", 1, state.tight_tension, state.tight_span);
-    slack.head = "slack span".to_owned();
-    tight.head = "tight span".to_owned();
+    // Those of the spans are shown with the spans.
+    let of_spans = ["slack_span", "tight_span", "tension", "tractive_tension"];
+    let whole = scalars.whole().into_iter().chain(scalars.tensions());
+    let whole = whole.map(|quantity| match of_spans.contains(&&*quantity.key) {
+        true => quantity.unlabelled(),
+        false => quantity,
+    });
+    let whole = Group::single("", whole.collect());
+    let [mut of_pulleys, of_spans, mut of_loop] = as_loop;
+    hide(&mut of_pulleys, &pulleys);
+    hide(&mut of_loop, &whole);
+    let warnings = state.warnings.iter().map(warning).collect();
+    let checks = state.checks.iter().map(belt_loop::check).collect();
+    let convergence = convergence(&state.drive, &state.convergence);
+    Answer {
+        heading: words::title(&state.drive, &[]),
+        remarks: state.warnings.iter().map(words::warning).collect(),
+        groups: vec![
+            Group::single("", statement(&state.drive)),
+            pulleys,
+            of_pulleys,
+            of_spans,
+            whole,
+            of_loop,
+            Group::new("profiles", Layout::Named, profiles(state)),
+            Group::new("warnings", Layout::Columns, warnings),
+            Group::new("checks", Layout::Columns, checks),
+            Group::single("convergence", convergence),
+        ],
+        notes: state.checks.iter().map(words::check).collect(),
+    }
+}
+
+/// Leaves what another group shows under the same label to programs.
+fn hide(group: &mut Group, shown: &Group) {
+    let shown = shown
+        .subjects
+        .iter()
+        .flat_map(|subject| &subject.quantities);
+    let labels: Vec<_> = shown.map(|quantity| &quantity.label).collect();
+    for quantity in group
+        .subjects
+        .iter_mut()
+        .flat_map(|subject| &mut subject.quantities)
+    {
+        if labels.contains(&&quantity.label) {
+            quantity.label = Cow::Borrowed("");
+        }
+    }
+}
+
+/// What was asked, for programs.
+pub(super) fn statement(drive: &Drive) -> Vec<Quantity> {
+    let word = |key, word: &str| Quantity::word(key, "", word.to_owned());
+    let mut statement = vec![Quantity::word("title", "", drive.title.clone())];
+    match drive.belt.kind {
+        BeltKind::V(_) => statement.push(word("belt_type", "v")),
+        BeltKind::Flat { normal_force } => {
+            statement.extend([
+                word("belt_type", "flat"),
+                word("normal_force", normal_force.name()),
+            ]);
+        }
+    }
+    statement.push(word("friction_law", drive.law.name()));
+    statement
+}
+
+/// How the normal force of a flat belt follows from its tension, in a row.
+pub(super) fn convention(drive: &Drive) -> Option<Quantity> {
+    match drive.belt.kind {
+        BeltKind::V(_) => None,
+        BeltKind::Flat { normal_force } => {
+            let name = normal_force.name().to_owned();
+            Some(Quantity::word("normal_force", "", name))
+        }
+    }
+}
+
+/// The belt along both pulleys.
+fn profiles(state: &SteadyState) -> Vec<Subject> {
+    let profile = |name: &str, pulley: &PulleyState| {
+        let mut quantities = vec![Quantity::word("pulley", "", name.to_owned())];
+        quantities.extend(belt_loop::along(&pulley.profile));
+        quantities.extend(convention(&state.drive));
+        Subject::new(name, quantities)
+    };
     vec![
-        list("pulleys", vec![driver, driven]),
-        list("spans", vec![slack, tight]),
-        single("loop", whole),
+        profile("driver", &state.driver),
+        profile("driven", &state.driven),
     ]
 }
 
-/// Directions of the slack and of the tight span, rad from x: of the tangent to circles of radius R cos θ with
-/// the inclinations θ of the belt where it leaves and where it arrives.
-fn directions(state: &SteadyState) -> [f64; 2] {
-    let drive = &state.drive;
-    let radius =
-        |radius: f64, pulley: &PulleyState, end: usize| radius * pulley.inclination[end].cos();
-    let driver = |end| radius(drive.driver_radius, &state.driver, end);
-    let driven = |end| radius(drive.driven_radius, &state.driven, end);
-    let turned = |q: f64| (q / drive.centre_distance).asin();
+/// A remark on the validity of a state, for programs.
+pub(super) fn warning(remark: &Warning) -> Subject {
+    let number = |key, measure, value| Quantity::number(key, "", measure, value, 0.0);
+    let mut quantities = match *remark {
+        Warning::Overhang {
+            pulley,
+            inclination,
+        } => vec![
+            Quantity::word("kind", "", "overhang".to_owned()),
+            Quantity::word("pulley", "", words::pulley(pulley).to_owned()),
+            number("inclination", Measure::Angle, inclination),
+        ],
+        Warning::LargeStrain { strain } | Warning::LargeStretch { strain } => vec![
+            Quantity::word("kind", "", "large strain".to_owned()),
+            number("strain", Measure::Number, strain),
+        ],
+        Warning::Sunk {
+            pulley,
+            penetration,
+            height,
+        } => vec![
+            Quantity::word("kind", "", "belt height".to_owned()),
+            Quantity::word("pulley", "", words::pulley(pulley).to_owned()),
+            number("penetration", Measure::Length, penetration),
+            number("height", Measure::Length, height),
+        ],
+    };
+    quantities.push(Quantity::word("message", "", words::warning(remark)));
+    Subject::new("", quantities)
+}
+
+/// How a state was found and how accurate it is.
+fn convergence(drive: &Drive, found: &Convergence) -> Vec<Quantity> {
+    let is_v = is_v(drive);
+    let of_v = |label: &'static str| if is_v { label } else { "" };
+    let error = |key, label, value: f64| Quantity::error(key, label, Measure::Number, value);
+    let is_regularised = found.slip_normalisation > 0.0;
+    let effect = format!("effect of ε = {:.1e}", found.slip_normalisation);
+    let meshes = ["mesh intervals, driver", "  driven"]
+        .into_iter()
+        .zip(found.mesh_intervals);
+    let mut quantities = Vec::from_iter(closed_form(drive));
+    quantities.extend([
+        error("tolerance", of_v("relative tolerance"), found.tolerance),
+        error("error_estimate", "estimated error", found.error_estimate),
+        error("defect", of_v("largest defect"), found.defect),
+        error("slip_normalisation", "", found.slip_normalisation),
+        Quantity::error(
+            "slip_normalisation_effect",
+            if is_regularised {
+                effect
+            } else {
+                String::new()
+            },
+            Measure::Number,
+            found.slip_normalisation_effect,
+        ),
+        Quantity::json("mesh_intervals", found.mesh_intervals.to_vec()),
+    ]);
+    quantities.extend(meshes.map(|(label, count)| Quantity::count("", of_v(label), count)));
+    quantities.extend([
+        Quantity::count(
+            "newton_iterations",
+            of_v("Newton steps"),
+            found.newton_iterations,
+        ),
+        Quantity::count("rhs_evaluations", "", found.rhs_evaluations),
+        Quantity::count("factorisations", "", found.factorisations),
+        Quantity::count("continuation_steps", "", found.continuation_steps),
+    ]);
+    quantities.extend(time(found.seconds));
+    quantities
+}
+
+/// Says of a flat belt how it is solved.
+pub(super) fn closed_form(drive: &Drive) -> Option<Quantity> {
+    let method = || Quantity::word("", "method", "closed form".to_owned());
+    (!is_v(drive)).then(method)
+}
+
+/// A time by the clock.
+pub(super) fn time(seconds: f64) -> [Quantity; 2] {
+    let shown = Quantity {
+        digits: TIME_DIGITS,
+        ..Quantity::number("", "time", Measure::Time, seconds, 0.0)
+    };
     [
-        -turned(driven(0) - driver(1)),
-        PI - turned(driver(0) - driven(1)),
+        Quantity::number("seconds", "", Measure::Number, seconds, 0.0),
+        shown,
     ]
+}
+
+/// Digits of a time: it varies from run to run.
+const TIME_DIGITS: u8 = 3;
+
+/// Whether the belt is a V-belt.
+pub(super) fn is_v(drive: &Drive) -> bool {
+    matches!(drive.belt.kind, BeltKind::V(_))
 }

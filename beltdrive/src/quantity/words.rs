@@ -2,7 +2,8 @@
 
 use super::precision::six_digits;
 use super::{Measure, UnitSystem};
-use crate::{BeltKind, Check, FrictionLaw, NormalForce};
+use crate::input::Key;
+use crate::{BeltKind, Check, Drive, FrictionLaw, NormalForce, Pulley, Warning, Zone, ZoneKind};
 
 /// A friction law in words, with its parameters and a coefficient that is the same for all pulleys; what
 /// varies has no value.
@@ -47,5 +48,160 @@ pub(crate) fn convention(belt: BeltKind) -> Option<&'static str> {
             NormalForce::Inertia => "normal force n = (T − G V)/R",
             NormalForce::Exact => "normal force n = (T − G V)/R, finite strain",
         }),
+    }
+}
+
+/// The title of a drive on one line, or what it is when it has no title.
+pub(crate) fn heading(drive: &Drive) -> String {
+    let words = drive
+        .title
+        .iter()
+        .flat_map(|title| title.split_whitespace());
+    let words: Vec<_> = words.collect();
+    match (words.is_empty(), drive.belt.kind) {
+        (false, _) => words.join(" "),
+        (true, BeltKind::V(_)) => "Two-pulley V-belt drive".to_owned(),
+        (true, BeltKind::Flat { .. }) => "Two-pulley flat-belt drive".to_owned(),
+    }
+}
+
+/// The heading of a drive, then its friction law and, for a flat belt, how the normal force follows from the
+/// tension; what varies has no value.
+pub(crate) fn title(drive: &Drive, varied: &[Key]) -> Vec<String> {
+    let convention = convention(drive.belt.kind);
+    let convention = convention.map_or_else(String::new, |words| format!(", {words}"));
+    vec![heading(drive), law_of(drive, varied) + &convention]
+}
+
+/// The friction law of a drive in words, with its parameters; what varies has no value.
+pub(crate) fn law_of(drive: &Drive, varied: &[Key]) -> String {
+    let paths: Vec<_> = varied.iter().map(Key::path).collect();
+    law(drive.law, Some(drive.friction_coefficient), &paths)
+}
+
+/// What a warning tells the user, on one line.
+pub(crate) fn warning(warning: &Warning) -> String {
+    match warning {
+        Warning::Overhang {
+            pulley,
+            inclination,
+        } => format!(
+            "the belt overhangs itself on the {}: inclination {:.2}° exceeds 90°, not a usable design",
+            pulley.name(),
+            inclination.to_degrees()
+        ),
+        Warning::LargeStrain { strain } => format!(
+            "the belt is stretched by {:.2} %, too much for small strains: choose \
+             normal_force=\"exact\"",
+            100.0 * strain
+        ),
+        Warning::LargeStretch { strain } => format!(
+            "the belt is stretched by {} %, more than the model stands for: check the tensions and \
+             axial_stiffness",
+            six_digits(100.0 * strain)
+        ),
+        Warning::Sunk {
+            pulley,
+            penetration,
+            height,
+        } => format!(
+            "the belt sinks into the groove of the {} by {:.2} mm, more than its height of {} mm: not a \
+             usable design",
+            pulley.name(),
+            1e3 * penetration,
+            six_digits(1e3 * height)
+        ),
+    }
+}
+
+/// The word for a pulley in columns, JSON and CSV.
+pub(crate) fn pulley(pulley: Pulley) -> &'static str {
+    match pulley {
+        Pulley::Driven => "driven",
+        Pulley::Driver => "driver",
+    }
+}
+
+/// The sum of the slip zones of a pulley, rad.
+pub(crate) fn slip_arc(zones: &[Zone]) -> f64 {
+    let slip = zones.iter().filter(|zone| zone.kind == ZoneKind::Slip);
+    // A sum of nothing is a negative zero.
+    0.0 + slip.map(|zone| zone.to - zone.from).sum::<f64>()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::{sample, sample_flat};
+
+    #[test]
+    fn heading_is_one_line() {
+        let mut drive = sample::loaded().drive;
+        drive.title = Some("two\n lines ".to_owned());
+        assert_eq!(heading(&drive), "two lines");
+        drive.title = Some("  ".to_owned());
+        assert_eq!(heading(&drive), "Two-pulley V-belt drive");
+    }
+
+    #[test]
+    fn the_title_states_the_convention_of_a_flat_belt() {
+        assert_eq!(title(&sample::loaded().drive, &[]).len(), 2);
+        let mut drive = sample_flat::epp().drive;
+        drive.title = None;
+        let lines = title(&drive, &[]);
+        assert_eq!(lines[0], "Two-pulley flat-belt drive");
+        let law = "elastic/perfectly-plastic friction, μ = 0.6, k_f = 5e7 N/m²";
+        assert_eq!(lines[1], format!("{law}, normal force n = (T − G V)/R"));
+        let normal_force = NormalForce::Exact;
+        drive.belt.kind = BeltKind::Flat { normal_force };
+        let lines = title(&drive, &[]);
+        assert_eq!(
+            lines[1],
+            format!("{law}, normal force n = (T − G V)/R, finite strain")
+        );
+        drive.law = FrictionLaw::Coulomb;
+        assert!(title(&drive, &[])[1].ends_with("finite strain"));
+    }
+
+    #[test]
+    fn laws_state_their_parameters() {
+        let mut drive = sample::loaded().drive;
+        drive.law = FrictionLaw::Coulomb;
+        assert_eq!(law_of(&drive, &[]), "Coulomb friction, μ = 0.4");
+        drive.law = FrictionLaw::Bristle { stiffness: 1620.0 };
+        assert_eq!(
+            law_of(&drive, &[]),
+            "bristle friction, μ = 0.4, κ = 1620 1/m"
+        );
+        drive.law = FrictionLaw::Epp { stiffness: 8.1e6 };
+        assert!(law_of(&drive, &[]).ends_with("k_f = 8.1e6 N/m²"));
+        let mut keys = Key::all(&drive);
+        let coefficient = keys.find(|key| key.path() == "friction.coefficient");
+        let text = law_of(&drive, &[coefficient.unwrap()]);
+        assert!(text.contains("μ varied, k_f = 8.1e6 N/m²"), "{text}");
+    }
+
+    #[test]
+    fn only_slip_zones_count() {
+        let zone = |kind, from, to| Zone { kind, from, to };
+        let zones = [
+            zone(ZoneKind::Slip, 0.0, 0.5),
+            zone(ZoneKind::Elastic, 0.5, 2.0),
+            zone(ZoneKind::Slip, 2.0, 3.0),
+        ];
+        assert_eq!(slip_arc(&zones), 1.5);
+        assert_eq!(slip_arc(&zones[1..2]).to_string(), "0");
+    }
+
+    #[test]
+    fn every_convention_is_told_from_the_others() {
+        let mut drive = sample_flat::epp().drive;
+        let mut words = NormalForce::ALL.map(|normal_force| {
+            drive.belt.kind = BeltKind::Flat { normal_force };
+            convention(drive.belt.kind).unwrap()
+        });
+        words.sort_unstable();
+        assert!(words.windows(2).all(|pair| pair[0] != pair[1]), "{words:?}");
+        assert_eq!(convention(sample::loaded().drive.belt.kind), None);
     }
 }

@@ -1,20 +1,10 @@
 //! Lines of a table for a terminal.
 
 /// No line of a table is wider.
-pub(super) const WIDTH: usize = 100;
+pub(crate) const WIDTH: usize = 100;
 
 /// The indentation of what is folded, where nothing else is said.
 const INDENT: usize = 4;
-
-/// Two values side by side.
-pub(super) fn row(label: &str, [left, right]: [String; 2], unit: &str) -> String {
-    format!("{label:<26}{left:>28}{right:>28}  {unit}")
-}
-
-/// One value.
-pub(super) fn single(label: &str, value: String, unit: &str) -> String {
-    format!("{label:<26}{value:>28}  {unit}")
-}
 
 /// Blocks of lines as a text, parted by empty lines; blocks without lines are left out.
 pub(super) fn text(blocks: impl IntoIterator<Item = Vec<String>>) -> String {
@@ -56,11 +46,6 @@ pub(crate) fn folded(line: &str, width: usize, indent: usize) -> Vec<String> {
     }
     lines.push(rest.into_iter().collect());
     lines
-}
-
-/// A small number such as an error, with two digits.
-pub(super) fn small(value: f64) -> String {
-    format!("{value:.1e}")
 }
 
 #[cfg(test)]

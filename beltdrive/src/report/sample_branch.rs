@@ -3,9 +3,8 @@
 use super::sample;
 use crate::input::Key;
 use crate::{
-    Branch, BranchEnd, BranchEvent, EventKind, Limit, LimitCurve, LimitCurvePoint, LimitReason,
-    Limits, Pulley, PulleyErrors, RangeEnd, StateErrors, StateSummary, TraceConvergence,
-    TracePoint,
+    Branch, BranchEnd, BranchEvent, EventKind, LimitCurve, LimitCurvePoint, LimitReason, Pulley,
+    PulleyErrors, StateErrors, StateSummary, TraceConvergence, TracePoint,
 };
 
 /// Tight tension at the limit point, N, and where on the branch of arclength 1 it lies.
@@ -36,33 +35,6 @@ pub(crate) fn folded() -> Branch {
             factorisations: 181,
             seconds: 0.42,
         },
-    }
-}
-
-/// The range of the load of the same drive.
-pub(crate) fn limits() -> Limits {
-    let limit = |reason, at| {
-        let BranchEvent {
-            point,
-            value_error,
-            errors,
-            ..
-        } = event(EventKind::LimitPoint, at);
-        Limit {
-            value: point.value,
-            value_error,
-            reason,
-            state: point.state,
-            errors,
-        }
-    };
-    let mut branch = folded();
-    branch.points.retain(|point| point.arclength <= FOLD);
-    branch.events.truncate(3);
-    Limits {
-        smallest: limit(RangeEnd::NoLoad, 0.0),
-        largest: limit(RangeEnd::Limit(LimitReason::Overhang), FOLD),
-        branch,
     }
 }
 

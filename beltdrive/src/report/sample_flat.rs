@@ -3,9 +3,8 @@
 
 use crate::{
     Belt, BeltKind, Branch, BranchEnd, BranchEvent, Check, Convergence, Drive, Entry, EventKind,
-    FrictionLaw, Limit, LimitCurve, LimitReason, Limits, Load, NormalForce, Profile, Pulley,
-    PulleyState, RangeEnd, SpanTension, StateSummary, SteadyState, TraceConvergence, TracePoint,
-    Zone, ZoneKind,
+    FrictionLaw, LimitCurve, LimitReason, Load, NormalForce, Profile, Pulley, PulleyState,
+    SpanTension, StateSummary, SteadyState, TraceConvergence, TracePoint, Zone, ZoneKind,
 };
 use crate::{input::Key, report::sample_branch};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -73,25 +72,6 @@ pub(crate) fn branch() -> Branch {
             seconds: 0.002,
             ..TraceConvergence::default()
         },
-    }
-}
-
-/// The range of the tight tension of the same drive.
-pub(crate) fn limits() -> Limits {
-    let limit = |reason, at| {
-        let point = point(at);
-        Limit {
-            value: point.value,
-            value_error: Some(1e-9),
-            reason,
-            state: point.state,
-            errors: None,
-        }
-    };
-    Limits {
-        branch: branch(),
-        smallest: limit(RangeEnd::NoLoad, 0.0),
-        largest: limit(RangeEnd::Limit(LimitReason::Capstan(Pulley::Driver)), 1.0),
     }
 }
 

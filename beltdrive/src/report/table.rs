@@ -1,407 +1,229 @@
-//! The steady state as a table for a terminal.
+//! An answer as a table for a terminal.
 
-use super::answer;
-use super::lines::{self, row, single, small};
-use super::{Precision, rpm, slip_arc, title, torque_scale, warning};
-use crate::quantity::{Answer, Group, UnitSystem, words};
-use crate::{BeltKind, Convergence, Drive, Entry, PulleySummary, StateSummary, SteadyState, Zone};
+use super::lines;
+use crate::quantity::precision::known;
+use crate::quantity::{self, Answer, Group, Layout, Quantity, Subject, UnitSystem, Value};
+use std::iter;
 
-/// Most significant digits shown; fewer where the error estimate does not support them.
-const DIGITS: u8 = 6;
+/// Columns beside each other, and their smallest width: with labels and units they take 100 characters.
+const COLUMNS: usize = 5;
+const WIDTH: usize = 12;
 
-/// Most significant digits of a strain.
-const STRAIN_DIGITS: u8 = 3;
+/// What all columns beside each other take at most, and a single one.
+const BESIDE: usize = 66;
+const WIDEST: usize = 28;
 
-/// The steady state on lines of at most 100 columns: what an engineer reads at a glance.
+/// Least width of the labels.
+const LABEL: usize = 26;
+
+/// Of more rows than these about this many are shown.
+const ROWS: usize = 26;
+
+/// Stands for a value that there is not.
+const NONE: &str = "–";
+
+/// An answer on lines of at most 100 columns, in the units of a system.
 ///
-/// Numbers have at most six significant digits, and never more than their estimated error
-/// supports.
-pub fn table(state: &SteadyState, groups: &[Group]) -> String {
-    let precision = Precision::of(&state.convergence, DIGITS);
-    let summary = StateSummary::from(state);
-    let remarks = state.warnings.iter();
-    let warnings = remarks.map(|remark| lines::wrapped("WARNING: ", &warning(remark)));
-    let blocks = [
-        pulleys(state, &summary, precision),
-        spans(state, precision),
-        whole(&state.drive, &summary, precision),
-        as_loop(groups),
-        match state.drive.belt.kind {
-            BeltKind::V(_) => accuracy(&state.convergence),
-            BeltKind::Flat { .. } => closed_form(&state.convergence),
-        },
-        state.checks.iter().map(words::check).collect(),
-    ];
-    let title = title(&state.drive, &[]);
-    lines::text(std::iter::once(title).chain(warnings).chain(blocks))
+/// Numbers have at most the digits of their quantity, and none below their error.
+pub fn table(answer: &Answer, units: UnitSystem) -> String {
+    let remarks = answer.remarks.iter();
+    let remarks = remarks.map(|remark| lines::wrapped("WARNING: ", remark));
+    let groups = answer.groups.iter().flat_map(|group| blocks(group, units));
+    let blocks = iter::once(answer.heading.clone()).chain(remarks);
+    lines::text(blocks.chain(groups).chain([answer.notes.clone()]))
 }
 
-/// Driver and driven pulley side by side.
-fn pulleys(state: &SteadyState, summary: &StateSummary, precision: Precision) -> Vec<String> {
-    let pulleys = [&summary.driver, &summary.driven];
-    let number = |label, quantity: fn(&PulleySummary) -> f64, unit| {
-        row(
-            label,
-            pulleys.map(|pulley| precision.show(quantity(pulley))),
-            unit,
-        )
-    };
-    // Torque is a difference of tensions and carries their error; angles that of a radian.
-    let torque = torque_scale(&state.drive, state.tight_tension);
-    let angle = |value| degrees(precision, value);
-    let mut lines = vec![
-        row("", ["driver", "driven"].map(str::to_owned), ""),
-        number("speed", |pulley| pulley.angular_speed, "rad/s"),
-        number("", |pulley| rpm(pulley.angular_speed), "rpm"),
-        row(
-            "torque",
-            pulleys.map(|pulley| precision.show_against(pulley.torque, torque)),
-            "N·m",
-        ),
-        row(
-            "power",
-            pulleys.map(|pulley| {
-                let scale = torque * pulley.angular_speed;
-                precision.show_against(pulley.power() * 1e-3, scale * 1e-3)
-            }),
-            "kW",
-        ),
-        row(
-            "wrap angle",
-            pulleys.map(|pulley| angle(pulley.wrap_angle)),
-            "°",
-        ),
-    ];
-    lines.extend(match state.drive.belt.kind {
-        BeltKind::V(_) => groove(pulleys, precision),
-        BeltKind::Flat { .. } => rim(state, pulleys, precision),
-    });
-    let zone = |zone: &Zone| {
-        let kind = zone.kind.name();
-        format!("{kind} {} – {}", angle(zone.from), angle(zone.to))
-    };
-    let longest = summary.driver.zones.len().max(summary.driven.zones.len());
-    lines.extend((0..longest).map(|place| {
-        let label = if place == 0 { "zones" } else { "" };
-        row(
-            label,
-            pulleys.map(|pulley| pulley.zones.get(place).map_or_else(String::new, zone)),
-            "°",
-        )
-    }));
-    lines
-}
-
-/// What only a V-belt does: it sinks into the groove and leaves the pitch circle.
-fn groove(pulleys: [&PulleySummary; 2], precision: Precision) -> Vec<String> {
-    let inclination =
-        |end: usize| pulleys.map(|pulley| degrees(precision, pulley.inclination[end]));
-    let penetration = pulleys.map(|pulley| precision.show(pulley.max_penetration * 1e3));
-    let geometric = pulleys.map(|pulley| degrees(precision, pulley.geometric_wrap_angle));
-    vec![
-        row("of the pitch circles", geometric, "°"),
-        row("largest penetration", penetration, "mm"),
-        row("inclination at entry", inclination(0), "°"),
-        row("inclination at exit", inclination(1), "°"),
-    ]
-}
-
-/// What only a flat belt does: it creeps along the rim.
-fn rim(state: &SteadyState, pulleys: [&PulleySummary; 2], precision: Precision) -> Vec<String> {
-    let slip = pulleys.map(|pulley| degrees(precision, slip_arc(&pulley.zones)));
-    let mut lines = vec![row("slip arc", slip, "°")];
-    let mut line = |label, unit, of: fn(Entry) -> Option<f64>, show: &dyn Fn(f64) -> String| {
-        let values = pulleys.map(|pulley| pulley.entry.and_then(of));
-        if values.iter().any(Option::is_some) {
-            let cells = values.map(|value| value.map_or_else(|| "–".to_owned(), show));
-            lines.push(row(label, cells, unit));
+/// The blocks of a group: its subjects as columns, a few at a time, or as rows.
+fn blocks(group: &Group, units: UnitSystem) -> Vec<Vec<String>> {
+    let subjects: Vec<_> = group.subjects.iter().map(shown).collect();
+    match group.layout {
+        Layout::Single => {
+            let lines = subjects.iter().flat_map(|(_, quantities)| quantities);
+            let lines = lines.map(|quantity| {
+                let cell = cell(quantity, units);
+                line(
+                    &quantity.label,
+                    &[cell],
+                    [LABEL, WIDEST],
+                    unit(quantity, units),
+                )
+            });
+            vec![lines.collect()]
         }
+        Layout::Columns | Layout::Named => {
+            let beside = subjects.chunks(COLUMNS);
+            beside.map(|subjects| columns(subjects, units)).collect()
+        }
+        Layout::Rows => vec![rows(&subjects, units)],
+    }
+}
+
+/// The head of a subject and its quantities with a label.
+fn shown(subject: &Subject) -> (&str, Vec<Quantity>) {
+    let mut quantities = quantity::flat(&subject.quantities);
+    quantities.retain(|quantity| !quantity.label.is_empty());
+    (&subject.head, quantities)
+}
+
+/// Subjects beside each other. What none of them has is left out.
+fn columns(subjects: &[(&str, Vec<Quantity>)], units: UnitSystem) -> Vec<String> {
+    let labels = subjects.iter().flat_map(|(_, quantities)| quantities);
+    let longest = labels.map(|quantity| quantity.label.chars().count()).max();
+    let label = LABEL.max(longest.map_or(0, |longest| longest + 1));
+    let widths = [label, (BESIDE / subjects.len()).clamp(WIDTH, WIDEST)];
+    let heads: Vec<_> = subjects
+        .iter()
+        .map(|(head, _)| (*head).to_owned())
+        .collect();
+    let first = subjects.first().into_iter().flat_map(|(_, first)| first);
+    let mut lines: Vec<_> = first
+        .enumerate()
+        .filter_map(|(place, quantity)| {
+            let of_all = subjects.iter().map(|(_, quantities)| &quantities[place]);
+            let cells: Vec<_> = of_all.map(|quantity| cell(quantity, units)).collect();
+            let is_known = cells.iter().any(|cell| cell != NONE);
+            is_known.then(|| line(&quantity.label, &cells, widths, unit(quantity, units)))
+        })
+        .collect();
+    if !lines.is_empty() && heads.iter().any(|head| !head.is_empty()) {
+        lines.insert(0, line("", &heads, widths, ""));
+    }
+    lines
+}
+
+/// A label and cells of given widths, and a unit.
+fn line(text: &str, cells: &[String], [label, width]: [usize; 2], unit: &str) -> String {
+    let cells = cells
+        .iter()
+        .map(|cell| format!("{:>width$}", short(cell, width)));
+    format!("{text:<label$}{}  {unit}", cells.collect::<String>())
+}
+
+/// Subjects below each other, under the labels and units of their quantities.
+fn rows(subjects: &[(&str, Vec<Quantity>)], units: UnitSystem) -> Vec<String> {
+    let stride = subjects.len().div_ceil(ROWS).max(1);
+    let last = subjects.len().saturating_sub(1);
+    let kept = subjects
+        .iter()
+        .enumerate()
+        .filter(|(place, (head, _))| place % stride == 0 || *place == last || !head.is_empty());
+    let kept: Vec<_> = kept.map(|(_, (_, quantities))| quantities).collect();
+    let Some(first) = kept.first().filter(|first| !first.is_empty()) else {
+        return Vec::new();
     };
-    let tension = state.tight_tension;
-    line(
-        "reference tension T_o",
-        "N",
-        |entry| Some(entry.reference_tension),
-        &|value| precision.show_against(value, tension),
-    );
-    // It decays along the elastic zone, so that its error is relative to itself however small it is.
-    line("entry strain", "", |entry| Some(entry.strain), &|value| {
-        precision.show_power(value, value, STRAIN_DIGITS)
-    });
-    line(
-        "smallest k_f with slip",
-        "N/m²",
-        |entry| entry.smallest_stiffness,
-        &|value| precision.show_power(value, value, DIGITS),
-    );
-    lines
-}
-
-/// An angle, rad, in degrees; its error is relative to a radian.
-fn degrees(precision: Precision, angle: f64) -> String {
-    precision.show_against(angle.to_degrees(), 1_f64.to_degrees())
-}
-
-/// Slack and tight span side by side.
-fn spans(state: &SteadyState, precision: Precision) -> Vec<String> {
-    let tension = |value| precision.show_against(value, state.tight_tension);
-    vec![
-        row("", ["slack span", "tight span"].map(str::to_owned), ""),
-        row(
-            "belt tension T",
-            [state.slack_tension, state.tight_tension].map(tension),
-            "N",
-        ),
-        row(
-            "tractive tension F",
-            [state.slack_tractive_tension, state.tight_tractive_tension].map(tension),
-            "N",
-        ),
-        row(
-            "length",
-            [state.slack_span, state.tight_span].map(|span| precision.show(span)),
-            "m",
-        ),
-    ]
-}
-
-/// What of the drive as a loop the other blocks do not show.
-fn as_loop(groups: &[Group]) -> Vec<String> {
-    let shown = [
-        "angular_speed",
-        "torque",
-        "power",
-        "wrap_angle",
-        "slip_arc",
-        "to_pulley",
-        "tension",
-        "tractive_tension",
-        "length",
-        "belt_length_unstretched",
-        "mass_flow",
-        "power_in",
-        "power_out",
-        "power_loss",
-        "efficiency",
-        "speed_loss",
-        "friction_coefficient",
-        "max_penetration",
-        "entry_inclination",
-        "exit_inclination",
-    ];
-    let answer = Answer::without(groups, &shown);
-    let text = answer::table(&answer, UnitSystem::Si);
-    text.lines().map(str::to_owned).collect()
-}
-
-/// The quantities of the drive as a whole.
-fn whole(drive: &Drive, state: &StateSummary, precision: Precision) -> Vec<String> {
-    // Losses are differences: of two speeds, of two powers.
-    let input = state.driver.power();
-    let mut lines = vec![
-        single(
-            "belt length, unstretched",
-            precision.show(state.belt_length),
-            "m",
-        ),
-        single("mass flow", precision.show(state.mass_flow), "kg/s"),
-        single(
-            "speed loss",
-            precision.show_against(100.0 * state.speed_loss, 100.0),
-            "%",
-        ),
-        single(
-            "efficiency",
-            precision.show_against(100.0 * state.efficiency, 100.0),
-            "%",
-        ),
-        single(
-            "friction loss",
-            precision.show_against(state.friction_loss, input),
-            "W",
-        ),
-    ];
-    if let BeltKind::V(_) = drive.belt.kind {
-        let compression = precision.show_against(state.compression_power, input);
-        lines.push(single("compression of the belt", compression, "W"));
-    }
-    lines
-}
-
-/// How far the numbers can be trusted, and what they cost.
-fn accuracy(convergence: &Convergence) -> Vec<String> {
-    let mut lines = vec![
-        single("relative tolerance", small(convergence.tolerance), ""),
-        single("estimated error", small(convergence.error_estimate), ""),
-        single("largest defect", small(convergence.defect), ""),
-    ];
-    if convergence.slip_normalisation > 0.0 {
-        let label = format!("effect of ε = {}", small(convergence.slip_normalisation));
-        lines.push(single(
-            &label,
-            small(convergence.slip_normalisation_effect),
-            "",
-        ));
-    }
-    let [driver, driven] = convergence.mesh_intervals;
-    lines.extend([
-        row(
-            "mesh",
-            [format!("driver {driver}"), format!("driven {driven}")],
-            "intervals",
-        ),
-        single(
-            "Newton steps",
-            convergence.newton_iterations.to_string(),
-            "",
-        ),
-        single("time", format!("{:.1}", convergence.seconds * 1e3), "ms"),
-    ]);
-    lines
-}
-
-/// How far the numbers of a closed form can be trusted, and what they cost.
-fn closed_form(convergence: &Convergence) -> Vec<String> {
-    vec![
-        single("method", "closed form".to_owned(), ""),
-        single("estimated error", small(convergence.error_estimate), ""),
-        single("time", format!("{:.3}", convergence.seconds * 1e3), "ms"),
-    ]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::report::{lines::WIDTH, sample, sample_flat};
-    use crate::{Check, NormalForce, Warning};
-
-    #[test]
-    fn is_no_wider_than_a_terminal() {
-        let mut state = sample::overhanging();
-        let flat = table(&sample_flat::epp(), &[]);
-        state.drive.title = Some("very long ".repeat(20));
-        state.checks.push(Check {
-            name: "a name ".repeat(9).leak(),
-            deviation: 1.0,
-            limit: 0.5,
+    let columns: Vec<_> = (0..first.len())
+        .map(|place| Column::of(kept.iter().map(|row| &row[place]), units))
+        .collect();
+    let height = columns.iter().map(|column| column.head.len()).max();
+    let height = height.unwrap_or(0);
+    let together: usize = columns.iter().map(|column| column.width).sum();
+    let gap = if together + 2 * columns.len() <= lines::WIDTH {
+        "  "
+    } else {
+        " "
+    };
+    let head = (0..height).map(|row| {
+        let cells = columns.iter().map(|column| {
+            let place = (row + column.head.len()).checked_sub(height);
+            column.aligned(place.map_or("", |place| &column.head[place]))
         });
-        state.driver.angular_speed = -1.234_567_89e-7;
-        state.driven.angular_speed = 9.876_543_21e12;
-        for line in table(&state, &[]).lines().chain(flat.lines()) {
-            assert!(line.chars().count() <= WIDTH, "{line}");
+        cells.collect::<Vec<_>>().join(gap)
+    });
+    let rows = (0..kept.len()).map(|row| {
+        let cells = columns
+            .iter()
+            .map(|column| column.aligned(&column.cells[row]));
+        cells.collect::<Vec<_>>().join(gap)
+    });
+    // Only where there are any.
+    let units = columns.iter().map(|column| column.aligned(column.unit));
+    let units = units.collect::<Vec<_>>().join(gap);
+    let units = (!units.trim().is_empty()).then_some(units);
+    head.chain(units).chain(rows).collect()
+}
+
+/// A quantity of all rows.
+struct Column {
+    /// Its label on lines.
+    head: Vec<String>,
+    unit: &'static str,
+    cells: Vec<String>,
+    width: usize,
+    is_word: bool,
+}
+
+impl Column {
+    fn of<'a>(quantities: impl Iterator<Item = &'a Quantity> + Clone, units: UnitSystem) -> Self {
+        let first = quantities.clone().next();
+        let cells: Vec<_> = quantities.map(|quantity| cell(quantity, units)).collect();
+        let is_word = cells
+            .iter()
+            .any(|cell| cell.starts_with(char::is_alphabetic));
+        let length = |text: &String| text.chars().count();
+        let widest = cells.iter().map(length).max().unwrap_or(0);
+        let head = first.map_or_else(Vec::new, |quantity| {
+            let words = quantity.label.split(' ');
+            let longest = words
+                .map(|word| word.chars().count())
+                .fold(widest, usize::max);
+            lines::folded(&quantity.label, longest, 0)
+        });
+        let unit = first.map_or("", |quantity| unit(quantity, units));
+        let width = head.iter().map(length).fold(widest, usize::max);
+        let width = width.max(unit.chars().count());
+        Self {
+            head,
+            unit,
+            cells,
+            width,
+            is_word,
         }
     }
 
-    #[test]
-    fn states_the_numbers_an_engineer_looks_for() {
-        let text = table(&sample::loaded(), &[]);
-        for needle in [
-            "104.720",
-            "102.625",
-            "1000.00",
-            "150.000",
-            "700.000",
-            "171.000",
-            "3.4e-9",
-            "96.2380",
-            "2.0000  %",
-            "590.93  W",
-            "elastic 0 – 97.4028",
-            "holds",
-        ] {
-            assert!(text.contains(needle), "{needle} is not in\n{text}");
+    /// A text in the column: words to the left, numbers to the right.
+    fn aligned(&self, text: &str) -> String {
+        let width = self.width;
+        match self.is_word {
+            true => format!("{text:<width$}"),
+            false => format!("{text:>width$}"),
         }
-        assert!(!text.contains("WARNING"));
     }
+}
 
-    #[test]
-    fn warnings_and_violations_stand_out() {
-        let mut state = sample::overhanging();
-        state.checks[0].deviation = f64::NAN;
-        let text = table(&state, &[]);
-        assert!(
-            text.lines()
-                .nth(3)
-                .unwrap()
-                .starts_with("WARNING: the belt overhangs")
-        );
-        assert!(text.contains("VIOLATED"));
+/// A value as a cell.
+fn cell(quantity: &Quantity, units: UnitSystem) -> String {
+    let factor = quantity.measure.shown(units).factor;
+    match &quantity.value {
+        Value::Number(Some(value)) => minus(&number(value * factor, quantity, factor)),
+        Value::Count(count) => count.to_string(),
+        Value::Word(Some(word)) => word.clone(),
+        _ => NONE.to_owned(),
     }
+}
 
-    #[test]
-    fn the_advice_of_a_warning_is_not_lost() {
-        let mut state = sample_flat::epp();
-        // So large that the line does not hold it.
-        state.warnings = vec![Warning::LargeStrain { strain: 1e4 }];
-        let text = table(&state, &[]);
-        let mut lines = text.lines().skip_while(|line| !line.starts_with("WARNING"));
-        let [first, second] = [lines.next(), lines.next()].map(Option::unwrap);
-        assert!(first.ends_with("for small strains: choose"), "{text}");
-        assert_eq!(second, "         normal_force=\"exact\"");
+/// A number in the unit that is a factor from SI.
+fn number(value: f64, quantity: &Quantity, factor: f64) -> String {
+    let digits = quantity.digits;
+    match digits {
+        0..=2 if value == 0.0 => "0".to_owned(),
+        0..=2 => format!("{value:.*e}", usize::from(digits.saturating_sub(1))),
+        _ => known(value, quantity.error * factor.abs(), digits.into()),
     }
+}
 
-    #[test]
-    fn a_flat_belt_creeps_along_the_rim() {
-        let mut state = sample_flat::epp();
-        let entry = state.driver.entry.as_mut().unwrap();
-        entry.strain = -3.77e-26;
-        let text = table(&state, &[]);
-        for needle in [
-            "N/m², normal force n = (T − G V)/R\n",
-            "slip arc",
-            "2.50e-7",
-            "reference tension T_o",
-            "smallest k_f with slip                       7.65432e5",
-            "elastic 0 – 36.2218",
-            "closed form\n",
-            "-3.77e-26",
-            "1.2e-14",
-            "holds",
-        ] {
-            assert!(text.contains(needle), "{needle} is not in\n{text}");
-        }
-        let mut short = state;
-        short.driver.entry = None;
-        assert!(
-            table(&short, &[]).contains("  –  "),
-            "one pulley has an entry"
-        );
-        short.driven.entry = None;
-        assert!(!table(&short, &[]).contains("T_o"));
-    }
+/// A number with a minus sign in place of the hyphen.
+fn minus(number: &str) -> String {
+    number.replace('-', "−")
+}
 
-    #[test]
-    fn a_flat_belt_has_nothing_of_a_groove() {
-        for mut state in [
-            sample_flat::epp(),
-            sample_flat::coulomb(),
-            sample_flat::creep(),
-        ] {
-            for normal_force in NormalForce::ALL {
-                state.drive.belt.kind = BeltKind::Flat { normal_force };
-                let text = table(&state, &[]);
-                for word in [
-                    "penetration",
-                    "inclination",
-                    "groove",
-                    "mesh",
-                    "NaN",
-                    "V-belt",
-                ] {
-                    assert!(!text.contains(word), "{word} is in\n{text}");
-                }
-                assert!(!text.contains('…'), "{text}");
-            }
-        }
-        assert!(!table(&sample_flat::coulomb(), &[]).contains("k_f"));
-    }
+fn unit(quantity: &Quantity, units: UnitSystem) -> &'static str {
+    quantity.measure.shown(units).symbol
+}
 
-    #[test]
-    fn a_standing_drive_has_a_table() {
-        let text = table(&sample::idle(), &[]);
-        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
-        let mut empty = sample::idle();
-        empty.checks.clear();
-        assert!(!table(&empty, &[]).contains("zones"));
+/// A text that fits a column and leaves a space before it.
+fn short(text: &str, width: usize) -> String {
+    match text.chars().count() < width {
+        true => text.to_owned(),
+        false => text.chars().take(width - 2).chain(['…']).collect(),
     }
 }

@@ -4,7 +4,7 @@ use super::super::axis::{Axis, Scale};
 use super::super::header::{Header, Legend};
 use super::super::panel::Panel;
 use super::super::style::{self, Canvas, Drawn, Stroke, px};
-use crate::report::stability::{complex, outcome};
+use crate::quantity::stability::{complex, outcome};
 use crate::{AxialMode, Drive, FrictionLaw, PulleyStability, ShapePoint, Stability, ZoneKind};
 use plotters::prelude::*;
 
@@ -121,7 +121,7 @@ impl View<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::stability::sample;
+    use crate::quantity::stability::sample;
 
     #[test]
     fn every_shape_has_a_panel_with_its_eigenvalue() {

@@ -4,7 +4,7 @@ use super::super::axis::{Axis, Scale};
 use super::super::header::Header;
 use super::super::panel::Panel;
 use super::super::style::{self, Canvas, Drawn, MARGIN, Stroke, px};
-use crate::report::stability::form_label;
+use crate::quantity::stability::form_label;
 use crate::{FormStability, LinearisedForm, PulleyStability, Stability};
 use plotters::coord::CoordTranslate;
 use plotters::coord::cartesian::Cartesian2d;
@@ -167,7 +167,7 @@ fn verdicts(forms: &[FormStability; 3]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::stability::sample;
+    use crate::quantity::stability::sample;
 
     #[test]
     fn every_form_and_pulley_is_there() {

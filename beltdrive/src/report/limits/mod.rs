@@ -1,9 +1,0 @@
-//! Both limits of a drive as text.
-
-mod csv;
-mod json;
-mod table;
-
-pub use self::csv::csv;
-pub use json::json;
-pub use table::table;
