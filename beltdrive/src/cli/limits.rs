@@ -1,6 +1,5 @@
 //! `beltdrive limits`: the smallest and the largest load that a drive carries.
 
-use super::output::Answered;
 use super::{common::Common, failure::Failure, origin::Origin, parameter};
 use beltdrive::belt_loop::{self, Varied};
 use beltdrive::input::{Argument, DriveFile, Key, Stated};
@@ -45,9 +44,7 @@ impl Limits {
         let draw = |directory: &Path, metadata: &str| {
             plot::write_branch(&limits.branch, directory, Some(metadata))
         };
-        self.common
-            .output
-            .write(&Answered { answer, draw }, &origin)
+        self.common.output.write(answer, &draw, &origin)
     }
 
     fn of_loop(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
@@ -76,6 +73,6 @@ impl Limits {
         let draw = |directory: &Path, metadata: &str| {
             plot::write_rows(&chart, "branch.svg", directory, Some(metadata))
         };
-        self.common.output.write(&Answered { answer, draw }, origin)
+        self.common.output.write(answer, &draw, origin)
     }
 }

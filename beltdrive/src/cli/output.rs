@@ -53,45 +53,8 @@ impl From<Units> for UnitSystem {
     }
 }
 
-/// A result in all its forms.
-pub(super) trait Report {
-    /// For people.
-    fn table(&self, units: UnitSystem) -> String;
-    /// Complete.
-    fn json(&self) -> String;
-    /// Rows.
-    fn csv(&self) -> String;
-    /// Writes the figures with metadata into a directory and lists the files.
-    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error>;
-}
-
-/// An answer for a loop, and how its figures are written.
-pub(super) struct Answered<'a, F> {
-    pub(super) answer: &'a Answer,
-    /// As [`Report::plot`].
-    pub(super) draw: F,
-}
-
-impl<F> Report for Answered<'_, F>
-where
-    F: Fn(&Path, &str) -> Result<Vec<PathBuf>, plot::Error>,
-{
-    fn table(&self, units: UnitSystem) -> String {
-        report::table(self.answer, units)
-    }
-
-    fn json(&self) -> String {
-        report::json(self.answer)
-    }
-
-    fn csv(&self) -> String {
-        report::csv(self.answer)
-    }
-
-    fn plot(&self, directory: &Path, metadata: &str) -> Result<Vec<PathBuf>, plot::Error> {
-        (self.draw)(directory, metadata)
-    }
-}
+/// Writes the figures of an answer with metadata into a directory and lists the files.
+pub(super) type Draw<'a> = &'a dyn Fn(&Path, &str) -> Result<Vec<PathBuf>, plot::Error>;
 
 impl Output {
     /// Whether figures are asked for.
@@ -115,13 +78,18 @@ impl Output {
         .check()
     }
 
-    /// Prints and writes a result in the forms asked for.
-    pub(super) fn write(&self, report: &impl Report, origin: &Origin) -> Result<(), Failure> {
+    /// Prints and writes an answer in the forms asked for.
+    pub(super) fn write(
+        &self,
+        answer: &Answer,
+        draw: Draw<'_>,
+        origin: &Origin,
+    ) -> Result<(), Failure> {
         let outputs = [self.json.as_deref(), self.csv.as_deref()];
         if !self.quiet && !outputs.into_iter().any(is_stdout) {
-            print(&report.table(self.units.into()))?;
+            print(&report::table(answer, self.units.into()))?;
         }
-        for path in self.write_files(report, origin)? {
+        for path in self.write_files(answer, draw, origin)? {
             if !self.quiet {
                 note(&format!("wrote {}", path.display()));
             }
@@ -130,17 +98,22 @@ impl Output {
     }
 
     /// Writes the outputs asked for and lists the files among them.
-    fn write_files(&self, report: &impl Report, origin: &Origin) -> Result<Vec<PathBuf>, Failure> {
+    fn write_files(
+        &self,
+        answer: &Answer,
+        draw: Draw<'_>,
+        origin: &Origin,
+    ) -> Result<Vec<PathBuf>, Failure> {
         let mut written = Vec::new();
         if let Some(path) = &self.json {
-            written.extend(write_text(path, &origin.in_json(&report.json()))?);
+            written.extend(write_text(path, &origin.in_json(&report::json(answer)))?);
         }
         if let Some(path) = &self.csv {
-            written.extend(write_csv(path, &report.csv(), origin)?);
+            written.extend(write_csv(path, &report::csv(answer), origin)?);
         }
         if let Some(directory) = &self.plot {
             let action = format!("draw figures into {}", directory.display());
-            let figures = report.plot(directory, &origin.json());
+            let figures = draw(directory, &origin.json());
             written.extend(figures.map_err(|error| Failure::io(&action, &error))?);
         }
         Ok(written)

@@ -1,6 +1,5 @@
 //! `beltdrive solve`: the steady state of a drive.
 
-use super::output::Answered;
 use super::{common::Common, failure::Failure, origin::Origin};
 use beltdrive::belt_loop;
 use beltdrive::input::Stated;
@@ -48,9 +47,7 @@ impl Solve {
                 let draw = |directory: &Path, metadata: &str| {
                     plot::write_loop(&belt_loop, &state, directory, Some(metadata))
                 };
-                self.common
-                    .output
-                    .write(&Answered { answer, draw }, &origin)
+                self.common.output.write(answer, &draw, &origin)
             }
         }
     }
@@ -65,6 +62,6 @@ impl Solve {
         let answer = &two_pulleys::answer(state, as_loop);
         let draw =
             |directory: &Path, metadata: &str| plot::write_all(state, directory, Some(metadata));
-        self.common.output.write(&Answered { answer, draw }, origin)
+        self.common.output.write(answer, &draw, origin)
     }
 }

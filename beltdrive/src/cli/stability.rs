@@ -1,6 +1,6 @@
 //! `beltdrive stability`: whether small axial motions of a flat belt on its pulleys grow.
 
-use super::output::{Answered, Output};
+use super::output::Output;
 use super::{failure::Failure, origin::Origin, progress::with_bar, read::read};
 use beltdrive::{input, plot, quantity};
 use clap::{Args, value_parser};
@@ -42,6 +42,6 @@ impl Command {
         let draw = |directory: &Path, metadata: &str| {
             plot::write_stability(&stability, directory, Some(metadata))
         };
-        self.output.write(&Answered { answer, draw }, &origin)
+        self.output.write(answer, &draw, &origin)
     }
 }

@@ -1,6 +1,5 @@
 //! `beltdrive trace`: a branch of steady states, or of limits, over one entry of the drive file.
 
-use super::output::Answered;
 use super::{common::Common, failure::Failure, origin::Origin, parameter};
 use beltdrive::belt_loop::{self, Varied};
 use beltdrive::input::{Argument, DriveFile, FileKey, Key, Stated};
@@ -69,9 +68,7 @@ impl Trace {
         let draw = |directory: &Path, metadata: &str| {
             plot::write_branch(&branch, directory, Some(metadata))
         };
-        self.common
-            .output
-            .write(&Answered { answer, draw }, origin)?;
+        self.common.output.write(answer, &draw, origin)?;
         finished(&branch.end)
     }
 
@@ -94,9 +91,7 @@ impl Trace {
         let draw = |directory: &Path, metadata: &str| {
             plot::write_limit_curve(&curve, directory, Some(metadata))
         };
-        self.common
-            .output
-            .write(&Answered { answer, draw }, origin)?;
+        self.common.output.write(answer, &draw, origin)?;
         finished(&curve.end)
     }
 
@@ -132,7 +127,7 @@ impl Trace {
         let draw = |directory: &Path, metadata: &str| {
             plot::write_rows(answer, name, directory, Some(metadata))
         };
-        self.common.output.write(&Answered { answer, draw }, origin)
+        self.common.output.write(answer, &draw, origin)
     }
 
     /// The range of a number of a loop to be traced over.
