@@ -7,7 +7,7 @@ use super::{Answer, Group, Layout, Measure, Quantity, Subject, events, limits, w
 use crate::{Branch, BranchEvent, TracePoint};
 
 /// What is shown of a state of a V-belt and of a flat belt in a row.
-const OF_V_BELT: [(&str, &str); 7] = [
+const OF_V_BELT: &[(&str, &str)] = &[
     ("driven_angular_speed", "driven speed"),
     ("speed_loss", "speed loss"),
     ("driver_wrap_angle", "wrap driver"),
@@ -16,7 +16,7 @@ const OF_V_BELT: [(&str, &str); 7] = [
     ("efficiency", "efficiency"),
     ("driver_exit_inclination", "exit of driver"),
 ];
-const OF_FLAT_BELT: [(&str, &str); 8] = [
+const OF_FLAT_BELT: &[(&str, &str)] = &[
     ("driven_angular_speed", "driven speed"),
     ("speed_loss", "speed loss"),
     ("driver_wrap_angle", "wrap driver"),
@@ -64,9 +64,9 @@ fn row(branch: &Branch, point: &TracePoint, event: Option<&BranchEvent>) -> Subj
     let label = kind.map(events::event_label).unwrap_or_default();
     let pulley = kind.and_then(events::event_pulley).map(words::pulley);
     let kind = kind.map(events::event_kind);
-    let shown: &[_] = match is_v(&branch.drive) {
-        true => &OF_V_BELT,
-        false => &OF_FLAT_BELT,
+    let shown = match is_v(&branch.drive) {
+        true => OF_V_BELT,
+        false => OF_FLAT_BELT,
     };
     let mut quantities = vec![
         parameter(branch.key, point.value, None),

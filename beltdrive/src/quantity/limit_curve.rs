@@ -8,13 +8,13 @@ use super::{Answer, Group, Layout, Measure, Quantity, Subject, words};
 use crate::{LimitCurve, LimitCurvePoint};
 
 /// What is shown of a state of a V-belt and of a flat belt in a row.
-const OF_V_BELT: [(&str, &str); 4] = [
+const OF_V_BELT: &[(&str, &str)] = &[
     ("driven_angular_speed", "driven speed"),
     ("driven_torque", "driven torque"),
     ("efficiency", "efficiency"),
     ("driver_exit_inclination", "exit of driver"),
 ];
-const OF_FLAT_BELT: [(&str, &str); 5] = [
+const OF_FLAT_BELT: &[(&str, &str)] = &[
     ("driven_angular_speed", "driven speed"),
     ("driven_torque", "driven torque"),
     ("efficiency", "efficiency"),
@@ -75,9 +75,9 @@ fn point(curve: &LimitCurve, point: &LimitCurvePoint) -> Vec<Quantity> {
     let pulley = reasons::limit_pulley(point.reason).map(words::pulley);
     let word = |key, label, word: &str| Quantity::word(key, label, word.to_owned());
     let [error, _] = parameter::error(key, point.value_error);
-    let shown: &[_] = match is_v(&drive) {
-        true => &OF_V_BELT,
-        false => &OF_FLAT_BELT,
+    let shown = match is_v(&drive) {
+        true => OF_V_BELT,
+        false => OF_FLAT_BELT,
     };
     let mut quantities = vec![
         parameter(second, point.second, None),
