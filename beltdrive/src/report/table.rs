@@ -155,10 +155,11 @@ struct Column {
 impl Column {
     fn of<'a>(quantities: impl Iterator<Item = &'a Quantity> + Clone, units: UnitSystem) -> Self {
         let first = quantities.clone().next();
+        let is_word = quantities.clone().any(|quantity| match &quantity.value {
+            Value::Word(Some(word)) => word.starts_with(char::is_alphabetic),
+            _ => false,
+        });
         let cells: Vec<_> = quantities.map(|quantity| cell(quantity, units)).collect();
-        let is_word = cells
-            .iter()
-            .any(|cell| cell.starts_with(char::is_alphabetic));
         let length = |text: &String| text.chars().count();
         let widest = cells.iter().map(length).max().unwrap_or(0);
         let head = first.map_or_else(Vec::new, |quantity| {
@@ -180,7 +181,7 @@ impl Column {
         }
     }
 
-    /// A text in the column: words to the left, numbers to the right.
+    /// A text in the column: words to the left; numbers, also those that are texts, to the right.
     fn aligned(&self, text: &str) -> String {
         let width = self.width;
         match self.is_word {
