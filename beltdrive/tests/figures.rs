@@ -63,8 +63,8 @@ const SLOW: [Figure; 3] = [
     ),
 ];
 
-/// Units in which the numbers of a figure may differ; a pixel has ten.
-const UNITS: f64 = 5.0;
+/// By how much the numbers of a figure may differ, px.
+const NEAR: f64 = 0.5;
 
 fn root() -> PathBuf {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -127,7 +127,7 @@ fn check(figures: &[Figure]) {
         );
         assert_eq!(numbers.len(), drawn_numbers.len(), "{name}");
         for (known, drawn) in numbers.iter().zip(drawn_numbers) {
-            assert!((known - drawn).abs() <= UNITS, "{name}: {known}, {drawn}");
+            assert!((known - drawn).abs() <= NEAR, "{name}: {known}, {drawn}");
         }
     }
 }

@@ -45,7 +45,7 @@ impl Solve {
                 }
                 let answer = &quantity::belt_loop::answer(&belt_loop, &state);
                 let draw = |directory: &Path, metadata: &str| {
-                    plot::write_loop(&belt_loop, &state, directory, Some(metadata))
+                    plot::write_state(answer, "loop.svg", directory, Some(metadata))
                 };
                 self.common.output.write(answer, &draw, &origin)
             }
@@ -60,8 +60,10 @@ impl Solve {
         origin: &Origin,
     ) -> Result<(), Failure> {
         let answer = &two_pulleys::answer(state, as_loop);
-        let draw =
-            |directory: &Path, metadata: &str| plot::write_all(state, directory, Some(metadata));
+        let drawn = two_pulleys::drawn(state);
+        let draw = |directory: &Path, metadata: &str| {
+            plot::write_state(&drawn, "drive.svg", directory, Some(metadata))
+        };
         self.common.output.write(answer, &draw, origin)
     }
 }

@@ -1,7 +1,6 @@
 //! What is covered on a sheet, and where there is room for labels.
 
-/// A place on the sheet, px.
-pub(super) type Spot = [f64; 2];
+use super::sheet::Spot;
 
 /// What a leader pays for every line it crosses, in px of distance: one farther label is better.
 const CROSSING: f64 = 60.0;
@@ -9,9 +8,9 @@ const CROSSING: f64 = 60.0;
 /// A rectangle on the sheet, px.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Frame {
-    /// Left and upper end.
+    /// Left upper corner.
     pub(super) from: Spot,
-    /// Right and lower end.
+    /// Right lower corner.
     pub(super) to: Spot,
 }
 
@@ -19,29 +18,34 @@ impl Frame {
     /// The rectangle round a middle, with half its width and height.
     pub(super) fn around(middle: Spot, half: Spot) -> Self {
         Self {
-            from: [0, 1].map(|axis| middle[axis] - half[axis]),
-            to: [0, 1].map(|axis| middle[axis] + half[axis]),
+            from: middle - half,
+            to: middle + half,
         }
     }
 
-    /// Whether two rectangles overlap.
-    pub(super) fn meets(&self, other: &Self) -> bool {
-        (0..2).all(|axis| self.from[axis] < other.to[axis] && other.from[axis] < self.to[axis])
-    }
-
-    /// Whether another one lies inside.
-    pub(super) fn contains(&self, other: &Self) -> bool {
-        (0..2).all(|axis| self.from[axis] <= other.from[axis] && other.to[axis] <= self.to[axis])
-    }
-
-    /// Its point nearest to a place.
-    pub(super) fn nearest(&self, place: Spot) -> Spot {
-        [0, 1].map(|axis| place[axis].clamp(self.from[axis], self.to[axis]))
+    /// Its width and height.
+    pub(super) fn size(&self) -> Spot {
+        self.to - self.from
     }
 
     /// Its middle.
     pub(super) fn middle(&self) -> Spot {
-        [0, 1].map(|axis| 0.5 * (self.from[axis] + self.to[axis]))
+        0.5 * (self.from + self.to)
+    }
+
+    /// Whether two rectangles overlap.
+    pub(super) fn meets(&self, other: &Self) -> bool {
+        self.from < other.to && other.from < self.to
+    }
+
+    /// Whether another one lies inside.
+    pub(super) fn contains(&self, other: &Self) -> bool {
+        self.from <= other.from && other.to <= self.to
+    }
+
+    /// Its point nearest to a place.
+    pub(super) fn nearest(&self, place: Spot) -> Spot {
+        place.sup(&self.from).inf(&self.to)
     }
 
     /// Whether a line passes through it when it is made larger on every side.
@@ -79,7 +83,7 @@ impl Shape {
     pub(super) fn meets(&self, frame: &Frame) -> bool {
         match *self {
             Self::Box(other) => frame.meets(&other),
-            Self::Disc(middle, radius) => distance(frame.nearest(middle), middle) < radius,
+            Self::Disc(middle, radius) => (frame.nearest(middle) - middle).norm() < radius,
             Self::Line(ends, half) => frame.is_cut(ends, half),
         }
     }
@@ -139,97 +143,85 @@ impl Occupied {
     }
 }
 
-/// Distance between two places, px.
-pub(super) fn distance(one: Spot, other: Spot) -> f64 {
-    (one[0] - other[0]).hypot(one[1] - other[1])
-}
-
 /// Distance of a place from a line, px.
 pub(super) fn distance_to([start, end]: [Spot; 2], place: Spot) -> f64 {
-    let along = [0, 1].map(|axis| end[axis] - start[axis]);
-    let from_start = [0, 1].map(|axis| place[axis] - start[axis]);
-    let square = along[0] * along[0] + along[1] * along[1];
-    let dot = from_start[0] * along[0] + from_start[1] * along[1];
+    let along = end - start;
+    let square = along.norm_squared();
     let part = if square > 0.0 {
-        (dot / square).clamp(0.0, 1.0)
+        ((place - start).dot(&along) / square).clamp(0.0, 1.0)
     } else {
         0.0
     };
-    distance([0, 1].map(|axis| start[axis] + part * along[axis]), place)
+    (start + part * along - place).norm()
 }
 
 fn crosses(one: [Spot; 2], other: [Spot; 2]) -> bool {
-    let side = |[start, end]: [Spot; 2], place: Spot| {
-        (end[0] - start[0]) * (place[1] - start[1]) - (end[1] - start[1]) * (place[0] - start[0])
-    };
+    let side = |[start, end]: [Spot; 2], place: Spot| (end - start).perp(&(place - start));
     let parts = |line: [Spot; 2], ends: [Spot; 2]| side(line, ends[0]) * side(line, ends[1]) <= 0.0;
     parts(one, other) && parts(other, one)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::sheet::spot;
     use super::*;
 
-    const FRAME: Frame = Frame {
-        from: [10.0, 10.0],
-        to: [30.0, 20.0],
-    };
+    fn line(x: f64, y: f64, to_x: f64, to_y: f64) -> [Spot; 2] {
+        [spot(x, y), spot(to_x, to_y)]
+    }
 
     #[test]
     fn shapes_meet_where_they_overlap() {
+        let frame = Frame {
+            from: spot(10.0, 10.0),
+            to: spot(30.0, 20.0),
+        };
+        let beside = Frame::around(spot(35.0, 15.0), spot(6.0, 1.0));
+        let below = Frame::around(spot(20.0, 25.0), spot(6.0, 1.0));
         let shapes = [
-            (Shape::Disc([35.0, 15.0], 5.5), true),
-            (Shape::Disc([35.0, 15.0], 4.5), false),
+            (Shape::Disc(spot(35.0, 15.0), 5.5), true),
+            (Shape::Disc(spot(35.0, 15.0), 4.5), false),
             // Near the corner, but not in it.
-            (Shape::Disc([33.0, 24.0], 4.9), false),
-            (Shape::Line([[0.0, 0.0], [40.0, 30.0]], 1.0), true),
-            (Shape::Line([[0.0, 22.0], [40.0, 22.0]], 1.0), false),
-            (Shape::Line([[0.0, 22.0], [40.0, 22.0]], 3.0), true),
-            (Shape::Line([[40.0, 0.0], [40.0, 30.0]], 1.0), false),
-            (Shape::Line([[0.0, 15.0], [5.0, 15.0]], 1.0), false),
-            (Shape::Box(Frame::around([35.0, 15.0], [6.0, 1.0])), true),
+            (Shape::Disc(spot(33.0, 24.0), 4.9), false),
+            (Shape::Line(line(0.0, 0.0, 40.0, 30.0), 1.0), true),
+            (Shape::Line(line(0.0, 22.0, 40.0, 22.0), 1.0), false),
+            (Shape::Line(line(0.0, 22.0, 40.0, 22.0), 3.0), true),
+            (Shape::Line(line(40.0, 0.0, 40.0, 30.0), 1.0), false),
+            (Shape::Line(line(0.0, 15.0, 5.0, 15.0), 1.0), false),
+            (Shape::Box(beside), true),
+            (Shape::Box(below), false),
         ];
         for (shape, meets) in shapes {
-            assert_eq!(shape.meets(&FRAME), meets, "{shape:?}");
+            assert_eq!(shape.meets(&frame), meets, "{shape:?}");
         }
     }
 
     #[test]
     fn the_best_free_place_is_taken() {
         let mut occupied = Occupied {
-            sheet: Frame::around([50.0, 50.0], [50.0, 50.0]),
-            shapes: vec![Shape::Disc([50.0, 50.0], 10.0)],
+            sheet: Frame::around(spot(50.0, 50.0), spot(50.0, 50.0)),
+            shapes: vec![Shape::Disc(spot(50.0, 50.0), 10.0)],
         };
-        let place = |x: f64, cost| Place {
-            frame: Frame::around([x, 50.0], [8.0, 5.0]),
+        let places = [(50.0, 0.0), (95.0, 1.0), (75.0, 3.0), (20.0, 2.0)].map(|(x, cost)| Place {
+            frame: Frame::around(spot(x, 50.0), spot(8.0, 5.0)),
             leader: None,
             cost,
-        };
-        let places = [
-            place(50.0, 0.0),
-            place(95.0, 1.0),
-            place(75.0, 3.0),
-            place(20.0, 2.0),
-        ];
-        let taken = |occupied: &mut Occupied| {
+        });
+        let mut taken = || {
             let place = occupied.place(places.into_iter());
-            place.map(|place| place.frame.middle()[0])
+            place.map(|place| place.frame.middle().x)
         };
-        assert_eq!(taken(&mut occupied), Some(20.0));
-        assert_eq!(taken(&mut occupied), Some(75.0));
-        assert_eq!(taken(&mut occupied), None);
+        assert_eq!([taken(), taken(), taken()], [Some(20.0), Some(75.0), None]);
     }
 
     #[test]
     fn leaders_go_round_discs_and_cross_lines_only_where_they_must() {
-        let line = [[0.0, 30.0], [100.0, 30.0]];
-        let leader = [[50.0, 50.0], [50.0, 0.0]];
-        assert_eq!(Shape::Line(line, 1.0).toll(leader), Some(CROSSING));
-        assert_eq!(Shape::Disc([45.0, 20.0], 6.0).toll(leader), None);
-        assert_eq!(Shape::Disc([45.0, 20.0], 4.0).toll(leader), Some(0.0));
-        assert_eq!(
-            Shape::Box(Frame::around([50.0, 20.0], [5.0, 5.0])).toll(leader),
-            None
-        );
+        let leader = line(50.0, 50.0, 50.0, 0.0);
+        let barrier = Shape::Line(line(0.0, 30.0, 100.0, 30.0), 1.0);
+        assert_eq!(barrier.toll(leader), Some(CROSSING));
+        assert_eq!(Shape::Disc(spot(45.0, 20.0), 6.0).toll(leader), None);
+        assert_eq!(Shape::Disc(spot(45.0, 20.0), 4.0).toll(leader), Some(0.0));
+        let label = Frame::around(spot(50.0, 20.0), spot(5.0, 5.0));
+        assert_eq!(Shape::Box(label).toll(leader), None);
     }
 }

@@ -1,63 +1,114 @@
-//! A panel of a figure: axes with a grid under a title.
+//! A panel of a figure: axes with a grid under a title, and what is drawn into it.
 
 use super::axis::Axis;
-use super::style::{self, Canvas, Stroke, px};
-use plotters::coord::cartesian::Cartesian2d;
-use plotters::drawing::DrawingAreaErrorKind;
-use plotters::prelude::*;
-use plotters::style::text_anchor::HPos;
-use std::io;
+use super::header::TINT;
+use super::occupied::Frame;
+use super::sheet::{Anchor, BODY, Color, INK, MARGIN, SMALL, Sheet, Spot, Stroke, cut, spot};
 
-/// Where the vertical axis stands and where its description may begin, px.
-pub(super) const LEFT: f64 = 92.0;
-const EDGE: f64 = 16.0;
+/// Room round the axes: for the title above, for ticks and descriptions to the left and below, px.
+const ABOVE: f64 = 30.0;
+const LEFT: f64 = 92.0;
+const BELOW: f64 = 56.0;
 
-/// How far the frame of the axes is below the top of the panel, px.
-pub(super) const TOP: f64 = 24.0;
+/// Length of a tick, px.
+const TICK: f64 = 5.0;
+
+const FRAME: Stroke = Stroke::solid(INK, 1.0);
+const GRID: Stroke = Stroke::solid("#C4C4C4", 0.6);
 
 /// What a panel shows besides its curves.
-pub(super) struct Panel<'a> {
+pub(super) struct Panel {
     /// Written above the panel.
-    pub(super) title: &'a str,
+    pub(super) title: String,
     /// The horizontal and the vertical axis.
-    pub(super) axes: &'a [Axis; 2],
+    pub(super) axes: [Axis; 2],
     /// What the axes measure.
-    pub(super) descriptions: [&'a str; 2],
+    pub(super) descriptions: [String; 2],
 }
 
-/// A panel that curves can be drawn into.
-pub(super) type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Axis, Axis>>;
+/// A shaded part of the horizontal axis.
+pub(super) type Shade = ([f64; 2], Color);
 
-impl Panel<'_> {
-    /// Draws the panel with shaded rectangles below its grid.
-    pub(super) fn draw<'a, 'b>(
-        &self,
-        canvas: &'a Canvas<'b>,
-        shades: impl Iterator<Item = Rectangle<(f64, f64)>>,
-    ) -> Result<Chart<'a, 'b>, DrawingAreaErrorKind<io::Error>> {
-        let title = style::face(style::BODY, style::INK, HPos::Left);
-        style::write(canvas, self.title, &title, [LEFT, 12.0])?;
-        let [across, up] = self.axes;
-        let mut chart = ChartBuilder::on(canvas)
-            .margin_top(px(TOP))
-            .margin_left(px(EDGE))
-            .margin_right(px(style::MARGIN))
-            .margin_bottom(px(10.0))
-            .set_label_area_size(LabelAreaPosition::Left, px(LEFT - EDGE))
-            .set_label_area_size(LabelAreaPosition::Bottom, px(46.0))
-            .build_cartesian_2d(across.clone(), up.clone())?;
-        chart.draw_series(shades)?;
-        let [x_description, y_description] = self.descriptions;
+/// A panel on a sheet.
+pub(super) struct Chart {
+    axes: [Axis; 2],
+    /// The area between the axes.
+    pub(super) frame: Frame,
+}
+
+impl Panel {
+    /// Draws the panel into a part of a sheet.
+    pub(super) fn draw(
+        self,
+        sheet: &mut Sheet,
+        part: Frame,
+        shades: impl IntoIterator<Item = Shade>,
+    ) -> Chart {
+        let frame = Frame {
+            from: part.from + spot(LEFT, ABOVE),
+            to: part.to - spot(MARGIN, BELOW),
+        };
+        let chart = Chart {
+            axes: self.axes,
+            frame,
+        };
+        let Frame { from, to } = frame;
+        let title = cut(&self.title, BODY, to.x - from.x);
+        sheet.text(&title, BODY, INK, Anchor::Start, from - spot(0.0, 14.0));
+        for ([low, high], color) in shades {
+            let [low, high] = [low, high].map(|at| chart.at(at, chart.axes[1].from).x);
+            let [low, high] = [low, high].map(|at| at.clamp(from.x, to.x));
+            sheet.rectangle([spot(low, from.y), spot(high, to.y)], color, TINT);
+        }
+        let [across, up] = &chart.axes;
+        for tick in across.ticks() {
+            let foot = spot(chart.at(tick, up.from).x, to.y);
+            sheet.line(&[spot(foot.x, from.y), foot], GRID);
+            sheet.line(&[foot, foot + spot(0.0, TICK)], FRAME);
+            let below = foot + spot(0.0, 15.0);
+            sheet.text(&across.label(tick), SMALL, INK, Anchor::Middle, below);
+        }
+        for tick in up.ticks() {
+            let foot = spot(from.x, chart.at(across.from, tick).y);
+            sheet.line(&[foot, spot(to.x, foot.y)], GRID);
+            sheet.line(&[foot - spot(TICK, 0.0), foot], FRAME);
+            let beside = foot - spot(9.0, 0.0);
+            sheet.text(&up.label(tick), SMALL, INK, Anchor::End, beside);
+        }
+        sheet.line(&[from, spot(from.x, to.y), to], FRAME);
+        let [horizontal, vertical] = self.descriptions;
+        let size = frame.size();
+        let horizontal = cut(&horizontal, BODY, size.x);
+        let below = spot(frame.middle().x, to.y + 38.0);
+        sheet.text(&horizontal, BODY, INK, Anchor::Middle, below);
+        let vertical = cut(&vertical, BODY, size.y + ABOVE + BELOW);
+        let beside = spot(from.x - 72.0, frame.middle().y);
+        sheet.text(&vertical, BODY, INK, Anchor::Upward, beside);
         chart
-            .configure_mesh()
-            .bold_line_style(style::INK.mix(0.15).stroke_width(px(0.6).unsigned_abs()))
-            .axis_style(Stroke::solid(style::INK, 1.0).shape())
-            .set_all_tick_mark_size(px(5.0))
-            .label_style(style::face(style::SMALL, style::INK, HPos::Center))
-            .axis_desc_style(style::face(style::BODY, style::INK, HPos::Center))
-            .x_desc(x_description)
-            .y_desc(y_description)
-            .draw()?;
-        Ok(chart)
     }
+}
+
+impl Chart {
+    /// Where a point is on the sheet.
+    pub(super) fn at(&self, across: f64, up: f64) -> Spot {
+        let [x, y] = [self.axes[0].part(across), 1.0 - self.axes[1].part(up)];
+        self.frame.from + spot(x, y).component_mul(&self.frame.size())
+    }
+}
+
+/// Equal parts of a part of a sheet, in rows of so many columns.
+pub(super) fn grid(part: Frame, columns: usize, count: usize) -> impl Iterator<Item = Frame> {
+    let columns = columns.max(1);
+    let rows = count.div_ceil(columns).max(1);
+    let size = part
+        .size()
+        .component_div(&spot(columns as f64, rows as f64));
+    (0..count).map(move |index| {
+        let place = spot((index % columns) as f64, (index / columns) as f64);
+        let from = part.from + place.component_mul(&size);
+        Frame {
+            from,
+            to: from + size,
+        }
+    })
 }

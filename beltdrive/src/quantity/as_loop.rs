@@ -4,8 +4,9 @@
 //! slack span leaves the driver below.
 
 use super::belt_loop::{self, Scale, list, single};
-use super::{Group, Measure, Quantity, Subject, Value};
+use super::{Answer, Group, Measure, Quantity, Subject, Value, words};
 use crate::belt_loop::{self as loops, BeltLoop, Closure, Duty, LoopPulley, Mount, Sense, Side};
+use crate::input::Key;
 use crate::{BeltKind, Drive, PulleyState, SteadyState};
 use std::f64::consts::PI;
 
@@ -37,6 +38,43 @@ pub fn of_loop(belt_loop: &BeltLoop, state: &loops::LoopState) -> [Group; 3] {
         subject.quantities.retain(|quantity| !is_series(quantity));
     }
     groups
+}
+
+/// What there is to draw of a steady state: the groups as the state itself has them, with the zones and profiles
+/// of both pulleys.
+pub fn drawn(state: &SteadyState) -> Answer {
+    let mut groups = of_state(state).to_vec();
+    let pulleys = groups.iter_mut().filter(|group| group.key == "pulleys");
+    let pulleys = pulleys.flat_map(|group| &mut group.subjects);
+    for (subject, pulley) in pulleys.zip([&state.driver, &state.driven]) {
+        let [entry, exit] = pulley.inclination;
+        let angle = |key, value| Quantity::number(key, "", Measure::Angle, value, 0.0);
+        let number = |key, measure, value| Quantity::data(key, measure, Value::Number(Some(value)));
+        let coefficient = state.drive.friction_coefficient;
+        let depth = pulley.max_penetration;
+        subject.quantities.extend([
+            number("friction_coefficient", Measure::Number, coefficient),
+            number("max_penetration", Measure::Length, depth),
+            angle("entry_inclination", entry),
+            angle("exit_inclination", exit),
+            belt_loop::zones(&pulley.zones, 0.0),
+        ]);
+        subject.quantities.extend(belt_loop::along(&pulley.profile));
+    }
+    groups.push(single("", belt_loop::statement(&as_loop(state))));
+    Answer {
+        heading: heading(&state.drive, &[]),
+        remarks: state.warnings.iter().map(words::warning).collect(),
+        groups,
+        ..Answer::default()
+    }
+}
+
+/// What the drive is, some keys of which vary.
+pub(crate) fn heading(drive: &Drive, varied: &[Key]) -> Vec<String> {
+    let mut lines = vec![words::heading(drive), words::law_of(drive, varied)];
+    lines.extend(words::convention(drive.belt.kind).map(str::to_owned));
+    lines
 }
 
 /// The drive as a loop that is closed by its slack tension.
@@ -136,7 +174,10 @@ fn of_state(state: &SteadyState) -> [Group; 3] {
         let torque = scale.tension * radius;
         let power = of.torque * of.angular_speed;
         let [magnitude, direction] = belt_loop::polar(hub_load);
-        let sign = if name == "driver" { -1.0 } else { 1.0 };
+        let (sign, duty) = match name {
+            "driver" => (-1.0, "driver"),
+            _ => (1.0, "torque"),
+        };
         let angle = |key, label, value| scale.against(key, label, Measure::Angle, value, 1.0);
         let speed = scale.relative(
             "angular_speed",
@@ -148,6 +189,7 @@ fn of_state(state: &SteadyState) -> [Group; 3] {
             head: name.to_owned(),
             quantities: vec![
                 Quantity::word("name", "", Some(name.to_owned())),
+                Quantity::word("duty", "", Some(duty.to_owned())),
                 Quantity::data("centre", Measure::Length, Value::Pair([x, 0.0])),
                 Quantity::data("radius", Measure::Length, Value::Number(Some(radius))),
                 speed,

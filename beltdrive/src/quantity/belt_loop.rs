@@ -4,9 +4,10 @@ use super::precision::six_digits;
 use super::words;
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value};
 use crate::belt_loop::{
-    BeltLoop, Closure, Guide, LoopConvergence, LoopState, Sense, SpanState, TensionerState,
+    BeltLoop, Closure, Duty, Guide, LoopConvergence, LoopState, Sense, Side, SpanState,
+    TensionerState,
 };
-use crate::{BeltKind, Check, NormalForce, Profile};
+use crate::{BeltKind, Check, NormalForce, Profile, Zone};
 
 /// The steady state of a loop.
 pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
@@ -250,17 +251,20 @@ fn pulley(belt_loop: &BeltLoop, state: &LoopState, index: usize, scale: &Scale) 
     let [magnitude, direction] = polar(pulley.hub_load);
     let [rest_magnitude, rest_direction] = polar(pulley.rest_hub_load);
     let is_ribbed = belt_loop.belt.ribs > 1;
+    let side = match stated.side {
+        Side::Inside => "inside",
+        Side::Outside => "outside",
+    };
+    let duty = match stated.duty {
+        Duty::Driver(_) => "driver",
+        Duty::Torque(_) => "torque",
+        Duty::Power(_) => "power",
+    };
     let angle = |key, label, value| scale.against(key, label, Measure::Angle, value, 1.0);
-    let zones = pulley.zones.iter().map(|zone| Subject {
-        head: String::new(),
-        quantities: vec![
-            Quantity::word("kind", "", Some(zone.kind.name().to_owned())),
-            angle("from", "", zone.from),
-            angle("to", "", zone.to),
-        ],
-    });
     let mut quantities = vec![
         Quantity::word("name", "", Some(pulley.name.clone())),
+        Quantity::word("side", "", Some(side.to_owned())),
+        Quantity::word("duty", "", Some(duty.to_owned())),
         Quantity::data("centre", Measure::Length, Value::Pair(pulley.centre)),
         Quantity::data("radius", Measure::Length, Value::Number(Some(radius))),
         scale.relative(
@@ -356,7 +360,7 @@ fn pulley(belt_loop: &BeltLoop, state: &LoopState, index: usize, scale: &Scale) 
             "  direction from x",
             rest_direction,
         ),
-        Quantity::data("zones", Measure::Number, Value::List(zones.collect())),
+        zones(&pulley.zones, scale.error),
     ];
     if let BeltKind::V(_) = belt_loop.belt.kind {
         let groove = pulley.groove.as_ref();
@@ -385,6 +389,20 @@ fn pulley(belt_loop: &BeltLoop, state: &LoopState, index: usize, scale: &Scale) 
         head: pulley.name.clone(),
         quantities,
     }
+}
+
+/// Friction zones, whose angles have an error in rad.
+pub(super) fn zones(zones: &[Zone], error: f64) -> Quantity {
+    let angle = |key, value| Quantity::number(key, "", Measure::Angle, value, error);
+    let zones = zones.iter().map(|zone| Subject {
+        head: String::new(),
+        quantities: vec![
+            Quantity::word("kind", "", Some(zone.kind.name().to_owned())),
+            angle("from", zone.from),
+            angle("to", zone.to),
+        ],
+    });
+    Quantity::data("zones", Measure::Number, Value::List(zones.collect()))
 }
 
 /// The belt along a pulley.
@@ -527,20 +545,23 @@ fn whole(belt_loop: &BeltLoop, state: &LoopState, scale: &Scale) -> Subject {
 }
 
 fn tensioner(name: &str, guide: &Guide, found: &TensionerState, scale: &Scale) -> Subject {
-    let (measure, stiffness, load, keys) = match guide {
-        Guide::Rotary { .. } => (
+    let (measure, stiffness, load, keys, place) = match *guide {
+        Guide::Rotary { pivot, .. } => (
             Measure::Angle,
             Measure::AngularStiffness,
             Measure::Torque,
             ["angle", "rest_angle", "arm angle"],
+            Quantity::data("pivot", Measure::Length, Value::Pair(pivot)),
         ),
-        Guide::Translating { .. } => (
+        Guide::Translating { direction, .. } => (
             Measure::Length,
             Measure::Stiffness,
             Measure::Force,
             ["position", "rest_position", "slide position"],
+            Quantity::data("direction", Measure::Number, Value::Pair(direction)),
         ),
     };
+    let [rest, ..] = guide.centre(found.rest_coordinate);
     let [key, rest_key, label] = keys;
     let constant = |key, label, value| scale.against(key, label, Measure::Number, value, 1.0);
     Subject {
@@ -549,6 +570,8 @@ fn tensioner(name: &str, guide: &Guide, found: &TensionerState, scale: &Scale) -
             Quantity::word("pulley", "tensioner", Some(name.to_owned())),
             scale.against(key, label, measure, found.coordinate, 1.0),
             scale.against(rest_key, "  at rest", measure, found.rest_coordinate, 1.0),
+            place,
+            Quantity::data("rest_centre", Measure::Length, Value::Pair(rest)),
             scale.relative("load", "load of spring or weight", load, found.load),
             scale.relative("stiffness", "stiffness", stiffness, found.stiffness),
             scale.relative(

@@ -16,6 +16,7 @@ mod parameter;
 pub(crate) mod precision;
 mod scalars;
 pub mod stability;
+pub mod two_pulley_rows;
 pub mod two_pulleys;
 pub(crate) mod value;
 pub mod verification;
@@ -138,7 +139,68 @@ impl Group {
     }
 }
 
+impl Answer {
+    /// The subjects of the group of a key; none if there is no such group.
+    #[must_use]
+    pub fn subjects(&self, key: &str) -> &[Subject] {
+        let mut groups = self.groups.iter();
+        let group = groups.find(|group| group.key == key);
+        group.map_or(&[], |group| &group.subjects)
+    }
+}
+
 impl Subject {
+    /// The quantity of a key.
+    #[must_use]
+    pub fn quantity(&self, key: &str) -> Option<&Quantity> {
+        self.quantities.iter().find(|quantity| quantity.key == key)
+    }
+
+    /// The number of a key, SI.
+    #[must_use]
+    pub fn number(&self, key: &str) -> Option<f64> {
+        match self.quantity(key)?.value {
+            Value::Number(number) => number,
+            _ => None,
+        }
+    }
+
+    /// The pair of a key, SI.
+    #[must_use]
+    pub fn pair(&self, key: &str) -> Option<[f64; 2]> {
+        match self.quantity(key)?.value {
+            Value::Pair(pair) => Some(pair),
+            _ => None,
+        }
+    }
+
+    /// The word of a key.
+    #[must_use]
+    pub fn word(&self, key: &str) -> Option<&str> {
+        match &self.quantity(key)?.value {
+            Value::Word(word) => word.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// The values of a key along the belt, SI; none if it has none.
+    #[must_use]
+    pub fn series(&self, key: &str) -> &[f64] {
+        match self.quantity(key).map(|quantity| &quantity.value) {
+            Some(Value::Series(values)) => values,
+            _ => &[],
+        }
+    }
+
+    /// The subjects of a key; none if it has none.
+    #[must_use]
+    pub fn list(&self, key: &str) -> &[Self] {
+        match self.quantity(key).map(|quantity| &quantity.value) {
+            Some(Value::List(subjects)) => subjects,
+            _ => &[],
+        }
+    }
+
     /// A subject with a head.
     pub(crate) fn new(head: impl Into<String>, quantities: Vec<Quantity>) -> Self {
         Self {
@@ -185,6 +247,25 @@ pub(crate) fn flat(quantities: &[Quantity]) -> Vec<Quantity> {
 }
 
 impl Quantity {
+    /// The number with its unit, to so many significant digits and none below its error; one without an error
+    /// as it was given.
+    pub(crate) fn shown(&self, digits: f64) -> Option<String> {
+        let Value::Number(Some(value)) = self.value else {
+            return None;
+        };
+        let unit = self.measure.shown(UnitSystem::Engineering);
+        let value = value * unit.factor;
+        let number = match self.error > 0.0 {
+            true => precision::known(value, self.error * unit.factor.abs(), digits),
+            false => precision::six_digits(value),
+        };
+        Some(match unit.symbol {
+            "" => number,
+            "°" => number + "°",
+            symbol => format!("{number} {symbol}"),
+        })
+    }
+
     /// A number with an error.
     pub fn number(
         key: impl Into<Cow<'static, str>>,

@@ -1,47 +1,5 @@
 //! How many digits of a number to show.
 
-use crate::Convergence;
-
-/// Shows numbers with the digits that are both known and useful.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Precision {
-    /// Relative error of the results.
-    error: f64,
-    /// Significant digits that are useful to a reader.
-    digits: f64,
-}
-
-impl Precision {
-    /// The precision of results that converged so far, shown to at most so many digits.
-    ///
-    /// The error is the larger one of the error estimate and the effect of the slip
-    /// normalisation. It is taken between 1e-12 and 0.1, so that a figure always remains.
-    pub(crate) fn of(convergence: &Convergence, digits: u8) -> Self {
-        let error = convergence
-            .error_estimate
-            .max(convergence.slip_normalisation_effect);
-        Self::new(error, digits)
-    }
-
-    /// The precision of results of a relative error, shown to at most so many digits.
-    pub(crate) fn new(error: f64, digits: u8) -> Self {
-        Self {
-            error: error.clamp(1e-12, 0.1),
-            digits: f64::from(digits),
-        }
-    }
-
-    /// A value whose own magnitude is the scale of its error.
-    pub(crate) fn show(&self, value: f64) -> String {
-        self.show_against(value, value)
-    }
-
-    /// A value whose error is relative to `scale`, such as a small difference of large numbers.
-    pub(crate) fn show_against(&self, value: f64, scale: f64) -> String {
-        known(value, self.error * scale.abs(), self.digits)
-    }
-}
-
 /// A value with the digits that an absolute error leaves, and no more than so many.
 pub(crate) fn known(value: f64, error: f64, digits: f64) -> String {
     let known = (-error.log10()).floor();
@@ -95,27 +53,18 @@ pub(crate) fn six_digits(value: f64) -> String {
 mod tests {
     use super::*;
 
-    fn precision(error_estimate: f64) -> Precision {
-        Precision::of(
-            &Convergence {
-                error_estimate,
-                ..Convergence::default()
-            },
-            6,
-        )
-    }
-
     #[test]
     fn shows_no_digit_beyond_the_error() {
         let value = 102.699_362;
-        let shown = [1e-9, 1e-5, 1e-4, 1e-3, 1e-2, 0.5].map(|error| precision(error).show(value));
+        let errors = [1e-9, 1e-5, 1e-4, 1e-3, 1e-2, 0.1];
+        let shown = errors.map(|error| known(value, error * value, 6.0));
         assert_eq!(shown, ["102.699", "102.70", "102.7", "103", "100", "100"]);
     }
 
     #[test]
     fn a_difference_carries_the_error_of_its_terms() {
-        assert_eq!(precision(2e-5).show_against(0.123_456, 100.0), "0.12");
-        assert_eq!(precision(1e-9).show_against(-1e-12, 100.0), "0");
+        assert_eq!(known(0.123_456, 2e-5 * 100.0, 6.0), "0.12");
+        assert_eq!(known(-1e-12, 1e-9 * 100.0, 6.0), "0");
     }
 
     #[test]
@@ -127,14 +76,14 @@ mod tests {
 
     #[test]
     fn unusual_values_have_a_display() {
-        assert_eq!(precision(0.0).show(0.0), "0");
-        assert_eq!(precision(f64::NAN).show(1.5), "1.50000");
-        assert_eq!(precision(0.0).show(f64::NAN), "not known");
+        assert_eq!(known(0.0, 0.0, 6.0), "0");
+        assert_eq!(known(1.5, f64::NAN, 6.0), "1.50000");
+        assert_eq!(known(f64::NAN, 0.0, 6.0), "not known");
     }
 
     #[test]
     fn small_numbers_are_powers_of_ten() {
-        let shown = [2.5e-4, -1.234_567_8e-7, 3.77e-26].map(|value| precision(0.0).show(value));
+        let shown = [2.5e-4, -1.234_567_8e-7, 3.77e-26].map(|value| known(value, 0.0, 6.0));
         assert_eq!(shown, ["0.000250000", "-1.23457e-7", "3.77000e-26"]);
         assert_eq!(known(3.77e-26, 1e-27, 6.0), "3.8e-26");
         assert_eq!(known(3.77e-26, 1e-24, 6.0), "0");

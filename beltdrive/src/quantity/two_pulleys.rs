@@ -1,6 +1,7 @@
 //! What there is to tell of the steady state of a drive with two pulleys.
 
-pub use super::as_loop::{as_drive, groups, of_loop};
+pub(crate) use super::as_loop::heading;
+pub use super::as_loop::{as_drive, drawn, groups, of_loop};
 use super::scalars::Scalars;
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, belt_loop, words};
 use crate::{BeltKind, Convergence, Drive, PulleyState, StateSummary, SteadyState, Warning};

@@ -20,14 +20,6 @@ pub(crate) fn quantity(key: Key, value: f64, error: Option<f64>) -> String {
     with_unit(key, number(key, value, error))
 }
 
-/// An entry with its path and unit.
-pub(crate) fn name(key: Key) -> String {
-    match key.unit() {
-        "" => key.name().to_owned(),
-        unit => format!("{} in {unit}", key.name()),
-    }
-}
-
 fn with_unit(key: Key, number: String) -> String {
     match key.unit() {
         "" => number,
@@ -51,9 +43,7 @@ mod tests {
         assert_eq!(quantity(tight, 700.0, Some(0.0)), "700 N");
         let coefficient = find("friction.coefficient");
         assert_eq!(quantity(coefficient, 0.4, None), "0.4");
-        assert_eq!(name(coefficient), "coefficient of friction");
         let angle = find("groove.half_angle");
         assert_eq!(quantity(angle, 18_f64.to_radians(), None), "18°");
-        assert_eq!(name(angle), "half groove angle in °");
     }
 }

@@ -171,14 +171,6 @@ impl Branch {
         rows.retain(|(point, event)| event.is_some() || !at_event(point));
         rows
     }
-
-    /// The arclength of the first limit point, behind which the states are not reached by changing
-    /// the parameter.
-    pub(crate) fn first_limit_point(&self) -> Option<f64> {
-        let mut events = self.events.iter();
-        let fold = events.find(|event| event.kind == EventKind::LimitPoint);
-        fold.map(|event| event.point.arclength)
-    }
 }
 
 /// A range is sampled in equal ratios if its ends have a larger one.

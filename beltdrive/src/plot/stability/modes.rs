@@ -1,54 +1,63 @@
 //! The shapes of the first modes along both pulleys, in the form of the thesis.
 
 use super::super::axis::{Axis, Scale};
-use super::super::header::{Header, Legend};
-use super::super::panel::Panel;
-use super::super::style::{self, Canvas, Drawn, Stroke, px};
+use super::super::curve::draw;
+use super::super::header::{Header, Mark};
+use super::super::occupied::Frame;
+use super::super::panel::{Panel, grid};
+use super::super::sheet::{INK, PALETTE, Sheet, Stroke, spot};
+use super::super::zones::color;
+use super::heading;
 use crate::quantity::stability::{complex, outcome};
-use crate::{AxialMode, Drive, FrictionLaw, PulleyStability, ShapePoint, Stability, ZoneKind};
-use plotters::prelude::*;
+use crate::{AxialMode, FrictionLaw, PulleyStability, ShapePoint, Stability};
 
 /// Width of the figure and height of a row of panels, px.
 const WIDTH: f64 = 1100.0;
 const ROW: f64 = 240.0;
 
-const REAL: Stroke = Stroke::solid(style::INK, 2.0);
-const MODULUS: Stroke = Stroke::dashed(style::WINE, 1.5);
+const REAL: Stroke = Stroke::solid(INK, 2.0);
+const MODULUS: Stroke = Stroke::dashed(PALETTE[3], 1.5);
 
 /// The figure: the driver on the left, the driven pulley on the right.
 pub(super) fn figure(stability: &Stability) -> String {
     let drive = &stability.drive;
-    let header = Header::new(drive, &[], "Axial modes, outlet f' = 0 (thesis)");
     let pulleys = [
         ("driver", &stability.driver, drive.driver_radius),
         ("driven", &stability.driven, drive.driven_radius),
     ];
+    // The zone before the slip zone.
+    let held = match drive.law {
+        FrictionLaw::Coulomb => "adhesion",
+        _ => "elastic",
+    };
+    let slips = pulleys
+        .iter()
+        .any(|(_, on, _)| on.transition < on.contact_length);
+    let kinds = [Some(held), slips.then_some("slip")].into_iter().flatten();
+    let shades = kinds.map(|kind| (format!("{kind} zone"), Mark::Shade(color(kind))));
+    let lines = [("real part", REAL), ("modulus", MODULUS)];
+    let lines = lines.map(|(label, stroke)| (label.to_owned(), Mark::Line(stroke)));
+    let answer = heading(stability);
+    let caption = "Axial modes, outlet f' = 0 (thesis)";
+    let header = Header::new(&answer, caption, lines.into_iter().chain(shades), WIDTH);
     let rows = pulleys.iter().map(|(_, on, _)| shapes(on).count()).min();
     let rows = rows.unwrap_or(0);
-    let top = header.height(WIDTH);
-    style::render([WIDTH, top + ROW * rows.max(1) as f64], |canvas| {
-        header.draw(canvas, &legend(drive, pulleys.map(|(_, on, _)| on)))?;
-        let (_, below) = canvas.split_vertically(px(top));
-        let panels = below.split_evenly((rows.max(1), 2));
-        for (column, (name, on, radius)) in pulleys.into_iter().enumerate() {
-            for (row, mode) in shapes(on).take(rows).enumerate() {
-                let title = format!(
-                    "{name}, mode {}: λ = {} 1/s, {}",
-                    row + 1,
-                    complex(mode),
-                    outcome(mode)
-                );
-                let view = View {
-                    title,
-                    held: held(drive),
-                    on,
-                    radius,
-                };
-                view.draw(&panels[2 * row + column], mode)?;
-            }
+    let size = spot(WIDTH, header.height + ROW * rows.max(1) as f64);
+    let mut sheet = Sheet::new(size);
+    header.draw(&mut sheet);
+    let below = Frame {
+        from: spot(0.0, header.height),
+        to: size,
+    };
+    for (place, part) in grid(below, 2, 2 * rows).enumerate() {
+        let (name, on, radius) = pulleys[place % 2];
+        if let Some(mode) = shapes(on).nth(place / 2) {
+            let (number, value) = (place / 2 + 1, complex(mode));
+            let title = format!("{name}, mode {number}: λ = {value} 1/s, {}", outcome(mode));
+            panel(&mut sheet, part, title, held, on, radius, mode);
         }
-        Ok(())
-    })
+    }
+    sheet.finish()
 }
 
 /// The modes of which there is a shape.
@@ -57,65 +66,39 @@ fn shapes(on: &PulleyStability) -> impl Iterator<Item = &AxialMode> {
     modes.take_while(|mode| mode.shape.len() > 1)
 }
 
-/// The zone before the slip zone.
-fn held(drive: &Drive) -> ZoneKind {
-    match drive.law {
-        FrictionLaw::Coulomb => ZoneKind::Adhesion,
-        _ => ZoneKind::Elastic,
-    }
-}
-
-fn legend(drive: &Drive, pulleys: [&PulleyStability; 2]) -> Vec<Legend> {
-    let slips = pulleys.iter().any(|on| on.transition < on.contact_length);
-    let lines = [
-        Legend::Line("real part", REAL),
-        Legend::Line("modulus", MODULUS),
-    ];
-    let kinds = [Some(held(drive)), slips.then_some(ZoneKind::Slip)];
-    let shades = kinds.into_iter().flatten();
-    let shades = shades.map(|kind| Legend::Shade(style::zone(kind).0, style::tint(kind)));
-    lines.into_iter().chain(shades).collect()
-}
-
-/// A panel.
-struct View<'a> {
+fn panel(
+    sheet: &mut Sheet,
+    part: Frame,
     title: String,
-    held: ZoneKind,
-    on: &'a PulleyStability,
+    held: &str,
+    on: &PulleyStability,
     radius: f64,
-}
-
-impl View<'_> {
-    fn draw(&self, canvas: &Canvas<'_>, mode: &AxialMode) -> Drawn {
-        let degrees = |length: f64| (length / self.radius).to_degrees();
-        let [end, transition] = [self.on.contact_length, self.on.transition].map(degrees);
-        let axes = [
+    mode: &AxialMode,
+) {
+    let degrees = |length: f64| (length / radius).to_degrees();
+    let [end, transition] = [on.contact_length, on.transition].map(degrees);
+    let transition = transition.min(end);
+    let panel = Panel {
+        title,
+        axes: [
             Axis::spanning([0.0, end].into_iter(), Scale::Degrees),
             Axis::spanning([-1.0, 1.0].into_iter(), Scale::Decimal).padded(),
-        ];
-        let [_, up] = &axes;
-        let shade =
-            |from, to, kind| Rectangle::new([(from, up.from), (to, up.to)], style::tint(kind));
-        let shades = [
-            shade(0.0, transition.min(end), self.held),
-            shade(transition.min(end), end, ZoneKind::Slip),
-        ];
-        let panel = Panel {
-            title: &self.title,
-            axes: &axes,
-            descriptions: ["angle φ from the entry in degrees", "motion f / max |f|"],
-        };
-        let chart = panel.draw(canvas, shades.into_iter())?;
-        let area = chart.plotting_area();
-        let line = |of: fn(&ShapePoint) -> f64| {
-            let points = mode.shape.iter();
-            points
-                .map(|point| (degrees(point.arc_length), of(point)))
-                .collect()
-        };
-        REAL.draw(area, line(|point| point.value[0]))?;
-        MODULUS.draw(area, line(|point| point.value[0].hypot(point.value[1])))
-    }
+        ],
+        descriptions: ["angle φ from the entry in degrees", "motion f / max |f|"]
+            .map(str::to_owned),
+    };
+    let shades = [
+        ([0.0, transition], color(held)),
+        ([transition, end], color("slip")),
+    ];
+    let chart = panel.draw(sheet, part, shades);
+    let mut line = |stroke, of: fn(&ShapePoint) -> f64| {
+        let points = mode.shape.iter();
+        let places = points.map(|point| chart.at(degrees(point.arc_length), of(point)));
+        draw(sheet, &places.collect::<Vec<_>>(), stroke);
+    };
+    line(REAL, |point| point.value[0]);
+    line(MODULUS, |point| point.value[0].hypot(point.value[1]));
 }
 
 #[cfg(test)]
