@@ -1,5 +1,6 @@
 //! The labels of a loop, placed where they cover nothing.
 
+use super::super::header::broken;
 use super::super::occupied::{Frame, Occupied, Place, distance_to};
 use super::super::sheet::{BODY, SMALL, Spot, spot, text_width, unit};
 use super::view::{PIVOT, View};
@@ -26,6 +27,10 @@ const OFF_MIDDLE: f64 = 6.0;
 /// A line of text is so much higher than its letters, and labels have this much room round them, px.
 const LINE: f64 = 1.25;
 const PADDING: f64 = 2.0;
+
+/// Names are broken into lines of this width, px: one of 70 letters on a single line had room on no sheet
+/// narrower than 3300 px.
+const NAME: f64 = 180.0;
 
 /// Lines of text with their sizes, px.
 type Lines = Vec<(String, f64)>;
@@ -177,7 +182,8 @@ fn around(view: &View<'_>) -> Vec<(Lines, Anchor)> {
         if !view.shows_rotation(index) {
             lines[0].0 += if pulley.sense > 0.0 { " ↺" } else { " ↻" };
         }
-        lines.insert(0, (pulley.name.clone(), BODY));
+        let name = broken(&pulley.name, BODY, NAME).into_iter();
+        lines.splice(0..0, name.map(|line| (line, BODY)));
         (
             lines,
             disc(view.at(pulley.centre), view.scale * pulley.radius),

@@ -113,6 +113,9 @@ fn loops() -> Vec<BeltLoop> {
     loops.push(pair([0.001, 0.3], 0.9, 0.5, Side::Inside));
     loops.push(pair([0.1, 0.1], 60.0, 10.0, Side::Inside));
     loops.push(pair([0.1, 0.1], 60.0, 10.0, Side::Outside));
+    let mut named = pair([0.01, 0.1], 0.3, 2.0, Side::Inside);
+    named.pulleys[0].name = "a name of more words than a label has room for on one line".repeat(2);
+    loops.push(named);
     loops.push(pair([0.05, 0.08], 0.15, 0.0, Side::Inside));
     loops
 }
