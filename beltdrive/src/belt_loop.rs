@@ -46,13 +46,13 @@
 //! without friction, as deep in every groove as its tension presses it; a groove carries up to k R² tan β/6
 //! at rest ([`LoopError::PressedThrough`]), and a loop whose belt cannot be at rest so is refused even where
 //! friction holds it in motion. The bristles of the loop are found from nothing; where they are not, and for
-//! the load limit ([`load_limit`]), all torques are raised together from a small share. A state whose
+//! the margins ([`solve_with_margins`]), all torques are raised together from a small share. A state whose
 //! invariants fail is an error ([`LoopState::checks`], [`LoopError::Violated`]).
 //!
 //! With elastic/perfectly-plastic friction the displacement grows from the tension `T_o` of the slackest span
 //! on every pulley (its tractive tension where the closure gives one), as in a drive with two pulleys. The
 //! scalar displacement knows no direction, and with soft friction the way to a state is not always found
-//! ([`LoopError::NotConverged`]). Torque margins of single pulleys are not computed (`None`).
+//! ([`LoopError::NotConverged`]).
 //!
 //! Sources: M. B. Rubin, An exact solution for steady motion of an extensible belt in multipulley belt
 //! drive systems, J. Mech. Des. 122 (2000); S. E. Bechtel, S. Vohra, K. I. Jacob and C. D. Carlson, J.
@@ -106,7 +106,7 @@ pub use crate::answers::{
     LoopBranch, LoopEnd, LoopLimit, LoopLimitCurve, LoopLimitPoint, LoopLimits, LoopPoint, Refusal,
     Varied, limit_curve, limits, trace,
 };
-pub use crate::answers::{load_limit, solve, solve_to};
+pub use crate::answers::{solve, solve_to, solve_with_margins};
 pub use crate::drive::belt_loop::{
     BeltLoop, Closure, Duty, Guide, LoopPulley, Mount, Tensioner, TensionerLoad,
 };

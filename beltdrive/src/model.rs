@@ -1,7 +1,7 @@
 //! What a model of belts answers. A model is a folder with an implementation of [`Model`], and a line of
 //! [`model`].
 
-use crate::belt_loop::{BeltLoop, LoadLimit, LoopError, LoopState};
+use crate::belt_loop::{BeltLoop, LoopError, LoopState};
 use crate::input::Key;
 use crate::{
     BeltKind, Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState,
@@ -69,12 +69,12 @@ pub(crate) trait Model {
         options: &SolveOptions,
     ) -> Result<LoopState, LoopError>;
 
-    /// As [`crate::belt_loop::load_limit`].
-    fn load_limit(
+    /// As [`crate::belt_loop::solve_with_margins`].
+    fn solve_with_margins(
         &self,
         belt_loop: &BeltLoop,
         options: &SolveOptions,
-    ) -> Result<Option<LoadLimit>, LoopError>;
+    ) -> Result<LoopState, LoopError>;
 }
 
 /// The model of a kind of belt.

@@ -1,7 +1,7 @@
 //! What is asked of the steady state of a loop of pulleys.
 
 use crate::SolveOptions;
-use crate::belt_loop::{BeltLoop, LoadLimit, LoopError, LoopState};
+use crate::belt_loop::{BeltLoop, LoopError, LoopState};
 use crate::drive::check;
 use crate::model::model;
 
@@ -26,18 +26,20 @@ pub fn solve_to(belt_loop: &BeltLoop, options: &SolveOptions) -> Result<LoopStat
     model(belt_loop.belt.kind).solve_loop(belt_loop, options)
 }
 
-/// How far all torques of a loop can be raised at the same closure: of a flat belt with Coulomb friction, as
-/// in its state; of a V-belt with its own friction law, found by raising them until no steady state carries
-/// more. `None` without torques, or if nothing ends the range.
+/// As [`solve_to`], with what takes longer than the state of a V-belt: how far all torques can be raised at the
+/// same closure, with the friction law of the loop, until no steady state carries more
+/// ([`LoopState::load_limit`]); and how far that of each pulley can be raised at the tension of its slack side
+/// ([`PulleyState::torque_margin`](crate::belt_loop::PulleyState::torque_margin)). Both are `None` without
+/// torques, or if nothing that ends the range was found.
 ///
 /// # Errors
 /// As [`solve_to`].
-pub fn load_limit(
+pub fn solve_with_margins(
     belt_loop: &BeltLoop,
     options: &SolveOptions,
-) -> Result<Option<LoadLimit>, LoopError> {
+) -> Result<LoopState, LoopError> {
     check(belt_loop, options)?;
-    model(belt_loop.belt.kind).load_limit(belt_loop, options)
+    model(belt_loop.belt.kind).solve_with_margins(belt_loop, options)
 }
 
 /// Whether the statement and the options are in range.

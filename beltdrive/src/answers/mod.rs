@@ -9,7 +9,7 @@ mod members;
 mod trace;
 pub mod verify;
 
-pub use belt_loop::{load_limit, solve, solve_to};
+pub use belt_loop::{solve, solve_to, solve_with_margins};
 pub use limit_curve::{LoopLimitCurve, LoopLimitPoint, limit_curve};
 pub use limits::{LoopEnd, LoopLimit, LoopLimits, limits};
 pub use members::{Refusal, Varied};

@@ -4,7 +4,7 @@ use super::{common::Common, failure::Failure, origin::Origin};
 use beltdrive::belt_loop;
 use beltdrive::input::Stated;
 use beltdrive::quantity::{Group, two_pulleys};
-use beltdrive::{BeltKind, SteadyState, plot, quantity};
+use beltdrive::{SteadyState, plot, quantity};
 use clap::Args;
 use std::path::Path;
 
@@ -31,12 +31,7 @@ impl Solve {
             }
             Stated::Loop(belt_loop) => {
                 let options = self.common.options();
-                let mut state = belt_loop::solve_to(&belt_loop, &options)?;
-                if let BeltKind::V(_) = belt_loop.belt.kind {
-                    // It takes longer than the state: it is sought where it is shown.
-                    let limit = belt_loop::load_limit(&belt_loop, &options);
-                    state.load_limit = limit.ok().flatten();
-                }
+                let state = belt_loop::solve_with_margins(&belt_loop, &options)?;
                 // A drive with two pulleys is shown as one.
                 if let Some(drive) = two_pulleys::as_drive(&belt_loop, &state) {
                     let groups = two_pulleys::of_loop(&belt_loop, &state);

@@ -1,6 +1,6 @@
 //! What is asked of flat belts.
 
-use crate::belt_loop::{BeltLoop, LoadLimit, LoopError, LoopState};
+use crate::belt_loop::{BeltLoop, LoopError, LoopState};
 use crate::input::Key;
 use crate::model::{Model, Progress};
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
@@ -68,12 +68,11 @@ impl Model for FlatBelts {
         super::belt_loop::solve(belt_loop)
     }
 
-    fn load_limit(
+    fn solve_with_margins(
         &self,
         belt_loop: &BeltLoop,
         options: &SolveOptions,
-    ) -> Result<Option<LoadLimit>, LoopError> {
+    ) -> Result<LoopState, LoopError> {
         self.solve_loop(belt_loop, options)
-            .map(|state| state.load_limit)
     }
 }

@@ -40,7 +40,8 @@ pub struct LoopState {
     /// The tensioner, if there is one.
     pub tensioner: Option<TensionerState>,
     /// How far all torques can be raised with Coulomb friction; `None` without torques, or if the tensioner
-    /// has no equilibrium up to there. `None` for V-belts, of which [`crate::belt_loop::load_limit`] finds it.
+    /// has no equilibrium up to there. Of a V-belt, with its
+    /// own friction law, [`solve_with_margins`](crate::belt_loop::solve_with_margins) finds it.
     pub load_limit: Option<LoadLimit>,
     /// The verified invariants, each with its relative deviation.
     pub checks: Vec<Check>,
@@ -167,11 +168,12 @@ pub struct PulleyState {
     /// Share of the contact that slips with Coulomb friction, `|ln(P_out/P_in)|`/(a R φ) with the traction P
     /// and the slip rate a of the convention (a R = μ but with `thesis`); below 1. `None` for V-belts.
     pub friction_utilisation: Option<f64>,
-    /// Torque at which it would slip at the slacker of its tensions, N·m: R P (exp(a R φ) − 1). `None` for
-    /// V-belts, which this formula does not describe.
+    /// Largest torque that it takes or gives at the slacker of its tensions, N·m: R P (exp(a R φ) − 1) on flat
+    /// belts; in a groove that of the contact at any speed of the pulley, found by
+    /// [`solve_with_margins`](crate::belt_loop::solve_with_margins) unless it is an idler.
     pub torque_capacity: Option<f64>,
-    /// Torque capacity over torque; `None` for an idler and for V-belts. It holds the slacker tension, where
-    /// the load limit holds the closure.
+    /// Torque capacity over torque; `None` for an idler. It holds the slacker tension, where the load limit holds
+    /// the closure.
     pub torque_margin: Option<f64>,
     /// The belt in its groove; `None` for flat belts and for pulleys on the back of a V-belt.
     pub groove: Option<GrooveState>,

@@ -1,6 +1,6 @@
 //! What is asked of V-belts.
 
-use crate::belt_loop::{BeltLoop, LoadLimit, LoopError, LoopState};
+use crate::belt_loop::{BeltLoop, LoopError, LoopState};
 use crate::input::Key;
 use crate::model::{Model, Progress};
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
@@ -73,11 +73,11 @@ impl Model for VBelts {
         super::belt_loop::solve(belt_loop, options.tolerance)
     }
 
-    fn load_limit(
+    fn solve_with_margins(
         &self,
         belt_loop: &BeltLoop,
         options: &SolveOptions,
-    ) -> Result<Option<LoadLimit>, LoopError> {
-        super::belt_loop::load_limit(belt_loop, options.tolerance)
+    ) -> Result<LoopState, LoopError> {
+        super::belt_loop::solve_with_margins(belt_loop, options.tolerance)
     }
 }

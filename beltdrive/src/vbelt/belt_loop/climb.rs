@@ -44,13 +44,7 @@ impl Search<'_> {
         let begin = from.problem.factor(p);
         let free = from.problem.clone().with_unknown_factor();
         let unknown = Problem::parameters(&free) - 1;
-        let options = Options {
-            tolerance: self.tolerance.max(ROUGH),
-            scheme: Some(Scheme::Gauss { stages: 5 }),
-            control: Control::Defect,
-            max_intervals: MAX_INTERVALS,
-            ..Options::default()
-        };
+        let options = rough(self.tolerance);
         let guess = WithFactor {
             solution: &from.solution,
             factor: begin,
@@ -60,11 +54,7 @@ impl Search<'_> {
             Ok(family) => family,
             Err(error) => return lost(begin, difficulty::of_solver(&error)),
         };
-        let branch_options = continuation::Options {
-            steps: STEPS,
-            accuracy: 1e-3 * options.tolerance,
-            ..continuation::Options::within(begin.min(0.0), to)
-        };
+        let branch_options = followed([begin.min(0.0), to], &options);
         let direction = Direction::Increasing;
         let mut branch = match Branch::new(&mut family, &z, direction, &branch_options) {
             Ok(branch) => branch,
@@ -108,6 +98,26 @@ impl Search<'_> {
         }
         let cause = "the states change too abruptly there to be followed";
         lost(reached, cause)
+    }
+}
+
+/// How states on the way are solved, if the final tolerance is this.
+pub(super) fn rough(tolerance: f64) -> Options {
+    Options {
+        tolerance: tolerance.max(ROUGH),
+        scheme: Some(Scheme::Gauss { stages: 5 }),
+        control: Control::Defect,
+        max_intervals: MAX_INTERVALS,
+        ..Options::default()
+    }
+}
+
+/// How a curve of states that are solved with these options is followed within bounds.
+pub(super) fn followed([low, high]: [f64; 2], options: &Options) -> continuation::Options {
+    continuation::Options {
+        steps: STEPS,
+        accuracy: 1e-3 * options.tolerance,
+        ..continuation::Options::within(low, high)
     }
 }
 

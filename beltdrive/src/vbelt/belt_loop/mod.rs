@@ -5,6 +5,7 @@
 //! problem, `rest` the belt at rest.
 
 mod back;
+mod capacity;
 mod checks;
 mod climb;
 mod contacts;
@@ -20,4 +21,4 @@ mod solve;
 mod state;
 mod tensioner;
 
-pub(crate) use solve::{load_limit, solve};
+pub(crate) use solve::{solve, solve_with_margins};

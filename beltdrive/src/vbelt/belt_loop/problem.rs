@@ -175,6 +175,11 @@ impl LoopProblem {
             .then(|| self.length_index(self.segments.len()))
     }
 
+    /// That tension, scaled; 0 with other laws.
+    pub(super) fn reference(&self, p: &[f64]) -> f64 {
+        self.reference_index().map_or(0.0, |index| p[index])
+    }
+
     /// Number of parameters but for the factor.
     fn constants(&self) -> usize {
         self.length_index(self.segments.len()) + usize::from(self.has_reference)

@@ -91,35 +91,26 @@ pub(crate) fn solve(belt_loop: &BeltLoop, tolerance: f64) -> Result<LoopState, L
     state(&mut search, &rest, &at_rest, &running)
 }
 
-/// How far all torques of a loop can be raised, found by raising them; `None` if that is not at all, or
-/// farther than anything that was tried.
-pub(crate) fn load_limit(
+/// As [`solve`], with what takes longer than the state: the torque margin of every pulley and the load limit.
+pub(crate) fn solve_with_margins(
     belt_loop: &BeltLoop,
     tolerance: f64,
-) -> Result<Option<LoadLimit>, LoopError> {
+) -> Result<LoopState, LoopError> {
     let mut search = Search::new(belt_loop, tolerance);
-    let mut here = search.find()?.running;
-    if belt_loop
-        .pulleys
-        .iter()
-        .all(|pulley| pulley.duty.torque_at(1.0) == 0.0)
-    {
-        return Ok(None);
+    let Found {
+        at_rest,
+        rest,
+        running,
+    } = search.find()?;
+    let mut found = state(&mut search, &rest, &at_rest, &running)?;
+    for (index, pulley) in found.pulleys.iter_mut().enumerate() {
+        pulley.torque_margin = running.torque_margin(index, tolerance);
+        pulley.torque_capacity = pulley
+            .torque_margin
+            .map(|margin| margin * pulley.torque.abs());
     }
-    let mut to = 2.0;
-    while to < LARGEST_FACTOR {
-        match search.climb(&here, to) {
-            Climbed::Reached(solved) => here = *solved,
-            Climbed::Limit(Top { factor, pulley, .. }) => {
-                return Ok(Some(LoadLimit { factor, pulley }));
-            }
-            Climbed::Lost { reached, cause } => {
-                return Err(LoopError::NotConverged { reached, cause });
-            }
-        }
-        to *= 2.0;
-    }
-    Ok(None)
+    found.load_limit = search.load_limit(running).ok().flatten();
+    Ok(found)
 }
 
 impl<'l> Search<'l> {
@@ -130,6 +121,29 @@ impl<'l> Search<'l> {
             cost: Cost::default(),
             epsilon_effect: 0.0,
         }
+    }
+
+    /// How far all torques can be raised from a state, found by raising them; `None` if that is not at all, or
+    /// farther than anything that was tried.
+    fn load_limit(&mut self, from: Solved) -> Result<Option<LoadLimit>, LoopError> {
+        let mut pulleys = self.belt_loop.pulleys.iter();
+        if pulleys.all(|pulley| pulley.duty.torque_at(1.0) == 0.0) {
+            return Ok(None);
+        }
+        let (mut here, mut to) = (from, 2.0);
+        while to < LARGEST_FACTOR {
+            match self.climb(&here, to) {
+                Climbed::Reached(solved) => here = *solved,
+                Climbed::Limit(Top { factor, pulley, .. }) => {
+                    return Ok(Some(LoadLimit { factor, pulley }));
+                }
+                Climbed::Lost { reached, cause } => {
+                    return Err(LoopError::NotConverged { reached, cause });
+                }
+            }
+            to *= 2.0;
+        }
+        Ok(None)
     }
 
     /// The loop at rest and running, in the order in which the closure gives them.
