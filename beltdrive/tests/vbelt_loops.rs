@@ -554,7 +554,7 @@ fn the_smallest_margin_of_two_pulleys_is_their_load_limit() {
 fn a_stiff_belt_in_a_wide_groove_carries_what_a_flat_belt_does() {
     let half_angle = 60_f64.to_radians();
     let mut last = f64::INFINITY;
-    for stiffness in [3e6, 1e7, 3e7] {
+    for stiffness in [3e6, 3e7] {
         let mut belt_loop = accessories(Closure::SetupTension(500.0));
         belt_loop.pulleys[1].half_angle = None;
         belt_loop.law = FrictionLaw::Bristle { stiffness: 3e4 };
