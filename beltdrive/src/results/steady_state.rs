@@ -264,9 +264,11 @@ pub struct Convergence {
     pub factorisations: usize,
     /// Boundary value problems solved on the way to this one.
     pub continuation_steps: usize,
-    /// Normalisation ε of the slip direction in the final state (0 for the bristle law).
+    /// What smooths the direction of friction in the final state: the length ℓ/R over which the traction of
+    /// Coulomb friction follows the slip, or, with EPP friction and Coulomb friction next to no load, the
+    /// normalisation ε of the slip direction. 0 for the bristle law.
     pub slip_normalisation: f64,
-    /// Estimated relative effect of ε on the constants of the drive.
+    /// Estimated relative effect of that on the constants of the drive.
     pub slip_normalisation_effect: f64,
     /// Wall-clock seconds.
     pub seconds: f64,

@@ -90,8 +90,11 @@ impl<T: Real> Contact<T> {
                 let pressure = groove.pressure(transverse * 0.5, state[LAW + 1]);
                 (pressure, [state[LAW] * pressure, state[LAW + 1] * pressure])
             }
-            Law::Coulomb | Law::Epp { .. } => {
-                let direction = [slip_t / slip_norm, slip_w / slip_norm];
+            Law::Coulomb | Law::Epp { .. } | Law::Sliding { .. } => {
+                let direction = match groove.law {
+                    Law::Sliding { .. } => state[LAW].sin_cos().into(),
+                    _ => [slip_t / slip_norm, slip_w / slip_norm],
+                };
                 let mu = groove.friction_coefficient;
                 let limit = groove.pressure(transverse * 0.5, direction[1] * mu) * mu;
                 let friction = groove.friction(regime, state, limit);
@@ -129,6 +132,12 @@ impl<T: Real> Contact<T> {
         match groove.law {
             Law::Coulomb => {}
             Law::Epp { unstretched, .. } => rates[LAW] = self.displacement_rate(unstretched),
+            Law::Sliding { lag, lead } => {
+                let turning = self.across(self.slip_rates(groove, rates), state);
+                // |e| cos² of half the angle between slip and traction: |e| but where they are opposed.
+                let weight = (self.slip_norm + self.alignment(state)) * 0.5;
+                rates[LAW] = (self.misalignment(state) + turning * lead) / (weight * lead + lag);
+            }
             Law::Bristle { stiffness } => {
                 let saturation = self.slip_norm / groove.friction_coefficient;
                 for (axis, &slip) in self.slip.iter().enumerate() {
@@ -136,6 +145,44 @@ impl<T: Real> Contact<T> {
                 }
             }
         }
+    }
+
+    /// Derivatives of the slip with respect to the arc length, from those of F and θ.
+    fn slip_rates(&self, groove: &Groove, rates: &[T]) -> [T; 2] {
+        let [slip_t, _] = self.slip;
+        let strand = &groove.strand;
+        // V'/V, and (ω r/V)'/(ω r/V) with r' = sin θ.
+        let stretching = strand.stretching(self.tension, self.speed) * rates[TENSION];
+        let rim = self.sin_theta / self.radius - stretching;
+        [
+            -(self.sin_theta * rates[INCLINATION]) - (self.cos_theta - slip_t) * rim,
+            self.cos_theta * rates[INCLINATION] / groove.cos_beta,
+        ]
+    }
+
+    /// Component of a vector in the groove face across the direction γ of the traction, positive where γ
+    /// has to grow to follow it.
+    fn across(&self, [t, w]: [T; 2], state: &[T]) -> T {
+        let (sin, cos) = state[LAW].sin_cos();
+        t * cos - w * sin
+    }
+
+    /// Slip along the direction of the traction.
+    pub(super) fn alignment(&self, state: &[T]) -> T {
+        let (sin, cos) = state[LAW].sin_cos();
+        self.slip[0] * sin + self.slip[1] * cos
+    }
+
+    /// Slip across the direction of the traction.
+    pub(super) fn misalignment(&self, state: &[T]) -> T {
+        self.across(self.slip, state)
+    }
+
+    /// Excess of the traction up the groove face over half of what lies between that which lets the
+    /// inclination stay zero and the whole friction: it rises through zero where the belt turns to be lifted.
+    pub(super) fn turn_excess(&self, groove: &Groove) -> T {
+        let unbalanced = self.tractive / self.radius - self.outward;
+        self.traction[1] - self.friction() + unbalanced * (0.5 * groove.cos_beta)
     }
 
     /// du/ds = (T − `T_o`)/EA, the displacement of the belt against the pulley; for laws that do
@@ -187,7 +234,7 @@ pub(crate) fn limit_excess<T: Real>(groove: &Groove, state: &[T], omega: T, flow
             let slip = Contact::new(groove, Regime::Slip, state, omega, flow);
             elastic(stiffness, state) - slip.pressure * groove.friction_coefficient
         }
-        Law::Coulomb | Law::Bristle { .. } => T::from_f64(0.0),
+        Law::Coulomb | Law::Sliding { .. } | Law::Bristle { .. } => T::from_f64(0.0),
     }
 }
 
@@ -299,6 +346,69 @@ mod tests {
         }
         state[LAW] *= 1.1;
         assert!(limit_excess(&groove, &state, OMEGA, FLOW) > 0.0);
+    }
+
+    /// States of sliding friction, the traction turned from the slip by some angle.
+    fn sliding(turned: f64) -> (Law, [f64; 5]) {
+        let law = Law::Sliding {
+            lag: 1e-3,
+            lead: 0.02,
+        };
+        let mut state = STATE;
+        let slip = contact(law, 0.0, Regime::Slip, &state).slip;
+        state[LAW] = slip[0].atan2(slip[1]) + turned;
+        (law, state)
+    }
+
+    #[test]
+    fn traction_along_the_slip_is_coulomb_friction() {
+        let coulomb = contact(Law::Coulomb, 0.0, Regime::Slip, &STATE[..4]);
+        let (law, state) = sliding(0.0);
+        let sliding = contact(law, 0.0, Regime::Slip, &state);
+        assert!((sliding.outward - coulomb.outward).abs() < 1e-14);
+        assert!((sliding.retarding - coulomb.retarding).abs() < 1e-14);
+        assert!(sliding.misalignment(&state).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_slip_changes_as_the_states_do() {
+        let (law, state) = sliding(0.3);
+        let groove = groove(law, 0.0);
+        let here = Contact::new(&groove, Regime::Slip, &state, OMEGA, FLOW);
+        let mut rates = [0.0; 5];
+        here.rates(&groove, &state, &mut rates);
+        let step = 1e-6;
+        let [before, after] = [-step, step].map(|step| {
+            let moved: Vec<f64> = state
+                .iter()
+                .zip(rates)
+                .map(|(y, dy)| y + step * dy)
+                .collect();
+            Contact::new(&groove, Regime::Slip, &moved, OMEGA, FLOW).slip
+        });
+        for (axis, rate) in here.slip_rates(&groove, &rates).iter().enumerate() {
+            let difference = (after[axis] - before[axis]) / (2.0 * step);
+            assert!((difference - rate).abs() < 1e-8, "{difference} {rate}");
+        }
+    }
+
+    #[test]
+    fn the_direction_follows_the_slip_at_the_rate_of_its_lag_and_lead() {
+        let rate = |turned: f64| {
+            let (law, state) = sliding(turned);
+            let groove = groove(law, 0.0);
+            let mut rates = [0.0; 5];
+            let here = Contact::new(&groove, Regime::Slip, &state, OMEGA, FLOW);
+            here.rates(&groove, &state, &mut rates);
+            let turning = here.across(here.slip_rates(&groove, &rates), &state);
+            (here, rates[LAW], turning)
+        };
+        // Along the slip it turns as the slip does, but for ℓ against τ |e|.
+        let (here, along, turning) = rate(0.0);
+        assert!((along * (here.slip_norm * 0.02 + 1e-3) - 0.02 * turning).abs() < 1e-14);
+        // Against it only ℓ resists.
+        let (_, against, turning) = rate(std::f64::consts::PI);
+        assert!((against * 1e-3 - 0.02 * turning).abs() < 1e-13);
     }
 
     #[test]

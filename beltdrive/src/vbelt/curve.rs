@@ -20,7 +20,7 @@ impl Curve<'_> {
     /// change by one Newton correction towards the solution with ε/4, across the curve, as a share of
     /// 1 + |value|, and a third more for what is left of ε then. An estimate of its order only, since
     /// the effect is not linear; inclinations inside lock zones change by more.
-    pub(super) fn normalisation_effect(&self, z: &[f64]) -> Option<f64> {
+    pub(super) fn smoothing_effect(&self, z: &[f64]) -> Option<f64> {
         let mut finer = self.family.exchanged(self.finer?).ok()?;
         let n = z.len() - 1;
         let (mut g, mut v, mut t) = (vec![0.0; n], vec![0.0; n + 1], vec![0.0; n + 1]);

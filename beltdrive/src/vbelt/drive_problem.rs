@@ -6,12 +6,14 @@
 //!
 //! ```text
 //! conditions per pulley with z zones and n states                              number
-//!   every state continuous, k_f |u| = μ p        at each junction of zones    (z − 1)(n + 1)
+//!   every state continuous, and the junction     at each junction of zones    (z − 1)(n + 1)
 //!   the span's tension, x = 0                    at entry and exit             4
-//!   φ = 0, and u = 0 (EPP) or B = 0 (bristle)    at entry                      n − 3
+//!   φ = 0, γ along the slip, u = 0 or B = 0      at entry                      n − 3
 //! the two conditions that close the drive (see `closure`)                      2
 //! ```
 //!
+//! A junction is where k_f |u| = μ p if elastic and slipping friction meet there, else it lies in
+//! the middle of the turn of the traction that lifts the belt (see `Contact::turn_excess`).
 //! Together Σ z n + Σ z + 2: the states and the parameters. Where another quantity is
 //! prescribed instead of the tension of the tight span, that is one more parameter, the last.
 
@@ -25,6 +27,9 @@ use std::ops::Range;
 
 /// Index of the length of segment 0 among the parameters.
 const LENGTHS: usize = 2;
+
+/// Length τ/R over which the traction is led towards the direction of the slip.
+const LEAD: f64 = 0.02;
 
 /// A drive in steady motion, scaled.
 #[derive(Clone, Debug)]
@@ -60,13 +65,17 @@ impl DriveProblem {
     pub(crate) const MASS_FLOW: usize = 1;
 
     /// The problem of `drive` in the units `scales`, with one segment on each pulley and the slip
-    /// direction normalised by `epsilon` (which bristles do not use). EPP friction is not blended.
-    pub(crate) fn new(drive: &Drive, scales: Scales, epsilon: f64) -> Self {
+    /// direction of the traction smoothed: ℓ/R of Coulomb friction, ε of EPP friction. Bristles do not use it.
+    /// EPP friction is not blended.
+    pub(crate) fn new(drive: &Drive, scales: Scales, smoothing: f64) -> Self {
         let (sin_beta, cos_beta) = drive.belt.v().half_angle.sin_cos();
         let units = scales.units;
         let grooves = scales.radius.map(|radius| {
             let law = match drive.law {
-                FrictionLaw::Coulomb => Law::Coulomb,
+                FrictionLaw::Coulomb => Law::Sliding {
+                    lag: smoothing,
+                    lead: LEAD,
+                },
                 FrictionLaw::Epp { stiffness } => Law::Epp {
                     stiffness: units.friction_stiffness(stiffness, radius),
                     unstretched: drive.load.slack.value() / units.force,
@@ -84,7 +93,7 @@ impl DriveProblem {
                 friction_coefficient: drive.friction_coefficient,
                 radial_stiffness: units.radial_stiffness(drive.belt.v().radial_stiffness, radius),
                 law,
-                epsilon,
+                epsilon: smoothing,
             }
         });
         let problem = Self {
@@ -101,12 +110,15 @@ impl DriveProblem {
             segments: Vec::new(),
             driven_zones: 0,
         };
-        problem.with_zones(&[Regime::Either], &[Regime::Either])
+        let regime = match drive.law {
+            FrictionLaw::Epp { .. } => Regime::Either,
+            _ => Regime::Slip,
+        };
+        problem.with_zones([&[regime], &[regime]])
     }
 
-    /// The same drive with these friction zones on the driven pulley and on the driver. More than
-    /// one on a pulley is for EPP friction only, alternately elastic and slip.
-    pub(crate) fn with_zones(mut self, driven: &[Regime], driver: &[Regime]) -> Self {
+    /// The same drive with these friction zones on the driven pulley and on the driver.
+    pub(crate) fn with_zones(mut self, [driven, driver]: [&[Regime]; 2]) -> Self {
         self.regimes = [driven, driver].concat();
         self.driven_zones = driven.len();
         self.segments = vec![Segment::new(self.grooves[DRIVEN].states()); self.regimes.len()];
@@ -127,12 +139,29 @@ impl DriveProblem {
         self
     }
 
-    /// The same drive with another normalisation ε of the slip direction.
-    pub(crate) fn with_epsilon(mut self, epsilon: f64) -> Self {
+    /// The same drive with another length ℓ/R of Coulomb friction or normalisation ε of EPP friction. Bristles
+    /// stay as they are.
+    pub(crate) fn with_smoothing(mut self, smoothing: f64) -> Self {
         for groove in &mut self.grooves {
-            groove.epsilon = epsilon;
+            match &mut groove.law {
+                Law::Sliding { lag, .. } => *lag = smoothing,
+                _ => groove.epsilon = smoothing,
+            }
         }
         self
+    }
+
+    /// The same drive with Coulomb friction whose direction is a state, or that of the slip normalised by ε.
+    /// Other laws stay as they are.
+    pub(crate) fn with_direction(mut self, is_state: bool) -> Self {
+        for groove in &mut self.grooves {
+            if let (Law::Sliding { .. }, false) = (groove.law, is_state) {
+                groove.law = Law::Coulomb;
+            }
+        }
+        let regimes = self.regimes.clone();
+        let [driven, driver] = [DRIVEN, DRIVER].map(|pulley| &regimes[self.zones(pulley)]);
+        self.with_zones([driven, driver])
     }
 
     /// The same drive with EPP friction blended into Coulomb friction by `share` in \[0, 1\].
@@ -141,6 +170,25 @@ impl DriveProblem {
         for groove in &mut self.grooves {
             if let Law::Epp { weight, .. } = &mut groove.law {
                 *weight = share;
+            }
+        }
+        self
+    }
+
+    /// The same drive with the traction following the slip without a lead.
+    pub(crate) fn without_lead(self) -> Self {
+        self.led_by(0.0)
+    }
+
+    /// The same drive with the traction led towards the slip.
+    pub(crate) fn with_lead(self) -> Self {
+        self.led_by(LEAD)
+    }
+
+    fn led_by(mut self, length: f64) -> Self {
+        for groove in &mut self.grooves {
+            if let Law::Sliding { lead, .. } = &mut groove.law {
+                *lead = length;
             }
         }
         self
@@ -156,6 +204,20 @@ impl DriveProblem {
         self
     }
 
+    /// The length ℓ/R of Coulomb friction, or the normalisation ε of EPP friction; zero for bristles.
+    pub(crate) fn smoothing(&self) -> f64 {
+        match self.grooves[DRIVER].law {
+            Law::Sliding { lag, .. } => lag,
+            Law::Coulomb | Law::Epp { .. } => self.grooves[DRIVER].epsilon,
+            Law::Bristle { .. } => 0.0,
+        }
+    }
+
+    /// Whether the direction of the traction is a state.
+    pub(crate) fn has_direction(&self) -> bool {
+        matches!(self.grooves[DRIVER].law, Law::Sliding { .. })
+    }
+
     /// Whether the law of friction has elastic and slip zones.
     pub(crate) fn has_zones(&self) -> bool {
         matches!(self.grooves[DRIVER].law, Law::Epp { .. })
@@ -163,12 +225,7 @@ impl DriveProblem {
 
     /// Whether those zones are segments.
     pub(crate) fn is_split(&self) -> bool {
-        self.regimes.iter().all(|&regime| regime != Regime::Either)
-    }
-
-    /// The normalisation ε of the slip direction.
-    pub(crate) fn epsilon(&self) -> f64 {
-        self.grooves[DRIVER].epsilon
+        self.has_zones() && !self.regimes.contains(&Regime::Either)
     }
 
     /// The units of all states and parameters.
@@ -196,9 +253,9 @@ impl DriveProblem {
         self.regimes[segment]
     }
 
-    /// The friction regimes along a pulley.
-    pub(crate) fn regimes(&self, pulley: usize) -> &[Regime] {
-        &self.regimes[self.zones(pulley)]
+    /// The friction regimes along the driven pulley and along the driver.
+    pub(crate) fn regimes(&self) -> [&[Regime]; 2] {
+        [DRIVEN, DRIVER].map(|pulley| &self.regimes[self.zones(pulley)])
     }
 
     /// The pulley of a segment.
@@ -266,6 +323,16 @@ impl DriveProblem {
         )
     }
 
+    /// The residual of the place of the junction before a segment, in the state there.
+    fn junction<T: Real>(&self, next: usize, y: &[T], p: &[T]) -> T {
+        let pulley = self.pulley(next);
+        let groove = &self.grooves[pulley];
+        if self.regimes[next - 1] == self.regimes[next] {
+            return self.contact(next, y, p).turn_excess(groove);
+        }
+        limit_excess(groove, y, Self::speed(pulley, p), Self::flow(p))
+    }
+
     /// Excess of the tension at an end of a contact over that of the span next to it.
     fn tension_excess<T: Real>(&self, pulley: usize, tight: bool, y: &[T], p: &[T]) -> T {
         let (kind, value) = if tight {
@@ -319,7 +386,14 @@ impl Problem for DriveProblem {
             zero(entry[PENETRATION]);
             zero(exit[PENETRATION]);
             zero(entry[ANGLE]);
-            for &state in &entry[LAW..] {
+            let law = match self.grooves[pulley].law {
+                Law::Sliding { .. } => {
+                    zero(self.contact(zones.start, entry, p).misalignment(entry));
+                    &entry[LAW + 1..]
+                }
+                _ => &entry[LAW..],
+            };
+            for &state in law {
                 zero(state);
             }
             for next in zones.start + 1..zones.end {
@@ -327,8 +401,7 @@ impl Problem for DriveProblem {
                 for (&before, &after) in before.iter().zip(after) {
                     zero(after - before);
                 }
-                let (speed, flow) = (Self::speed(pulley, p), Self::flow(p));
-                zero(limit_excess(&self.grooves[pulley], before, speed, flow));
+                zero(self.junction(next, before, p));
             }
         }
         let exits = [DRIVEN, DRIVER].map(|pulley| at.end(self.zones(pulley).end - 1));

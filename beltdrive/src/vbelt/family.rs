@@ -31,8 +31,9 @@ pub(super) struct DriveFamily {
     drive: Drive,
     entries: Vec<Entry>,
     force: f64,
-    epsilon: f64,
+    smoothing: f64,
     regimes: [Vec<Regime>; 2],
+    has_direction: bool,
     segments: Vec<Segment>,
     /// Number of parameters of a member.
     constants: usize,
@@ -51,16 +52,16 @@ struct Members {
 }
 
 impl DriveFamily {
-    /// The drives like `solved`, of which `drive` is one, over `entries`: with its friction zones
-    /// and its ε.
+    /// The drives like `solved`, of which `drive` is one, over `entries`: with its zones, and its ℓ or ε.
     pub(super) fn new(drive: &Drive, solved: &Solved, entries: Vec<Entry>) -> Self {
         let problem = &solved.problem;
         Self {
             drive: drive.clone(),
             entries,
             force: problem.scales().units.force,
-            epsilon: problem.epsilon(),
-            regimes: [DRIVEN, DRIVER].map(|pulley| problem.regimes(pulley).to_vec()),
+            smoothing: problem.smoothing(),
+            regimes: problem.regimes().map(<[Regime]>::to_vec),
+            has_direction: problem.has_direction(),
             segments: Problem::segments(problem).to_vec(),
             constants: Problem::parameters(problem),
             members: Mutex::new(Members {
@@ -74,9 +75,9 @@ impl DriveFamily {
         }
     }
 
-    /// The same family with another normalisation ε of the slip direction.
-    pub(super) fn with_epsilon(mut self, epsilon: f64) -> Self {
-        self.epsilon = epsilon;
+    /// The same family with another length ℓ/R or normalisation ε.
+    pub(super) fn with_smoothing(mut self, smoothing: f64) -> Self {
+        self.smoothing = smoothing;
         let members = self.members.get_mut().expect(UNPOISONED);
         members.values.clear();
         self
@@ -100,8 +101,10 @@ impl DriveFamily {
     pub(super) fn member(&self, values: &[f64]) -> DriveProblem {
         let drive = self.drive(values);
         let [driven, driver] = &self.regimes;
-        DriveProblem::new(&drive, Scales::with_force(&drive, self.force), self.epsilon)
-            .with_zones(driven, driver)
+        let scales = Scales::with_force(&drive, self.force);
+        DriveProblem::new(&drive, scales, self.smoothing)
+            .with_direction(self.has_direction)
+            .with_zones([driven, driver])
     }
 
     /// Works with the members at the values of the entries among the parameters `p`.

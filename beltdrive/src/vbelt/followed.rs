@@ -14,9 +14,9 @@ use super::chart::Chart;
 use super::curve::Curve;
 use super::family::{DriveFamily, Entry};
 use super::path::{Path, Solved};
-use super::piece::{discretisation, steps};
+use super::piece::{FINER, discretisation, steps};
 use super::state::describe;
-use super::zones::Split;
+use super::zones::Cut;
 use super::{DRIVER, DriveProblem, INCLINATION};
 use crate::{LimitCurvePoint, LimitReason, StateSummary};
 use bvp::{Family, Solution};
@@ -113,10 +113,9 @@ impl Chart<'_> {
         let (value, solved) = &from.near;
         let entries = [(self.key, from.point.value), (self.second, self.unit())];
         let entries = entries.map(|(key, unit)| Entry { key, unit });
-        let epsilon = solved.problem.epsilon();
         let family = DriveFamily::new(self.drive, solved, entries.to_vec());
         let finer = DriveFamily::new(self.drive, solved, entries.to_vec());
-        let finer = finer.with_epsilon(0.25 * epsilon);
+        let finer = finer.with_smoothing(FINER * solved.problem.smoothing());
         let mut walk = Walk {
             family: &family,
             finer: &finer,
@@ -175,9 +174,9 @@ impl<'a> Walk<'a, '_, '_> {
             solution: Carried(self.solved),
             values,
         };
-        let options = discretisation(self.chart.tolerance, self.solved.problem.epsilon());
+        let options = discretisation(self.chart.tolerance, &self.solved.problem);
         let (family, z) = Family::new(self.family, parameter, &[second], &guess, &options)?;
-        let finer = (self.solved.problem.epsilon() > 0.0).then_some(self.finer);
+        let finer = (self.solved.problem.smoothing() > 0.0).then_some(self.finer);
         let curve = Curve {
             family,
             finer,
@@ -259,7 +258,7 @@ impl<'a> Walk<'a, '_, '_> {
                 break;
             };
             match point.kind {
-                Kind::Regular if Split::of(&here).is_some() => break,
+                Kind::Regular if !Cut::of(&here).is_kept() => break,
                 Kind::Regular => continue,
                 Kind::Event(index) if index >= events => {
                     self.followed.points.push(limit);

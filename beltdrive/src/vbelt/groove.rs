@@ -22,7 +22,7 @@ pub(super) const INCLINATION: usize = 1;
 pub(super) const PENETRATION: usize = 2;
 /// Index of the swept angle φ.
 pub(super) const ANGLE: usize = 3;
-/// Index of the first state of the friction law: u, or `B_t` followed by `B_w`.
+/// Index of the first state of the friction law: γ, u, or `B_t` followed by `B_w`.
 pub(super) const LAW: usize = 4;
 
 /// The largest number of states of any law; in a loop the elongation of the belt follows them.
@@ -42,6 +42,13 @@ pub(crate) enum Law {
         /// Share of this law in a blend with Coulomb's, 0 to 1, where the regime is
         /// [`Either`](Regime::Either).
         weight: f64,
+    },
+    /// Coulomb friction whose direction γ is a state: F, θ, x, φ, γ.
+    Sliding {
+        /// Length ℓ/R over which the direction of the traction follows that of the slip.
+        lag: f64,
+        /// Length τ/R over which it is made to, by the rate of the slip.
+        lead: f64,
     },
     /// States F, θ, x, φ, `B_t`, `B_w`.
     Bristle {
@@ -85,7 +92,7 @@ impl Groove {
     pub(crate) fn states(&self) -> usize {
         match self.law {
             Law::Coulomb => LAW,
-            Law::Epp { .. } => LAW + 1,
+            Law::Epp { .. } | Law::Sliding { .. } => LAW + 1,
             Law::Bristle { .. } => LAW + 2,
         }
     }
@@ -100,7 +107,7 @@ impl Groove {
     /// derivative of |e| finite where e = 0.
     pub(super) fn normalisation(&self) -> f64 {
         match self.law {
-            Law::Bristle { .. } => 1e-20,
+            Law::Bristle { .. } | Law::Sliding { .. } => 1e-20,
             Law::Coulomb | Law::Epp { .. } => self.epsilon,
         }
     }

@@ -81,6 +81,7 @@ impl Contacting {
                 let [start, here] = [entry, force].map(|force| groove.strand.tension(force, flow));
                 y[LAW] = ((start + here) / 2.0 - unstretched) * angle;
             }
+            Law::Sliding { .. } => y[LAW..].fill(0.0),
             Law::Bristle { .. } => {
                 y[LAW] = 0.5 * groove.friction_coefficient.copysign(slope);
                 y[LAW + 1] = 0.0;
@@ -186,13 +187,16 @@ mod tests {
 
     #[test]
     fn the_guess_meets_the_conditions_up_to_its_boundary_layers() {
-        for (law, radius) in [(FrictionLaw::Coulomb, 0.25), (FrictionLaw::Coulomb, 0.15)] {
-            let drive = kim(law, radius);
-            let problem = DriveProblem::new(&drive, Scales::new(&drive), 1e-3);
+        for radius in [0.25, 0.15] {
+            let drive = kim(FrictionLaw::Bristle { stiffness: 1620.0 }, radius);
+            let problem = DriveProblem::new(&drive, Scales::new(&drive), 0.0);
             let (values, p) = ends(&problem);
             let mut r = vec![f64::NAN; problem.condition_count()];
             problem.conditions(Ends::new(&problem.segments(), &values), &p, &mut r);
-            for residual in r {
+            // Of the seven conditions of a pulley the last two are that its bristles are not bent yet.
+            let (pulleys, closure) = r.split_at(14);
+            let mechanical = pulleys.chunks(7).flat_map(|conditions| &conditions[..5]);
+            for residual in mechanical.chain(closure) {
                 assert!(residual.abs() < 1e-5, "{residual}");
             }
         }
@@ -204,7 +208,7 @@ mod tests {
         let whole = DriveProblem::new(&drive, Scales::new(&drive), 1e-3);
         let zoned = whole
             .clone()
-            .with_zones(&[Regime::Elastic, Regime::Slip], &[Regime::Slip]);
+            .with_zones([&[Regime::Elastic, Regime::Slip], &[Regime::Slip]]);
         let (mut left, mut right, mut middle) = ([0.0; 5], [0.0; 5], [0.0; 5]);
         Guess::new(&zoned).state(0, 1.0, &mut left);
         Guess::new(&zoned).state(1, 0.0, &mut right);
@@ -222,7 +226,7 @@ mod tests {
         let problem = DriveProblem::new(&drive, Scales::new(&drive), 1e-3);
         let guess = Guess::new(&problem);
         let at = |s: f64| {
-            let mut y = [0.0; 4];
+            let mut y = [0.0; 5];
             guess.state(1, s, &mut y);
             y
         };

@@ -59,8 +59,8 @@ impl Path<'_> {
     pub(super) fn find(&mut self, target: f64) -> Result<Found, Stuck> {
         let direct = match self.at_load(target) {
             Ok(solved) if self.is_before_limit(&solved) => return self.classify(solved),
-            // The effect of ε belongs to the state.
-            beyond_or_stuck => beyond_or_stuck.map(|solved| (solved, self.epsilon_effect)),
+            // The effect of ℓ or ε belongs to the state.
+            beyond_or_stuck => beyond_or_stuck.map(|solved| (solved, self.smoothing_effect)),
         };
         let slack = self.drive.load.slack.value() / self.scales.units.force;
         let ratio = target / slack;
@@ -88,7 +88,7 @@ impl Path<'_> {
         }
         // Nothing, or only a state beyond the limit point.
         let (solved, effect) = direct?;
-        self.epsilon_effect = effect;
+        self.smoothing_effect = effect;
         self.classify(solved)
     }
 

@@ -43,8 +43,8 @@ pub(crate) fn limits(
     let mut up = upwards(&drive, key, tolerance, solved.clone(), high, progress);
     let largest = up.limit()?;
     let is_load = *key == Key::load(&drive);
+    // Below that the branch is left to the state without load.
     let bottom = if is_load && !matches!(drive.law, crate::FrictionLaw::Bristle { .. }) {
-        // Below that the branch is left to the state without load.
         (RATIOS[0] * drive.load.slack.value()).min(value)
     } else {
         low
@@ -212,7 +212,7 @@ fn no_load(drive: &Drive, key: &Key, tolerance: f64) -> Result<Limit, SolveError
     let state = describe(&path, &solved);
     // Without an estimate of its own the state is only as good as the effect of its ε is known.
     let estimate = solved.solution.error_estimate();
-    let relative = estimate.map(|estimate| estimate.max(path.epsilon_effect));
+    let relative = estimate.map(|estimate| estimate.max(path.smoothing_effect));
     let (value, value_error) = match is_crossed(drive) {
         false => (idle.load.tight.value(), Some(0.0)),
         true => {

@@ -25,6 +25,8 @@ pub(super) struct Integrals {
     pub(super) torque: f64,
     /// Power against friction.
     pub(super) friction: f64,
+    /// Power gained from friction, where its traction is not against the slip.
+    pub(super) gained: f64,
     /// Power into the transverse compression of the belt.
     pub(super) stored: f64,
     /// Length of the unstretched belt.
@@ -104,7 +106,9 @@ impl OnPulley<'_> {
         self.for_each_point(|stretch, _, weight, y| {
             let contact = self.contact(stretch.regime, y);
             sum.torque += weight * contact.torque_density();
-            sum.friction += weight * contact.friction_power_density();
+            let friction = weight * contact.friction_power_density();
+            sum.friction += friction;
+            sum.gained += (-friction).max(0.0);
             sum.stored += weight * contact.transverse_power_density(self.groove);
             sum.unstretched += weight * contact.unstretched_rate(&self.groove.strand);
         });
@@ -141,7 +145,7 @@ impl OnPulley<'_> {
                 last = Some((place, rate));
                 let displacement = match self.groove.law {
                     Law::Epp { .. } => y[LAW],
-                    Law::Coulomb | Law::Bristle { .. } => stretched,
+                    Law::Coulomb | Law::Sliding { .. } | Law::Bristle { .. } => stretched,
                 };
                 profile.angle.push(y[ANGLE]);
                 profile.arc_length.push(place * radius);
@@ -191,7 +195,7 @@ impl OnPulley<'_> {
                     self.sampled_zones(segment, is_elastic, &mut zones);
                     continue;
                 }
-                (Law::Coulomb | Law::Epp { .. }, _) => ZoneKind::Slip,
+                (Law::Coulomb | Law::Epp { .. } | Law::Sliding { .. }, _) => ZoneKind::Slip,
                 (Law::Bristle { .. }, _) => {
                     let limit = SLIPPING_BRISTLES * self.groove.friction_coefficient;
                     let is_elastic = |y: &[f64]| y[LAW].hypot(y[LAW + 1]) < limit;

@@ -98,10 +98,11 @@ impl Solved {
         self.solution.end(self.problem.zones(pulley).end - 1)
     }
 
-    /// Whether it is solved to a tolerance with a law whose slip is normalised.
+    /// Whether it is solved to a tolerance with a law whose direction is smoothed.
     pub(super) fn is_resolved(&self, law: FrictionLaw, tolerance: f64) -> bool {
         let same = match (law, self.problem.groove(DRIVER).law) {
             (FrictionLaw::Coulomb, Law::Coulomb) => true,
+            (FrictionLaw::Coulomb, Law::Sliding { lead, .. }) => lead > 0.0,
             (FrictionLaw::Epp { .. }, Law::Epp { weight, .. }) => weight == 1.0,
             _ => false,
         };
@@ -155,8 +156,10 @@ pub(super) struct Path<'a> {
     pub(super) stats: Stats,
     /// Number of problems solved or tried.
     pub(super) problems: usize,
-    /// Relative effect of the last ε on the constants of the drive.
-    pub(super) epsilon_effect: f64,
+    /// Whether Coulomb friction is sought with its direction as a state; along branches it is normalised.
+    pub(super) has_direction: bool,
+    /// Relative effect of the last ℓ or ε on the constants of the drive.
+    pub(super) smoothing_effect: f64,
 }
 
 impl<'a> Path<'a> {
@@ -167,17 +170,31 @@ impl<'a> Path<'a> {
             tolerance,
             stats: Stats::default(),
             problems: 0,
-            epsilon_effect: 0.0,
+            smoothing_effect: 0.0,
+            has_direction: false,
         }
     }
 
+    /// The search for a state with the direction of Coulomb friction as a state.
+    pub(super) fn with_direction(self) -> Self {
+        Self {
+            has_direction: true,
+            ..self
+        }
+    }
+
+    /// The scaled tight tension of the drive.
+    pub(super) fn target(&self) -> f64 {
+        self.drive.load.tight.value() / self.scales.units.force
+    }
+
     /// The drive with another friction law, at the scaled tight tension `tight`.
-    pub(super) fn problem(&self, law: FrictionLaw, epsilon: f64, tight: f64) -> DriveProblem {
+    pub(super) fn problem(&self, law: FrictionLaw, smoothing: f64, tight: f64) -> DriveProblem {
         let drive = Drive {
             law,
             ..self.drive.clone()
         };
-        DriveProblem::new(&drive, self.scales, epsilon).with_tight_tension(tight)
+        DriveProblem::new(&drive, self.scales, smoothing).with_tight_tension(tight)
     }
 
     /// Solves one problem from a guess.

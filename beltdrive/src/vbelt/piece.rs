@@ -4,12 +4,11 @@ use super::DriveProblem;
 use super::carried::{Carried, Member};
 use super::curve::Curve;
 use super::family::{DriveFamily, Entry};
-use super::laws::{GREAT_STEP, with_epsilon};
-use super::path::{Effort, Path, Solved, Stuck};
+use super::path::{Effort, Path, Solved};
 use super::state::describe;
 use super::tracer::{Tracer, Until};
 use super::watched::{FIRST_ZONE, RATIO, RATIOS};
-use super::zones::Split;
+use super::zones::Cut;
 use crate::results::difficulty;
 use crate::{BranchEnd, Drive, EventKind, FrictionLaw, Pulley};
 use bvp::{Control, Family, Scheme};
@@ -20,6 +19,8 @@ use continuation::{Branch, Direction, Kind, Options, Point};
 const EPSILONS: [f64; 3] = [1e-5, 1e-6, 1e-7];
 /// A share of the range that is no way.
 const AHEAD: f64 = 1e-6;
+/// Labelled points are located once more with ε multiplied by this.
+pub(super) const FINER: f64 = 0.25;
 /// The most steps of a piece, and of one in shorter steps.
 const MAX_STEPS: usize = 600;
 const MAX_SHORT_STEPS: usize = 2000;
@@ -51,10 +52,10 @@ pub(super) enum PieceEnd {
     },
 }
 
-/// How the members of a family with this ε are discretised.
-pub(super) fn discretisation(tolerance: f64, epsilon: f64) -> bvp::Options {
-    // Bristles make smooth profiles; layers of ε ask for a higher order.
-    let stages = if epsilon > 0.0 { 6 } else { 5 };
+/// How the members of the family of a problem are discretised.
+pub(super) fn discretisation(tolerance: f64, problem: &DriveProblem) -> bvp::Options {
+    // Bristles make smooth profiles; the turn of sliding friction asks for a higher order.
+    let stages = if problem.smoothing() > 0.0 { 6 } else { 5 };
     bvp::Options {
         tolerance,
         scheme: Some(Scheme::Gauss { stages }),
@@ -77,28 +78,13 @@ pub(super) fn steps(tolerance: f64, [low, high]: [f64; 2]) -> Options {
 
 impl Tracer<'_> {
     /// ε at a drive.
-    fn epsilon(drive: &Drive) -> f64 {
+    fn smoothing(drive: &Drive) -> f64 {
         let ratio = drive.load.tight.value() / drive.load.slack.value();
+        let range = RATIOS.iter().filter(|&&change| ratio >= change).count();
         match drive.law {
-            FrictionLaw::Bristle { .. } => 0.0,
-            _ => EPSILONS[RATIOS.iter().filter(|&&change| ratio >= change).count()],
+            FrictionLaw::Coulomb | FrictionLaw::Epp { .. } => EPSILONS[range],
+            FrictionLaw::Bristle { .. } | FrictionLaw::CreepRate { .. } => 0.0,
         }
-    }
-
-    /// The state with another ε.
-    fn normalised(&self, solved: Solved, drive: &Drive, epsilon: f64) -> Result<Solved, Stuck> {
-        let before = solved.problem.epsilon();
-        if epsilon == 0.0 || before == epsilon {
-            return Ok(solved);
-        }
-        let range = [before.ln(), epsilon.ln()];
-        Path::new(drive, self.tolerance).follow(
-            solved,
-            range,
-            GREAT_STEP,
-            Effort::Full,
-            with_epsilon,
-        )
     }
 
     /// Follows the branch as long as its friction zones stay the same.
@@ -120,19 +106,21 @@ impl Tracer<'_> {
             Direction::Increasing => AHEAD,
             Direction::Decreasing => -AHEAD,
         };
-        let epsilon = Self::epsilon(&self.drive_at(value + ahead * unit));
-        let solved = match self.normalised(solved.clone(), &drive, epsilon) {
+        let smoothing = Self::smoothing(&self.drive_at(value + ahead * unit));
+        let mut path = Path::new(&drive, self.tolerance);
+        let solved = match path.smooth_less(solved.clone(), smoothing, Effort::Full) {
             Ok(solved) => solved,
             Err(stuck) => return not_converged(difficulty::of_solver(&stuck.cause)),
         };
-        self.convergence.slip_normalisation = self.convergence.slip_normalisation.max(epsilon);
+        self.convergence.slip_normalisation = self.convergence.slip_normalisation.max(smoothing);
         let entry = Entry {
             key: self.key,
             unit,
         };
         let family = DriveFamily::new(self.drive, &solved, vec![entry]);
-        let finer = DriveFamily::new(self.drive, &solved, vec![entry]).with_epsilon(0.25 * epsilon);
-        let options = discretisation(self.tolerance, epsilon);
+        let finer = DriveFamily::new(self.drive, &solved, vec![entry]);
+        let finer = finer.with_smoothing(FINER * smoothing);
+        let options = discretisation(self.tolerance, &solved.problem);
         let first = family.first_entry();
         let guess = Member {
             solution: Carried(&solved),
@@ -144,7 +132,7 @@ impl Tracer<'_> {
         };
         let mut curve = Curve {
             family: discretised,
-            finer: (epsilon > 0.0).then_some(&finer),
+            finer: (smoothing > 0.0).then_some(&finer),
             constants: first,
         };
         let options = Options {
@@ -190,7 +178,7 @@ impl Tracer<'_> {
                     direction: onward(passed),
                 };
             }
-            let effect = branch.system().normalisation_effect(&point.z);
+            let effect = branch.system().smoothing_effect(&point.z);
             let outcome = self.take(&point, &here, effect);
             progress(self.share(self.value(point.lambda())), "tracing");
             if let Some(end) = outcome {
@@ -216,7 +204,7 @@ impl Tracer<'_> {
         }
         // A step may have passed the place where a zone appears: its state is none, but a guess.
         let regular = point.kind == Kind::Regular;
-        if regular && here.problem.is_split() && Split::of(here).is_some() {
+        if regular && here.problem.is_split() && !Cut::of(here).is_kept() {
             return Some(self.next_piece(point, here.clone(), &drive));
         }
         if let Err(error) = state.verified() {

@@ -142,6 +142,14 @@ impl Strand {
         flow * (self.strain(tension) + 1.0)
     }
 
+    /// Relative change of the belt speed V per tractive tension F, (dV/dF)/V, where they are T and V.
+    pub(crate) fn stretching<T: Real>(&self, tension: T, speed: T) -> T {
+        let stretch = self.strain(tension) + 1.0;
+        let flow = speed / stretch;
+        let stiffening = T::from_f64(1.0) - flow * flow * (self.inertia * self.compliance);
+        T::from_f64(self.compliance) / (stretch * stiffening)
+    }
+
     /// Strain T/EA.
     pub(crate) fn strain<T: Real>(&self, tension: T) -> T {
         tension * self.compliance

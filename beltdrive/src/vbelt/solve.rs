@@ -11,14 +11,15 @@ use web_time::Instant;
 /// The steady state of a V-belt drive, from nothing but the drive.
 pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
-    let (path, found) = find(drive, options.tolerance);
+    let mut path = Path::new(drive, options.tolerance).with_direction();
+    let found = path.find(path.target());
     conclude(path, found, start)
 }
 
-/// Searches the state of a drive at its load.
+/// Searches a state of a drive at its load from which a branch can be followed.
 pub(super) fn find(drive: &Drive, tolerance: f64) -> (Path<'_>, Result<Found, Stuck>) {
     let mut path = Path::new(drive, tolerance);
-    let found = path.find(drive.load.tight.value() / path.scales.units.force);
+    let found = path.find(path.target());
     (path, found)
 }
 
@@ -38,7 +39,7 @@ pub(crate) fn solve_from(
         return solve(drive, options);
     }
     let mut path = Path::new(drive, tolerance);
-    path.epsilon_effect = neighbour.convergence.slip_normalisation_effect;
+    path.smoothing_effect = neighbour.convergence.slip_normalisation_effect;
     match path.neighbour(solved) {
         Ok(solved) => {
             let found = path.classify(solved);

@@ -2,7 +2,7 @@
 
 use super::on_pulley::{Integrals, OnPulley, Stretch, extend};
 use super::path::{Path, Solved};
-use super::{DRIVEN, DRIVER, DriveProblem, EndAngles, Law, Regime};
+use super::{DRIVEN, DRIVER, DriveProblem, EndAngles, Regime};
 use crate::results::possible;
 use crate::results::steady_state::{Check, Convergence, PulleyState, SteadyState, Zone, ZoneKind};
 use crate::results::v_warnings;
@@ -79,11 +79,8 @@ pub(super) fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
             rhs_evaluations: path.stats.rhs_evaluations,
             factorisations: path.stats.factorisations,
             continuation_steps: path.problems,
-            slip_normalisation: match problem.groove(DRIVER).law {
-                Law::Bristle { .. } => 0.0,
-                Law::Coulomb | Law::Epp { .. } => problem.epsilon(),
-            },
-            slip_normalisation_effect: path.epsilon_effect,
+            slip_normalisation: problem.smoothing(),
+            slip_normalisation_effect: path.smoothing_effect,
             seconds: 0.0,
         },
         restart: None,
@@ -143,8 +140,8 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
     };
     let mut checks = vec![
         check(
-            "effect of the slip normalisation",
-            path.epsilon_effect,
+            "effect of the smoothed direction of friction",
+            path.smoothing_effect,
             path.tolerance,
         ),
         check("moment balance on the driven pulley", moment(DRIVEN), limit),
@@ -156,11 +153,24 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
             limit,
         ),
     ];
+    if problem.has_direction() {
+        let gained = power_gained(solved);
+        checks.push(check("friction against the slip", gained, limit));
+    }
     if problem.has_zones() {
         let wrong = wrong_friction(&on);
         checks.push(check("friction zones of their kind", wrong, limit));
     }
     checks
+}
+
+/// Power that the belt gains where the traction pulls with its slip, as a share of that which it spends
+/// elsewhere. A traction that has turned the wrong way round meets all equations but the sense of friction.
+pub(super) fn power_gained(solved: &Solved) -> f64 {
+    let on = [DRIVEN, DRIVER].map(|pulley| on_pulley(solved, pulley).integrate());
+    let gained: f64 = on.iter().map(|on| on.gained).sum();
+    let friction: f64 = on.iter().map(|on| on.friction).sum();
+    gained / (friction + gained)
 }
 
 /// By how much friction is above its limit in elastic zones or below it in slip zones, as a share of the

@@ -48,7 +48,7 @@ impl Back {
     /// Number of states of the contact but for the elongation.
     pub(super) fn states(&self) -> usize {
         match self.law {
-            Law::Coulomb => LAW,
+            Law::Coulomb | Law::Sliding { .. } => LAW,
             Law::Epp { .. } | Law::Bristle { .. } => LAW + 1,
         }
     }
@@ -62,12 +62,14 @@ impl Back {
         let epsilon = match self.law {
             // Only keeps the derivative of |e| finite where e = 0.
             Law::Bristle { .. } => 1e-20,
-            Law::Coulomb | Law::Epp { .. } => self.epsilon,
+            Law::Coulomb | Law::Epp { .. } | Law::Sliding { .. } => self.epsilon,
         };
         let size = (slip * slip + epsilon.powi(2)).sqrt();
         let friction = match self.law {
             Law::Bristle { .. } => tractive * state[LAW],
-            Law::Coulomb => tractive * (slip / size) * self.friction_coefficient,
+            Law::Coulomb | Law::Sliding { .. } => {
+                tractive * (slip / size) * self.friction_coefficient
+            }
             Law::Epp {
                 stiffness, weight, ..
             } => {
@@ -89,7 +91,7 @@ impl Back {
     pub(super) fn rates<T: Real>(&self, at: &Rubbing<T>, state: &[T], rates: &mut [T]) {
         rates[TENSION] = at.friction;
         match self.law {
-            Law::Coulomb => {}
+            Law::Coulomb | Law::Sliding { .. } => {}
             Law::Epp { unstretched, .. } => rates[LAW] = at.tension - unstretched,
             Law::Bristle { stiffness } => {
                 let saturation = at.size / self.friction_coefficient;

@@ -9,8 +9,7 @@
 //! ```
 
 use super::super::laws::{
-    EPSILON_SHARE, FIRST_EPSILONS, GREAT_STEP, RESOLVED_EPSILON, SMALL_STEP, SMALLEST_EPSILON,
-    START_STIFFNESS,
+    EFFECT_SHARE, FIRST_EPSILONS, GREAT_STEP, RESOLVED, SMALL_STEP, SMALLEST, START_STIFFNESS,
 };
 use super::super::path::{EASY, Effort};
 use super::super::steps::Steps;
@@ -126,7 +125,7 @@ impl Search<'_> {
 
     /// Lowers ε roughly in great steps, or carefully in small ones where the slip is too small for that.
     fn lower_epsilon(&mut self, solved: Solved) -> Result<Solved, bvp::Error> {
-        let to = RESOLVED_EPSILON;
+        let to = RESOLVED;
         self.with_epsilon(solved.clone(), to, GREAT_STEP, Effort::Rough)
             .or_else(|_| self.with_epsilon(solved, to, SMALL_STEP, Effort::Careful))
     }
@@ -191,13 +190,12 @@ impl Search<'_> {
             // The effect vanishes at least as fast as ε: ten ninths of the change were that of the larger
             // ε, one ninth is that of the smaller.
             self.epsilon_effect = change / 0.9;
-            if self.epsilon_effect <= EPSILON_SHARE * self.tolerance {
+            if self.epsilon_effect <= EFFECT_SHARE * self.tolerance {
                 return Ok(here);
             }
             self.epsilon_effect = change / 9.0;
             here = self.attempt(finer.problem, &finer.solution, Effort::Final)?;
-            if self.epsilon_effect <= EPSILON_SHARE * self.tolerance || epsilon <= SMALLEST_EPSILON
-            {
+            if self.epsilon_effect <= EFFECT_SHARE * self.tolerance || epsilon <= SMALLEST {
                 return Ok(here);
             }
         }

@@ -19,15 +19,15 @@ fn problem(law: FrictionLaw) -> DriveProblem {
 
 #[test]
 fn every_condition_is_written_and_none_is_missing() {
-    let epp = problem(LAWS[1]).with_zones(
+    let epp = problem(LAWS[1]).with_zones([
         &[Regime::Elastic, Regime::Slip],
         &[Regime::Slip, Regime::Elastic, Regime::Slip],
-    );
+    ]);
     let fixed = epp
         .clone()
         .with_unknown_tight_tension(Instead::DriverLength(3.4));
     for (problem, unknowns) in LAWS.map(problem).into_iter().chain([epp, fixed]).zip([
-        2 * 4 + 4,
+        2 * 5 + 4,
         2 * 5 + 4,
         2 * 6 + 4,
         5 * 5 + 7,
