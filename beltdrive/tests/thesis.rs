@@ -52,6 +52,44 @@ fn coulomb_friction_at_the_loads_of_table_4() {
 }
 
 #[test]
+fn locked_belts_are_found_within_the_error_that_is_stated() {
+    // Limits of a direction that follows the slip exactly, from a formulation of its own that cuts out the
+    // lock zones. The Newton steps are those of the whole way from nothing.
+    for (tight, expected, steps) in [
+        (
+            700.0,
+            [102.69936199, 2.7680087763, 194.68884321, 198.28940019],
+            70,
+        ),
+        (
+            200.0,
+            [104.41121658, 2.8090632895, 188.79350426, 189.37885055],
+            85,
+        ),
+        (
+            105.0,
+            [104.70429302, 2.8169385366, 186.63429703, 186.63516580],
+            130,
+        ),
+    ] {
+        let state = state(FrictionLaw::Coulomb, tight);
+        let c = &state.convergence;
+        assert!(c.slip_normalisation_effect <= 1e-7);
+        let stated = c.slip_normalisation_effect + c.error_estimate;
+        assert_constants(&state, expected, 2.0 * stated);
+        assert!(
+            c.newton_iterations <= steps,
+            "{} at {tight} N",
+            c.newton_iterations
+        );
+    }
+    for tight in [101.0, 102.0, 110.0, 150.0, 300.0, 400.0] {
+        let state = state(FrictionLaw::Coulomb, tight);
+        assert!(state.convergence.newton_iterations <= 200);
+    }
+}
+
+#[test]
 fn coulomb_friction_from_hardly_any_load_to_the_overhang() {
     for tight in [105.0, 5000.0, 7781.2] {
         let state = state(FrictionLaw::Coulomb, tight);
