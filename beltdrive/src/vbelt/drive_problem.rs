@@ -12,7 +12,7 @@
 //! the two conditions that close the drive (see `closure`)                      2
 //! ```
 //!
-//! A junction is where k_f |u| = μ p if elastic and slipping friction meet there, else it lies in
+//! A junction is where `k_f` |u| = μ p if elastic and slipping friction meet there, else it lies in
 //! the middle of the turn of the traction that lifts the belt (see `Contact::turn_excess`).
 //! Together Σ z n + Σ z + 2: the states and the parameters. Where another quantity is
 //! prescribed instead of the tension of the tight span, that is one more parameter, the last.
