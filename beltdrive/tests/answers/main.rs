@@ -56,7 +56,7 @@ const VAGUE: [&str; 9] = [
     "relative tolerance",
     "estimated error",
     "largest defect",
-    "effect of ε",
+    "effect of smoothing",
     "mesh intervals",
     "  driven  ",
     "Newton steps",
