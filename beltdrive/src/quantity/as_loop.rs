@@ -3,8 +3,9 @@
 //! The driver stands at the origin, the driven pulley to its right, and the belt runs counter-clockwise: the
 //! slack span leaves the driver below.
 
-use super::belt_loop::{self, Scale, list, single};
-use super::{Answer, Group, Measure, Quantity, Subject, Value, words};
+use super::belt_loop;
+use super::scale::{HUB_LOAD, Scale};
+use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value, words};
 use crate::belt_loop::{self as loops, BeltLoop, Closure, Duty, LoopPulley, Mount, Sense, Side};
 use crate::input::Key;
 use crate::{BeltKind, Drive, PulleyState, SteadyState};
@@ -43,25 +44,25 @@ pub fn of_loop(belt_loop: &BeltLoop, state: &loops::LoopState) -> [Group; 3] {
 /// What there is to draw of a steady state: the groups as the state itself has them, with the zones and profiles
 /// of both pulleys.
 pub fn drawn(state: &SteadyState) -> Answer {
+    let scale = scale(state);
     let mut groups = of_state(state).to_vec();
     let pulleys = groups.iter_mut().filter(|group| group.key == "pulleys");
     let pulleys = pulleys.flat_map(|group| &mut group.subjects);
     for (subject, pulley) in pulleys.zip([&state.driver, &state.driven]) {
         let [entry, exit] = pulley.inclination;
-        let angle = |key, value| Quantity::number(key, "", Measure::Angle, value, 0.0);
         let number = |key, measure, value| Quantity::data(key, measure, Value::Number(Some(value)));
         let coefficient = state.drive.friction_coefficient;
         let depth = pulley.max_penetration;
         subject.quantities.extend([
             number("friction_coefficient", Measure::Number, coefficient),
             number("max_penetration", Measure::Length, depth),
-            angle("entry_inclination", entry),
-            angle("exit_inclination", exit),
-            belt_loop::zones(&pulley.zones, 0.0),
+            number("entry_inclination", Measure::Angle, entry),
+            number("exit_inclination", Measure::Angle, exit),
+            scale.zones(&pulley.zones),
         ]);
         subject.quantities.extend(belt_loop::along(&pulley.profile));
     }
-    groups.push(single("", belt_loop::statement(&as_loop(state))));
+    groups.push(Group::single("", belt_loop::statement(&as_loop(state))));
     Answer {
         heading: heading(&state.drive, &[]),
         remarks: state.warnings.iter().map(words::warning).collect(),
@@ -149,16 +150,21 @@ pub fn as_drive(belt_loop: &BeltLoop, state: &loops::LoopState) -> Option<Drive>
     })
 }
 
-/// The groups as the state itself has them.
-fn of_state(state: &SteadyState) -> [Group; 3] {
+/// How accurate the numbers of a state are.
+fn scale(state: &SteadyState) -> Scale {
     let convergence = &state.convergence;
     let error = convergence.error_estimate;
-    let scale = Scale {
+    let speed = state.mass_flow / state.drive.belt.mass_per_length;
+    Scale {
         error: error.max(convergence.slip_normalisation_effect),
         tension: state.tight_tension,
-        speed: state.mass_flow / state.drive.belt.mass_per_length,
-    };
-    let drive = &state.drive;
+        power: state.tight_tension * speed,
+    }
+}
+
+/// The groups as the state itself has them.
+fn of_state(state: &SteadyState) -> [Group; 3] {
+    let (drive, scale) = (&state.drive, scale(state));
     let directions = directions(state);
     let tractive = [state.slack_tractive_tension, state.tight_tractive_tension];
     // Of the force with which the belt pulls, from its exit span and against its entry span.
@@ -170,133 +176,94 @@ fn of_state(state: &SteadyState) -> [Group; 3] {
         };
         [part(f64::cos), part(f64::sin)]
     };
-    let pulley = |name: &str, of: &PulleyState, x: f64, radius: f64, hub_load: [f64; 2]| {
-        let torque = scale.tension * radius;
-        let power = of.torque * of.angular_speed;
-        let [magnitude, direction] = belt_loop::polar(hub_load);
-        let (sign, duty) = match name {
-            "driver" => (-1.0, "driver"),
-            _ => (1.0, "torque"),
+    // In the signs of loops, where a torque is what the pulley takes.
+    let pulley = |index: usize, x: f64, radius: f64| {
+        let (name, duty, sign, of) = match index {
+            0 => ("driver", "driver", -1.0, &state.driver),
+            _ => ("driven", "torque", 1.0, &state.driven),
         };
-        let angle = |key, label, value| scale.against(key, label, Measure::Angle, value, 1.0);
-        let speed = scale.relative(
-            "angular_speed",
-            "speed",
-            Measure::AngularSpeed,
-            of.angular_speed,
-        );
-        Subject {
-            head: name.to_owned(),
-            quantities: vec![
-                Quantity::word("name", "", Some(name.to_owned())),
-                Quantity::word("duty", "", Some(duty.to_owned())),
-                Quantity::data("centre", Measure::Length, Value::Pair([x, 0.0])),
-                Quantity::data("radius", Measure::Length, Value::Number(Some(radius))),
-                speed,
-                scale.against(
-                    "torque",
-                    "torque",
-                    Measure::Torque,
-                    sign * of.torque,
-                    torque,
-                ),
-                scale.against(
-                    "power",
-                    "power",
-                    Measure::Power,
-                    sign * power,
-                    scale.tension * scale.speed,
-                ),
-                angle("wrap_angle", "wrap angle", of.wrap_angle),
-                Quantity::data("hub_load", Measure::Force, Value::Pair(hub_load)),
-                scale.against(
-                    "hub_load_magnitude",
-                    "hub load",
-                    Measure::Force,
-                    magnitude,
-                    scale.tension,
-                ),
-                angle("hub_load_direction", "  direction from x", direction),
-            ],
-        }
+        let torque = sign * of.torque;
+        let word = |key, word: &str| Quantity::word(key, "", word.to_owned());
+        let speed = of.angular_speed;
+        let mut quantities = vec![
+            word("name", name),
+            word("duty", duty),
+            Quantity::data("centre", Measure::Length, Value::Pair([x, 0.0])),
+            Quantity::data("radius", Measure::Length, Value::Number(Some(radius))),
+            scale.relative("angular_speed", "speed", Measure::AngularSpeed, speed),
+            scale.against(
+                "torque",
+                "torque",
+                Measure::Torque,
+                torque,
+                scale.tension * radius,
+            ),
+            scale.power("power", "power", torque * speed),
+            scale.angle("wrap_angle", "wrap angle", of.wrap_angle),
+        ];
+        quantities.extend(scale.hub_load(HUB_LOAD, "hub load", hub(index)));
+        Subject::new(name, quantities)
     };
-    let span = |from: &str, to: &str, index: usize, tension: f64, length: f64| {
-        let speed = scale.speed * (1.0 + tension / drive.belt.axial_stiffness);
+    let span = |index: usize, tension: f64, length: f64| {
+        let (head, [from, to]) = match index {
+            0 => ("slack span", ["driver", "driven"]),
+            _ => ("tight span", ["driven", "driver"]),
+        };
+        let speed = state.mass_flow / drive.belt.mass_per_length
+            * (1.0 + tension / drive.belt.axial_stiffness);
         let wave = (speed / (state.mass_flow * tension)).sqrt();
-        let force =
-            |key, label, value| scale.against(key, label, Measure::Force, value, scale.tension);
-        Subject {
-            head: from.to_owned(),
-            quantities: vec![
-                Quantity::word("from_pulley", "", Some(from.to_owned())),
-                Quantity::word("to_pulley", "span from there to", Some(to.to_owned())),
-                force("tension", "belt tension T", tension),
-                force("tractive_tension", "tractive tension F", tractive[index]),
-                scale.relative("length", "length", Measure::Length, length),
-                scale.against(
-                    "direction",
-                    "",
-                    Measure::Angle,
-                    directions[index].rem_euclid(2.0 * PI),
-                    1.0,
-                ),
-                scale.relative("speed", "", Measure::Velocity, speed),
-                scale.relative(
-                    "frequency",
-                    "first frequency",
-                    Measure::Frequency,
-                    tractive[index] / (2.0 * length) * wave,
-                ),
-            ],
-        }
-    };
-    let powers = [&state.driver, &state.driven].map(|of| of.torque * of.angular_speed);
-    let power = scale.tension * scale.speed;
-    let whole = Subject {
-        head: String::new(),
-        quantities: vec![
+        let frequency = tractive[index] / (2.0 * length) * wave;
+        let direction = directions[index].rem_euclid(2.0 * PI);
+        let quantities = vec![
+            Quantity::word("from_pulley", "", from.to_owned()),
+            Quantity::word("to_pulley", "span from there to", to.to_owned()),
+            scale.force("tension", "belt tension T", tension),
+            scale.force("tractive_tension", "tractive tension F", tractive[index]),
+            scale.relative("length", "length", Measure::Length, length),
+            scale.angle("direction", "", direction),
+            scale.relative("speed", "", Measure::Velocity, speed),
             scale.relative(
-                "belt_length_unstretched",
-                "belt length, unstretched",
-                Measure::Length,
-                state.belt_length,
+                "frequency",
+                "first frequency",
+                Measure::Frequency,
+                frequency,
             ),
-            scale.relative("mass_flow", "mass flow", Measure::MassFlow, state.mass_flow),
-            scale.against("power_in", "power in", Measure::Power, powers[0], power),
-            scale.against("power_out", "power out", Measure::Power, powers[1], power),
-            scale.against(
-                "power_loss",
-                "friction loss",
-                Measure::Loss,
-                state.friction_loss,
-                power,
-            ),
-            scale.against(
-                "efficiency",
-                "efficiency",
-                Measure::Share,
-                state.efficiency,
-                1.0,
-            ),
-        ],
+        ];
+        Subject::new(head, quantities)
     };
-    let driver = pulley("driver", &state.driver, 0.0, drive.driver_radius, hub(0));
-    let distance = drive.centre_distance;
-    let driven = pulley(
-        "driven",
-        &state.driven,
-        distance,
-        drive.driven_radius,
-        hub(1),
-    );
-    let mut slack = span("driver", "driven", 0, state.slack_tension, state.slack_span);
-    let mut tight = span("driven", "driver", 1, state.tight_tension, state.tight_span);
-    slack.head = "slack span".to_owned();
-    tight.head = "tight span".to_owned();
+    let [power_in, power_out] =
+        [&state.driver, &state.driven].map(|of| of.torque * of.angular_speed);
+    let whole = vec![
+        scale.relative(
+            "belt_length_unstretched",
+            "belt length, unstretched",
+            Measure::Length,
+            state.belt_length,
+        ),
+        scale.relative("mass_flow", "mass flow", Measure::MassFlow, state.mass_flow),
+        scale.power("power_in", "power in", power_in),
+        scale.power("power_out", "power out", power_out),
+        scale.loss("power_loss", "friction loss", state.friction_loss),
+        scale.against(
+            "efficiency",
+            "efficiency",
+            Measure::Share,
+            state.efficiency,
+            1.0,
+        ),
+    ];
+    let pulleys = vec![
+        pulley(0, 0.0, drive.driver_radius),
+        pulley(1, drive.centre_distance, drive.driven_radius),
+    ];
+    let spans = vec![
+        span(0, state.slack_tension, state.slack_span),
+        span(1, state.tight_tension, state.tight_span),
+    ];
     [
-        list("pulleys", vec![driver, driven]),
-        list("spans", vec![slack, tight]),
-        single("loop", whole),
+        Group::new("pulleys", Layout::Columns, pulleys),
+        Group::new("spans", Layout::Columns, spans),
+        Group::single("loop", whole),
     ]
 }
 

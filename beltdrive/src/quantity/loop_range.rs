@@ -1,6 +1,6 @@
 //! What there is to tell of the states of a loop over a number of its drive file.
 
-use super::belt_loop::{self, single};
+use super::belt_loop;
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value};
 use crate::belt_loop::{
     LoopBranch, LoopEnd, LoopLimit, LoopLimitCurve, LoopLimits, LoopPoint, Varied,
@@ -16,9 +16,9 @@ pub fn branch(branch: &LoopBranch) -> Answer {
     Answer {
         heading: heading(first, &format!("States over {}", branch.varied.name())),
         groups: vec![
-            single("", statement(first, &branch.varied)),
-            rows(points.collect()),
-            single("end", end(branch.end.as_ref())),
+            Group::single("", statement(first, &branch.varied)),
+            Group::new("points", Layout::Rows, points.collect()),
+            Group::single("end", end(branch.end.as_ref())),
         ],
         notes: vec![ended("branch", branch.end.as_ref())],
         ..Answer::default()
@@ -38,12 +38,8 @@ pub fn limits(limits: &LoopLimits) -> Answer {
     Answer {
         heading,
         groups: vec![
-            single("", statement(&limits.smallest.point, &limits.varied)),
-            Group {
-                key: "",
-                layout: Layout::Named,
-                subjects: subjects.to_vec(),
-            },
+            Group::single("", statement(&limits.smallest.point, &limits.varied)),
+            Group::new("", Layout::Named, subjects.to_vec()),
         ],
         ..Answer::default()
     }
@@ -62,25 +58,16 @@ pub fn limit_curve(curve: &LoopLimitCurve) -> Answer {
     });
     let asked = format!("Limit of {} over {}", curve.varied.name(), second.name());
     let mut statement = statement(&first.limit.point, &curve.varied);
-    let path = Some(second.name());
-    statement.quantities.push(Quantity::word("curve", "", path));
+    statement.push(Quantity::word("curve", "", second.name()));
     Answer {
         heading: heading(&first.limit.point, &asked),
         groups: vec![
-            single("", statement),
-            rows(points.collect()),
-            single("end", end(curve.end.as_ref())),
+            Group::single("", statement),
+            Group::new("points", Layout::Rows, points.collect()),
+            Group::single("end", end(curve.end.as_ref())),
         ],
         notes: vec![ended("curve", curve.end.as_ref())],
         ..Answer::default()
-    }
-}
-
-fn rows(subjects: Vec<Subject>) -> Group {
-    Group {
-        key: "points",
-        layout: Layout::Rows,
-        subjects,
     }
 }
 
@@ -92,12 +79,10 @@ fn heading(point: &LoopPoint, asked: &str) -> Vec<String> {
 }
 
 /// What was asked, for programs.
-fn statement(point: &LoopPoint, varied: &Varied) -> Subject {
-    let mut subject = belt_loop::statement(&point.belt_loop);
-    let name = Some(varied.name());
-    let parameter = Quantity::word("parameter", "", name);
-    subject.quantities.push(parameter);
-    subject
+fn statement(point: &LoopPoint, varied: &Varied) -> Vec<Quantity> {
+    let mut statement = belt_loop::statement(&point.belt_loop);
+    statement.push(Quantity::word("parameter", "", varied.name()));
+    statement
 }
 
 /// What varies.
@@ -118,8 +103,8 @@ fn limited(varied: &Varied, limit: &LoopLimit) -> Vec<Quantity> {
     vec![
         parameter(varied, &limit.point),
         Quantity::number("value_error", "", varied.measure(), error, 0.0),
-        Quantity::word("reason", "reason", Some(limit.end.kind().to_owned())),
-        Quantity::word("description", "", Some(limit.end.to_string())),
+        Quantity::word("reason", "reason", limit.end.kind().to_owned()),
+        Quantity::word("description", "", limit.end.to_string()),
     ]
 }
 
@@ -132,16 +117,13 @@ fn ended(what: &str, end: Option<&LoopEnd>) -> String {
 }
 
 /// Why a branch or a curve ends, for programs.
-fn end(end: Option<&LoopEnd>) -> Subject {
+fn end(end: Option<&LoopEnd>) -> Vec<Quantity> {
     let reason = end.map_or("target", LoopEnd::kind);
     let description = end.map_or("the end of the range".to_owned(), LoopEnd::to_string);
-    Subject {
-        head: String::new(),
-        quantities: vec![
-            Quantity::word("reason", "", Some(reason.to_owned())),
-            Quantity::word("description", "", Some(description)),
-        ],
-    }
+    vec![
+        Quantity::word("reason", "", reason.to_owned()),
+        Quantity::word("description", "", description),
+    ]
 }
 
 /// A state in a row: first what varies, then what of the state is shown, then the rest of it for programs.
@@ -161,40 +143,32 @@ fn row(first: Vec<Quantity>, point: &LoopPoint) -> Subject {
         let subjects = Value::List(group.subjects);
         Quantity::data(group.key, Measure::Number, subjects)
     }));
-    Subject {
-        head: String::new(),
-        quantities,
-    }
+    Subject::new("", quantities)
 }
 
 /// What of a state is shown in a row.
 fn shown(point: &LoopPoint) -> [Quantity; 5] {
     let state = &point.state;
-    let error = belt_loop::relative_error(state);
-    let tensions = state.spans.iter().map(|span| span.tension);
-    let largest = tensions.fold(0.0, f64::max);
+    let scale = belt_loop::scale(state);
     let tractive = state.spans.iter().map(|span| span.tractive_tension);
     let smallest = tractive.fold(f64::INFINITY, f64::min);
     let limit = state.load_limit.as_ref();
     let slips = limit.map(|limit| state.pulleys[limit.pulley].name.clone());
-    let force =
-        |key, label, value| Quantity::number(key, label, Measure::Force, value, error * largest);
     [
-        force("largest_tension", "largest T", largest),
-        force("smallest_tractive_tension", "smallest F", smallest),
-        Quantity::number(
+        scale.force("largest_tension", "largest T", scale.tension),
+        scale.force("smallest_tractive_tension", "smallest F", smallest),
+        scale.against(
             "efficiency",
             "efficiency",
             Measure::Share,
             state.efficiency,
-            error,
+            1.0,
         ),
-        Quantity::number(
+        scale.relative(
             "load_factor_limit",
             "load factor limit",
             Measure::Number,
             limit.map(|limit| limit.factor),
-            error * limit.map_or(0.0, |limit| limit.factor),
         ),
         Quantity::word("limiting_pulley", "slips first", slips),
     ]

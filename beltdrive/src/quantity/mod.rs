@@ -15,6 +15,7 @@ mod measure;
 mod parameter;
 pub(crate) mod precision;
 mod scalars;
+mod scale;
 pub mod stability;
 pub mod two_pulley_rows;
 pub mod two_pulleys;

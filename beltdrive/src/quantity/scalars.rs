@@ -1,8 +1,9 @@
 //! The scalars of a steady state of a drive with two pulleys: the same wherever a state stands.
 
 use super::precision::known;
+use super::scale::Scale;
 use super::two_pulleys::is_v;
-use super::{Measure, Quantity, Subject, USUAL, Value, words};
+use super::{Measure, Quantity, USUAL, Value, words};
 use crate::{Drive, PulleyErrors, PulleySummary, StateErrors, StateSummary, Zone};
 
 /// The scalars of a state, with errors.
@@ -11,8 +12,8 @@ pub(super) struct Scalars<'a> {
     state: &'a StateSummary,
     /// Those that are known one by one.
     errors: Option<&'a StateErrors>,
-    /// What the others are relative to their scales.
-    error: f64,
+    /// What the others are relative to.
+    scale: Scale,
 }
 
 impl<'a> Scalars<'a> {
@@ -27,10 +28,14 @@ impl<'a> Scalars<'a> {
             drive,
             state,
             errors,
-            error: state
-                .error_estimate
-                .unwrap_or(tolerance)
-                .clamp(EXACT, VAGUE),
+            scale: Scale {
+                error: state
+                    .error_estimate
+                    .unwrap_or(tolerance)
+                    .clamp(EXACT, VAGUE),
+                tension: state.tight_tension,
+                power: state.driver.power(),
+            },
         }
     }
 
@@ -50,30 +55,6 @@ impl<'a> Scalars<'a> {
         all
     }
 
-    /// A number with an error that is relative to a scale of its own unit.
-    fn against(
-        &self,
-        key: &'static str,
-        label: &'static str,
-        measure: Measure,
-        value: impl Into<Option<f64>>,
-        scale: f64,
-    ) -> Quantity {
-        Quantity::number(key, label, measure, value, self.error * scale.abs())
-    }
-
-    /// A number with an error that is relative to itself.
-    fn relative(
-        &self,
-        key: &'static str,
-        label: &'static str,
-        measure: Measure,
-        value: impl Into<Option<f64>>,
-    ) -> Quantity {
-        let value = value.into();
-        self.against(key, label, measure, value, value.unwrap_or(0.0))
-    }
-
     /// Some of them for a row of a table, by their keys in CSV, under labels of their own; all for programs.
     pub(super) fn row(&self, shown: &[(&str, &'static str)]) -> Vec<Quantity> {
         let all = self.all();
@@ -88,28 +69,27 @@ impl<'a> Scalars<'a> {
 
     /// Those of the drive as a whole.
     pub(super) fn whole(&self) -> Vec<Quantity> {
-        let state = self.state;
-        // A loss is a difference of two powers.
-        let power = state.driver.power();
+        let (state, scale) = (self.state, &self.scale);
         let of_v = if is_v(self.drive) {
             "compression of the belt"
         } else {
             ""
         };
-        let length = |key, label, value| self.relative(key, label, Measure::Length, value);
+        let length = |key, label, value| scale.relative(key, label, Measure::Length, value);
         let efficiency = Quantity::number(
             "efficiency",
             "efficiency",
             Measure::Share,
             state.efficiency,
-            self.errors.map_or(self.error, |errors| errors.efficiency),
+            self.errors
+                .map_or(self.scale.error, |errors| errors.efficiency),
         );
         vec![
             length("belt_length", "belt length, unstretched", state.belt_length),
             length("slack_span", "slack span", state.slack_span),
             length("tight_span", "tight span", state.tight_span),
-            self.relative("mass_flow", "mass flow", Measure::MassFlow, state.mass_flow),
-            self.against(
+            scale.relative("mass_flow", "mass flow", Measure::MassFlow, state.mass_flow),
+            scale.against(
                 "speed_loss",
                 "speed loss",
                 Measure::Share,
@@ -117,20 +97,8 @@ impl<'a> Scalars<'a> {
                 1.0,
             ),
             efficiency,
-            self.against(
-                "friction_loss",
-                "friction loss",
-                Measure::Loss,
-                state.friction_loss,
-                power,
-            ),
-            self.against(
-                "compression_power",
-                of_v,
-                Measure::Loss,
-                state.compression_power,
-                power,
-            ),
+            scale.loss("friction_loss", "friction loss", state.friction_loss),
+            scale.loss("compression_power", of_v, state.compression_power),
         ]
     }
 
@@ -139,7 +107,7 @@ impl<'a> Scalars<'a> {
         let state = self.state;
         let tensions = |key, label: &'static str, slack, tight| Quantity {
             label: label.into(),
-            error: self.error * state.tight_tension.abs(),
+            error: self.scale.error * state.tight_tension.abs(),
             ..Quantity::data(
                 key,
                 Measure::Force,
@@ -168,12 +136,11 @@ impl<'a> Scalars<'a> {
     }
 
     fn pulley(&self, pulley: &PulleySummary, errors: Option<&PulleyErrors>) -> Vec<Quantity> {
-        let (drive, state) = (self.drive, self.state);
+        let (drive, state, scale) = (self.drive, self.state, &self.scale);
         let is_v = is_v(drive);
         let of_v = |label: &'static str| if is_v { label } else { "" };
         let error =
-            |of: fn(&PulleyErrors) -> f64, scale: f64| errors.map_or(self.error * scale.abs(), of);
-        let angle = |key, label, value: f64| self.against(key, label, Measure::Angle, value, 1.0);
+            |of: fn(&PulleyErrors) -> f64, size: f64| errors.map_or(scale.error * size.abs(), of);
         let number = Quantity::number;
         // A torque is a difference of tensions.
         let torque = state.tight_tension * drive.driver_radius.max(drive.driven_radius);
@@ -206,7 +173,7 @@ impl<'a> Scalars<'a> {
                 pulley.wrap_angle,
                 wrap,
             ),
-            angle(
+            scale.angle(
                 "geometric_wrap_angle",
                 of_v("of the pitch circles"),
                 pulley.geometric_wrap_angle,
@@ -233,14 +200,14 @@ impl<'a> Scalars<'a> {
                 tilts[1],
             ),
             Quantity::json("inclination_deg", degrees.to_vec()),
-            angle("slip_arc", "slip arc", words::slip_arc(&pulley.zones)),
+            scale.angle("slip_arc", "slip arc", words::slip_arc(&pulley.zones)),
         ];
         if !is_v {
             let entry = pulley.entry;
             let tension = entry.map(|entry| entry.reference_tension);
             let stiffness = entry.and_then(|entry| entry.smallest_stiffness);
             quantities.extend([
-                self.against(
+                scale.against(
                     "reference_tension",
                     "reference tension T_o",
                     Measure::Force,
@@ -248,13 +215,13 @@ impl<'a> Scalars<'a> {
                     state.tight_tension,
                 ),
                 // It decays along the elastic zone: its error is relative to itself however small it is.
-                self.relative(
+                scale.relative(
                     "entry_strain",
                     "entry strain",
                     Measure::Number,
                     entry.map(|entry| entry.strain),
                 ),
-                self.relative(
+                scale.relative(
                     "smallest_friction_stiffness",
                     "smallest k_f with slip",
                     Measure::ForcePerArea,
@@ -262,24 +229,13 @@ impl<'a> Scalars<'a> {
                 ),
             ]);
         }
-        let zones = pulley.zones.iter().map(|zone| self.zone(zone)).collect();
-        quantities.push(Quantity::data("zones", Measure::Number, Value::List(zones)));
+        quantities.push(scale.zones(&pulley.zones));
         quantities
-    }
-
-    /// A friction zone, for programs.
-    fn zone(&self, zone: &Zone) -> Subject {
-        let angle = |key, value: f64| self.against(key, "", Measure::Angle, value, 1.0);
-        let kind = Quantity::word("kind", "", zone.kind.name().to_owned());
-        Subject::new(
-            "",
-            vec![kind, angle("from", zone.from), angle("to", zone.to)],
-        )
     }
 
     /// A friction zone and its angles, by its place on the pulley.
     pub(super) fn extent(&self, place: usize, zone: Option<&Zone>) -> Quantity {
-        let error = self.error.to_degrees();
+        let error = self.scale.error.to_degrees();
         let angle = |angle: f64| known(angle.to_degrees(), error, USUAL.into());
         let extent = zone.map(|zone| {
             let (from, to) = (angle(zone.from), angle(zone.to));
