@@ -42,7 +42,7 @@ impl Limits {
             .with_progress(|progress| beltdrive::limits(&drive, &key, &options, progress))?;
         let answer = &quantity::limits::answer(&limits);
         let draw = |directory: &Path, metadata: &str| {
-            let branch = quantity::two_pulley_rows::branch(&limits.branch);
+            let branch = quantity::branch::answer(&limits.branch);
             plot::write_rows(&branch, "branch.svg", directory, Some(metadata))
         };
         self.common.output.write(answer, &draw, &origin)

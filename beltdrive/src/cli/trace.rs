@@ -66,8 +66,7 @@ impl Trace {
             .with_progress(|progress| beltdrive::trace(drive, &key, range, &options, progress))?;
         let answer = &quantity::branch::answer(&branch);
         let draw = |directory: &Path, metadata: &str| {
-            let rows = quantity::two_pulley_rows::branch(&branch);
-            plot::write_rows(&rows, "branch.svg", directory, Some(metadata))
+            plot::write_rows(answer, "branch.svg", directory, Some(metadata))
         };
         self.common.output.write(answer, &draw, origin)?;
         finished(&branch.end)
@@ -90,8 +89,7 @@ impl Trace {
         })?;
         let answer = &quantity::limit_curve::answer(&curve);
         let draw = |directory: &Path, metadata: &str| {
-            let rows = quantity::two_pulley_rows::limit_curve(&curve);
-            plot::write_rows(&rows, "limit_curve.svg", directory, Some(metadata))
+            plot::write_rows(answer, "limit_curve.svg", directory, Some(metadata))
         };
         self.common.output.write(answer, &draw, origin)?;
         finished(&curve.end)

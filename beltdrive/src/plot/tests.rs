@@ -1,5 +1,5 @@
 use super::*;
-use crate::quantity::{two_pulley_rows, two_pulleys};
+use crate::quantity::{branch, limit_curve, two_pulleys};
 use crate::report::{sample, sample_branch, sample_flat};
 
 /// A directory of this process that is gone after the test.
@@ -135,9 +135,9 @@ fn a_flat_belt_has_its_own_figures() {
             "displacement.svg",
         ];
         assert_eq!(names(&files), expected);
-        let branch = two_pulley_rows::branch(&sample_flat::branch());
+        let branch = branch::answer(&sample_flat::branch());
         files.extend(write_rows(&branch, "branch.svg", &scratch.0, None).unwrap());
-        let curve = two_pulley_rows::limit_curve(&sample_flat::curve());
+        let curve = limit_curve::answer(&sample_flat::curve());
         files.extend(write_rows(&curve, "limit_curve.svg", &scratch.0, None).unwrap());
         for file in files {
             let text = fs::read_to_string(&file).unwrap();
@@ -188,6 +188,6 @@ fn an_empty_answer_has_figures() {
     let mut branch = sample_branch::folded();
     branch.points.clear();
     branch.events.clear();
-    check(&rows::figure(&two_pulley_rows::branch(&branch)));
+    check(&rows::figure(&branch::answer(&branch)));
     profiles::figures(&Answer::default()).for_each(|(_, figure)| check(&figure));
 }

@@ -49,7 +49,7 @@ pub fn answer(curve: &LimitCurve) -> Answer {
             })
             .collect();
         quantities.push(Quantity::word("", "cusp", what.clone()));
-        Subject::new(what, quantities)
+        Subject::new(format!("cusp: {what}"), quantities)
     });
     let convergence = parameter::convergence(&curve.drive, &curve.convergence);
     Answer {

@@ -17,7 +17,6 @@ pub(crate) mod precision;
 mod scalars;
 mod scale;
 pub mod stability;
-pub mod two_pulley_rows;
 pub mod two_pulleys;
 pub(crate) mod value;
 pub mod verification;

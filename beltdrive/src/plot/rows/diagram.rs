@@ -7,7 +7,7 @@ use super::super::occupied::{Frame, Occupied, Shape};
 use super::super::panel::Panel;
 use super::super::sheet::{Anchor, Color, DOT, GREY, INK, PALETTE, SMALL, Sheet, Spot, Stroke};
 use super::Piece;
-use crate::quantity::{Measure, Quantity, UnitSystem};
+use crate::quantity::{Measure, UnitSystem};
 
 /// Widths of a curve, of one that a later one covers, and of one beyond the colours, px.
 pub(super) const CURVE: f64 = 2.0;
@@ -22,8 +22,17 @@ pub(super) struct Diagram {
     pub(super) title: String,
     pub(super) axis: String,
     pub(super) scale: Scale,
-    /// The values of every row, one curve or one for each pulley.
-    pub(super) curves: Vec<Vec<f64>>,
+    /// One curve, or one for each pulley.
+    pub(super) curves: Vec<Curve>,
+}
+
+/// The values of a number.
+#[derive(Clone)]
+pub(super) struct Curve {
+    /// In every row.
+    pub(super) rows: Vec<f64>,
+    /// At every event.
+    pub(super) marked: Vec<f64>,
 }
 
 /// What an axis measures.
@@ -46,15 +55,15 @@ pub(super) fn stroke(index: usize) -> Stroke {
 }
 
 impl Diagram {
-    /// The panel of a quantity.
-    pub(super) fn of(quantity: &Quantity, curves: Vec<Vec<f64>>) -> Self {
-        let label = quantity.label.trim();
+    /// The panel of a quantity of a label.
+    pub(super) fn of(label: &str, measure: Measure, curves: Vec<Curve>) -> Self {
+        let label = label.trim();
         let mut letters = label.chars();
         let first = letters.next().into_iter().flat_map(char::to_uppercase);
         Self {
             title: first.chain(letters).collect(),
-            axis: described(label, quantity.measure),
-            scale: match quantity.measure {
+            axis: described(label, measure),
+            scale: match measure {
                 Measure::Angle => Scale::Degrees,
                 _ => Scale::Decimal,
             },
@@ -64,8 +73,8 @@ impl Diagram {
 
     /// Whether there is anything to see.
     pub(super) fn varies(&self) -> bool {
-        self.curves.iter().any(|values| {
-            let finite = || values.iter().filter(|value| value.is_finite());
+        self.curves.iter().any(|curve| {
+            let finite = || curve.rows.iter().filter(|value| value.is_finite());
             let ends = [f64::INFINITY, f64::NEG_INFINITY];
             let [low, high] = finite().fold(ends, |[low, high], value| {
                 [low.min(*value), high.max(*value)]
@@ -75,7 +84,9 @@ impl Diagram {
     }
 
     fn axis(&self) -> Axis {
-        Axis::spanning(self.curves.iter().flatten().copied(), self.scale).padded()
+        let values = self.curves.iter();
+        let values = values.flat_map(|curve| curve.rows.iter().chain(&curve.marked));
+        Axis::spanning(values.copied(), self.scale).padded()
     }
 
     /// How the curves are drawn: wide where a later one covers most of them.
@@ -94,7 +105,7 @@ impl Diagram {
             1 => Stroke::solid(INK, CURVE),
             _ if self.curves[index + 1..]
                 .iter()
-                .any(|later| covers(later, curve)) =>
+                .any(|later| covers(&later.rows, &curve.rows)) =>
             {
                 Stroke {
                     width: COVERED,
@@ -107,27 +118,22 @@ impl Diagram {
     }
 
     /// Draws the panel over those of a parameter, with the events on every curve.
-    pub(super) fn draw(
-        &self,
-        sheet: &mut Sheet,
-        part: Frame,
-        parameter: &Self,
-        pieces: &[Piece],
-        events: &[usize],
-    ) {
+    pub(super) fn draw(&self, sheet: &mut Sheet, part: Frame, parameter: &Self, pieces: &[Piece]) {
         let panel = Panel {
             title: self.title.clone(),
             axes: [parameter.axis(), self.axis()],
             descriptions: [parameter.axis.clone(), self.axis.clone()],
         };
         let chart = panel.draw(sheet, part, []);
-        let curves = self.curves.iter().map(|values| {
-            let points = parameter.curves[0].iter().zip(values);
-            points
-                .map(|(across, up)| chart.at(*across, *up))
-                .collect::<Vec<_>>()
-        });
-        let curves: Vec<_> = curves.collect();
+        let places = |across: &[f64], up: &[f64]| -> Vec<_> {
+            let points = across.iter().zip(up);
+            points.map(|(across, up)| chart.at(*across, *up)).collect()
+        };
+        let across = &parameter.curves[0];
+        let curves = self.curves.iter();
+        let curves: Vec<_> = curves
+            .map(|curve| places(&across.rows, &curve.rows))
+            .collect();
         let mut shapes = Vec::new();
         let is_known = |place: &Spot| place.iter().all(|part| part.is_finite());
         for (places, stroke) in curves.iter().zip(self.strokes()) {
@@ -154,10 +160,10 @@ impl Diagram {
                 shapes.extend(lines.map(|ends| Shape::Line(ends, 0.5 * stroke.width + 1.5)));
             }
         }
-        let dots = curves
-            .iter()
-            .map(|places| events.iter().map(|row| places[*row]).collect());
-        let dots: Vec<Vec<_>> = dots.collect();
+        let dots = self.curves.iter();
+        let dots: Vec<Vec<_>> = dots
+            .map(|curve| places(&across.marked, &curve.marked))
+            .collect();
         shapes.extend(
             dots.iter()
                 .flatten()

@@ -1,16 +1,18 @@
 use super::super::tests::check;
 use super::diagram::{COVERED, CURVE};
 use super::*;
-use crate::quantity::two_pulley_rows::{branch, limit_curve};
+use crate::quantity::{branch, limit_curve};
 use crate::report::sample_branch;
 use crate::{Branch, LimitCurve};
 
 fn rows(answer: &Answer) -> &[Subject] {
-    answer.subjects("points")
+    let mut groups = answer.groups.iter();
+    let group = groups.find(|group| group.layout == Layout::Rows).unwrap();
+    &group.subjects
 }
 
 fn drawn(branch: &Branch) -> String {
-    let figure = figure(&self::branch(branch));
+    let figure = figure(&branch::answer(branch));
     check(&figure);
     figure
 }
@@ -18,7 +20,7 @@ fn drawn(branch: &Branch) -> String {
 #[test]
 fn the_branch_is_parted_at_its_limit_point() {
     let mut folded = sample_branch::folded();
-    let answer = branch(&folded);
+    let answer = branch::answer(&folded);
     let found = pieces(rows(&answer), &[]);
     let [before, behind] = &found[..] else {
         panic!("{found:?}");
@@ -26,7 +28,7 @@ fn the_branch_is_parted_at_its_limit_point() {
     assert_eq!(before.rows.end(), behind.rows.start());
     let fold = &rows(&answer)[*behind.rows.start()];
     assert_eq!(
-        fold.number(folded.key.path()),
+        fold.number(&folded.key.stem()),
         Some(folded.events[2].point.value)
     );
     assert_eq!((before.behind, behind.behind), (false, true));
@@ -41,7 +43,7 @@ fn the_branch_is_parted_at_its_limit_point() {
         assert!(figure.contains(&format!(">{title}<")), "{title}");
     }
     folded.events.remove(2);
-    assert_eq!(pieces(rows(&branch(&folded)), &[]).len(), 1);
+    assert_eq!(pieces(rows(&branch::answer(&folded)), &[]).len(), 1);
 }
 
 #[test]
@@ -73,7 +75,7 @@ fn a_branch_of_one_state_has_a_figure() {
 }
 
 fn chart(curve: &LimitCurve) -> String {
-    let figure = figure(&limit_curve(curve));
+    let figure = figure(&limit_curve::answer(curve));
     check(&figure);
     figure
 }
@@ -81,7 +83,7 @@ fn chart(curve: &LimitCurve) -> String {
 #[test]
 fn a_curve_of_limits_is_parted_where_the_reason_changes() {
     let mut curve = sample_branch::curve();
-    let answer = limit_curve(&curve);
+    let answer = limit_curve::answer(&curve);
     let reasons = reasons(rows(&answer));
     assert_eq!(reasons, ["fold: driver slips", "fold: driver overhangs"]);
     let pieces = pieces(rows(&answer), &reasons);
@@ -107,14 +109,18 @@ fn a_curve_of_limits_is_parted_where_the_reason_changes() {
 
 #[test]
 fn a_pulley_behind_another_curve_is_seen() {
+    let curve = |values: [f64; 3]| Curve {
+        rows: values.to_vec(),
+        marked: vec![],
+    };
     let same = Diagram {
         title: String::new(),
         axis: String::new(),
         scale: Scale::Decimal,
         curves: vec![
-            vec![1.0, 2.0, 3.0],
-            vec![1.0, 2.0, 3.0],
-            vec![1.0, 5.0, 9.0],
+            curve([1.0, 2.0, 3.0]),
+            curve([1.0, 2.0, 3.0]),
+            curve([1.0, 5.0, 9.0]),
         ],
     };
     let widths: Vec<_> = same.strokes().iter().map(|stroke| stroke.width).collect();
