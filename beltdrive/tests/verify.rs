@@ -15,6 +15,7 @@ fn every_published_number_agrees_or_differs_for_a_known_reason() {
     let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("verify");
     fs::create_dir_all(&directory).unwrap();
     let path = |name: &str| directory.join(name).to_str().unwrap().to_owned();
+    let beside = path("a.csv.origin.json");
     let (json, csv, markdown) = (path("a.json"), path("a.csv"), path("a.md"));
     let output = verify(&["--json", &json, "--csv", &csv, "--markdown", &markdown]);
     let table = String::from_utf8(output.stdout).unwrap();
@@ -23,6 +24,11 @@ fn every_published_number_agrees_or_differs_for_a_known_reason() {
     assert!(notes.contains(&format!("wrote {markdown}")), "{notes}");
 
     let report: Value = serde_json::from_str(&fs::read_to_string(json).unwrap()).unwrap();
+    let origin = &report["origin"];
+    assert_eq!(origin["version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(origin["command_line"][1], "verify");
+    let beside: Value = serde_json::from_str(&fs::read_to_string(beside).unwrap()).unwrap();
+    assert_eq!(&beside, origin);
     let counts = ["agree", "within_band", "known", "unexplained"];
     let counts = counts.map(|count| report[count].as_u64().unwrap());
     assert_eq!(counts, COUNTS);

@@ -2,20 +2,22 @@
 
 use super::destinations::Destinations;
 use super::failure::Failure;
-use super::output::{is_stream, note, print, write_text};
+use super::origin::Origin;
+use super::output::{is_stream, note, print, write_csv, write_text};
 use super::progress::with_bar;
-use beltdrive::quantity::{UnitSystem, verification};
+use beltdrive::quantity::{Answer, UnitSystem, verification};
 use beltdrive::report::{csv, json, markdown, table};
 use beltdrive::verify::Verdict;
 use beltdrive::{Verification, verify};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 const HELP: &str = "\
 Example:
   beltdrive verify --markdown verification.md
 
-Every published number is computed anew and set beside the printed one; it takes some seconds.
+Every published number is computed anew and set beside the printed one, in the unit and to the digits
+of its source; it takes some seconds.
 
 Exit status:
   0  every number agrees, or differs for a known reason
@@ -39,45 +41,54 @@ pub(super) struct Verify {
     quiet: bool,
 }
 
-/// A form of the result.
-type Form = fn(&Verification) -> String;
-
 impl Verify {
     pub(super) fn run(&self) -> Result<(), Failure> {
+        let csv_file = self.csv.as_deref().filter(|path| !is_stream(path));
+        let beside = csv_file.map(Origin::beside);
         Destinations {
             texts: &[
                 ("--json", self.json.as_deref()),
                 ("--markdown", self.markdown.as_deref()),
                 ("--csv", self.csv.as_deref()),
+                ("the origin of --csv", beside.as_deref()),
             ],
             figures: None,
             drive_file: None,
         }
         .check()?;
-        let on_stdout = self.outputs().any(|(path, _)| is_stream(path));
+        let outputs = [&self.json, &self.markdown, &self.csv];
+        let on_stdout = outputs.into_iter().flatten().any(|path| is_stream(path));
         let verification = with_bar(self.quiet, verify);
+        let answer = verification::answer(&verification);
         if !self.quiet && !on_stdout {
-            let answer = verification::answer(&verification);
             print(&table(&answer, UnitSystem::default()))?;
         }
-        for (path, form) in self.outputs() {
-            let written = write_text(path, &form(&verification))?;
-            if let Some(path) = written.filter(|_| !self.quiet) {
+        for path in self.write_files(&verification, &answer)? {
+            if !self.quiet {
                 note(&format!("wrote {}", path.display()));
             }
         }
         outcome(verification.count(Verdict::Differs))
     }
 
-    /// The outputs asked for.
-    fn outputs(&self) -> impl Iterator<Item = (&Path, Form)> {
-        let outputs = [
-            (&self.json, (|of| json(&verification::answer(of))) as Form),
-            (&self.markdown, markdown),
-            (&self.csv, |of| csv(&verification::answer(of))),
-        ];
-        let asked_for = outputs.into_iter();
-        asked_for.filter_map(|(path, form)| Some((path.as_deref()?, form)))
+    /// Writes the outputs asked for and lists the files among them.
+    fn write_files(
+        &self,
+        verification: &Verification,
+        answer: &Answer,
+    ) -> Result<Vec<PathBuf>, Failure> {
+        let origin = Origin::new();
+        let mut written = Vec::new();
+        if let Some(path) = &self.json {
+            written.extend(write_text(path, &origin.in_json(&json(answer)))?);
+        }
+        if let Some(path) = &self.markdown {
+            written.extend(write_text(path, &markdown(verification))?);
+        }
+        if let Some(path) = &self.csv {
+            written.extend(write_csv(path, &csv(answer), &origin)?);
+        }
+        Ok(written)
     }
 }
 
