@@ -2,7 +2,7 @@
 //! from that of a neighbouring load? How long a branch of them, and both limits of the load? How long a
 //! V-belt round three pulleys?
 
-use beltdrive::belt_loop::{self, BeltLoop, Closure, Duty, LoopPulley, Mount, Sense, Side};
+use beltdrive::belt_loop::{self, BeltLoop, Closure, Duty, LoopPulley, Sense};
 use beltdrive::input::Key;
 use beltdrive::{
     Belt, BeltKind, Drive, EventKind, FrictionLaw, RangeEnd, SolveOptions, VBelt, examples, input,
@@ -118,15 +118,7 @@ fn both_limits(criterion: &mut Criterion) {
 
 /// A driver, a fan and an alternator, set up with 500 N.
 fn accessories(law: FrictionLaw) -> BeltLoop {
-    let pulley = |name: &str, centre, radius, duty| LoopPulley {
-        name: name.to_owned(),
-        mount: Mount::Fixed(centre),
-        radius,
-        side: Side::Inside,
-        friction_coefficient: 0.4,
-        half_angle: None,
-        duty,
-    };
+    let pulley = |name, centre, radius, duty| LoopPulley::new(name, centre, radius, 0.4, duty);
     BeltLoop {
         title: None,
         belt: Belt {

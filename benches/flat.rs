@@ -94,20 +94,16 @@ fn eight_pulleys(law: FrictionLaw, normal_force: NormalForce) -> BeltLoop {
     let pulley = |(index, [radius, distance, torque]): (usize, [f64; 3])| {
         let centre = [distance * angle.cos(), distance * angle.sin()];
         angle += std::f64::consts::FRAC_PI_4;
+        let duty = match index {
+            0 => Duty::Driver(300.0),
+            _ => Duty::Torque(torque),
+        };
         LoopPulley {
-            name: format!("pulley {index}"),
-            mount: Mount::Fixed(centre),
-            radius,
             side: match IDLERS.contains(&index) {
                 true => Side::Outside,
                 false => Side::Inside,
             },
-            friction_coefficient: 0.8,
-            half_angle: None,
-            duty: match index {
-                0 => Duty::Driver(300.0),
-                _ => Duty::Torque(torque),
-            },
+            ..LoopPulley::new(&format!("pulley {index}"), centre, radius, 0.8, duty)
         }
     };
     let mut pulleys: Vec<_> = PULLEYS.into_iter().enumerate().map(pulley).collect();

@@ -64,18 +64,11 @@
 //! A driver, a fan and a water pump on the back of the belt, set up with 400 N:
 //!
 //! ```
-//! use beltdrive::belt_loop::{BeltLoop, Closure, Duty, LoopPulley, Mount, Sense, Side, solve};
+//! use beltdrive::belt_loop::{BeltLoop, Closure, Duty, LoopPulley, Sense, Side, solve};
 //! use beltdrive::{Belt, BeltKind, FrictionLaw, NormalForce};
 //!
-//! let pulley = |name: &str, centre, radius, side, duty| LoopPulley {
-//!     name: name.to_owned(),
-//!     mount: Mount::Fixed(centre),
-//!     radius,
-//!     side,
-//!     friction_coefficient: 0.7,
-//!     half_angle: None,
-//!     duty,
-//! };
+//! let pulley = |name, centre, radius, duty| LoopPulley::new(name, centre, radius, 0.7, duty);
+//! let pump = pulley("pump", [0.2, 0.03], 0.03, Duty::Torque(0.5));
 //! let belt_loop = BeltLoop {
 //!     title: None,
 //!     belt: Belt {
@@ -88,9 +81,9 @@
 //!     sense: Sense::Clockwise,
 //!     turning_number: 1,
 //!     pulleys: vec![
-//!         pulley("driver", [0.0, 0.0], 0.06, Side::Inside, Duty::Driver(200.0)),
-//!         pulley("pump", [0.2, 0.03], 0.03, Side::Outside, Duty::Torque(0.5)),
-//!         pulley("fan", [0.4, 0.05], 0.1, Side::Inside, Duty::Torque(20.0)),
+//!         pulley("driver", [0.0, 0.0], 0.06, Duty::Driver(200.0)),
+//!         LoopPulley { side: Side::Outside, ..pump },
+//!         pulley("fan", [0.4, 0.05], 0.1, Duty::Torque(20.0)),
 //!     ],
 //!     closure: Closure::SetupTension(400.0),
 //! };

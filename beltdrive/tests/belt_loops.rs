@@ -30,13 +30,8 @@ fn belt() -> Belt {
 
 fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> LoopPulley {
     LoopPulley {
-        name: name.to_owned(),
-        mount: Mount::Fixed(centre),
-        radius,
         side,
-        friction_coefficient: 0.6,
-        half_angle: None,
-        duty,
+        ..LoopPulley::new(name, centre, radius, 0.6, duty)
     }
 }
 

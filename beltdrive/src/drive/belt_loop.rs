@@ -45,6 +45,28 @@ pub struct LoopPulley {
     pub duty: Duty,
 }
 
+impl LoopPulley {
+    /// A pulley with a fixed centre in m and a radius in m inside the loop, with the groove of the belt.
+    #[must_use]
+    pub fn new(
+        name: &str,
+        centre: [f64; 2],
+        radius: f64,
+        friction_coefficient: f64,
+        duty: Duty,
+    ) -> Self {
+        Self {
+            name: name.to_owned(),
+            mount: Mount::Fixed(centre),
+            radius,
+            side: Side::Inside,
+            friction_coefficient,
+            half_angle: None,
+            duty,
+        }
+    }
+}
+
 /// What holds the axis of a pulley.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mount {

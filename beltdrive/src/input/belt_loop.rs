@@ -42,15 +42,15 @@ pub(super) fn of_two(
     let belt = belt::belt(values)?;
     let friction_coefficient = values.required_number("friction.coefficient")?;
     let pulley = |name: &str, x: f64, duty: Duty| {
-        Ok(LoopPulley {
-            name: name.to_owned(),
-            mount: Mount::Fixed([x, 0.0]),
-            radius: file::radius(values, &format!("pulleys.{name}"))?,
-            side: Side::Inside,
+        let radius = file::radius(values, &format!("pulleys.{name}"))?;
+        let centre = [x, 0.0];
+        Ok(LoopPulley::new(
+            name,
+            centre,
+            radius,
             friction_coefficient,
-            half_angle: None,
             duty,
-        })
+        ))
     };
     let speed = values.required_number("pulleys.driver.speed")?;
     let distance = values.required_number("layout.centre_distance")?;

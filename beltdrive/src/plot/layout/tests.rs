@@ -3,7 +3,7 @@ use super::super::profiles;
 use super::super::tests::check;
 use super::model::Point;
 use super::*;
-use crate::belt_loop::{BeltLoop, Closure, Duty, LoopPulley, Mount, Sense, Side, solve};
+use crate::belt_loop::{BeltLoop, Closure, Duty, LoopPulley, Sense, Side, solve};
 use crate::input::{DriveFile, Stated};
 use crate::quantity::{belt_loop, two_pulleys};
 use crate::report::sample;
@@ -31,13 +31,8 @@ fn idle(mut belt_loop: BeltLoop) -> BeltLoop {
 
 fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> LoopPulley {
     LoopPulley {
-        name: name.to_owned(),
-        mount: Mount::Fixed(centre),
-        radius,
         side,
-        friction_coefficient: 0.6,
-        half_angle: None,
-        duty,
+        ..LoopPulley::new(name, centre, radius, 0.6, duty)
     }
 }
 
