@@ -129,8 +129,9 @@ pub use results::stability::{
 };
 pub use results::state_summary::{PulleyErrors, PulleySummary, StateErrors, StateSummary};
 pub use results::steady_state::{
-    Check, Convergence, Entry, Profile, Pulley, PulleyState, SteadyState, Warning, Zone, ZoneKind,
+    Check, Convergence, Entry, Profile, Pulley, PulleyState, SteadyState, Zone, ZoneKind,
 };
+pub use results::warning::Warning;
 
 /// The examples of the README are tests.
 #[cfg(doctest)]

@@ -7,18 +7,15 @@ use beltdrive::belt_loop::{
     BeltLoop, Closure, Duty, Guide, LoopError, LoopPulley, LoopState, Mount, Sense, Side,
     Tensioner, TensionerLoad, solve, solve_to, solve_with_margins,
 };
-use beltdrive::{Belt, BeltKind, Drive, FrictionLaw, SolveOptions, VBelt, examples, input};
+use beltdrive::{
+    Belt, BeltKind, Drive, FrictionLaw, SolveOptions, VBelt, Warning, examples, input,
+};
 use random_numbers::Random;
 
 fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> LoopPulley {
     LoopPulley {
-        name: name.to_owned(),
-        mount: Mount::Fixed(centre),
-        radius,
         side,
-        friction_coefficient: 0.4,
-        half_angle: None,
-        duty,
+        ..LoopPulley::new(name, centre, radius, 0.4, duty)
     }
 }
 
@@ -130,6 +127,38 @@ fn two_pulleys_are_the_drive_with_two_pulleys() {
             assert!((deepest - 1.0).abs() < 1e-3, "{name} {deepest}");
         }
     }
+}
+
+/// A belt that sinks too far and is stretched too much is told of alike.
+#[test]
+fn loops_have_the_warnings_of_two_pulleys() {
+    let mut drive = thesis("bristle", 700.0);
+    assert_eq!(
+        solve(&as_loop(&drive, 150.0))
+            .unwrap()
+            .warnings(&as_loop(&drive, 150.0)),
+        []
+    );
+    drive.belt.axial_stiffness = 9e3;
+    if let BeltKind::V(groove) = &mut drive.belt.kind {
+        groove.height = Some(1e-4);
+    }
+    let known = beltdrive::solve(&drive, &SolveOptions::default()).unwrap();
+    let belt_loop = as_loop(&drive, known.driven.torque);
+    let state = solve(&belt_loop).unwrap();
+    let warnings = state.warnings(&belt_loop);
+    let [
+        Warning::Sunk { pulley, height, .. },
+        ..,
+        Warning::LargeStretch { strain },
+    ] = &warnings[..]
+    else {
+        panic!("{warnings:?}");
+    };
+    assert_eq!((&**pulley, *height), ("driver", 1e-4));
+    assert_eq!(warnings.len(), known.warnings.len());
+    let stretched = |warning: &Warning| matches!(warning, Warning::LargeStretch { strain: known } if (known / strain - 1.0).abs() < 1e-6);
+    assert!(known.warnings.iter().any(stretched));
 }
 
 /// A V-belt of the size of cars: driver, alternator, water pump on the back of the belt.
@@ -483,35 +512,41 @@ fn a_load_beyond_the_limit_is_refused_with_the_limit() {
     }
 }
 
+/// Half angle of wide grooves, degrees.
+const WIDE: f64 = 60.0;
+
+/// Accessories driven by a belt in wide grooves of a radial stiffness in N/m².
+fn in_wide_grooves(radial_stiffness: f64) -> BeltLoop {
+    let mut belt_loop = accessories(Closure::SetupTension(500.0));
+    belt_loop.pulleys[1].half_angle = None;
+    belt_loop.law = FrictionLaw::Bristle { stiffness: 3e4 };
+    belt_loop.belt.kind = BeltKind::V(VBelt {
+        radial_stiffness,
+        half_angle: WIDE.to_radians(),
+        height: None,
+    });
+    belt_loop
+}
+
 /// A stiff belt in a wide groove does not sink, and its faces press like a flat belt that is rougher by
 /// 1/sin β: the flat loop is the limit.
 #[test]
 fn a_stiff_belt_in_a_wide_groove_tends_to_the_flat_belt() {
-    let half_angle = 60_f64.to_radians();
-    let belt_loop = with_law(
+    let mut flat = with_law(
         accessories(Closure::SetupTension(500.0)),
         FrictionLaw::Coulomb,
     );
-    let mut flat = belt_loop.clone();
     flat.belt.kind = BeltKind::Flat {
         normal_force: beltdrive::NormalForce::Inertia,
     };
     for pulley in &mut flat.pulleys {
         pulley.half_angle = None;
-        pulley.friction_coefficient /= half_angle.sin();
+        pulley.friction_coefficient /= WIDE.to_radians().sin();
     }
     let flat = solve(&flat).unwrap();
     let mut last = f64::INFINITY;
     for stiffness in [3e6, 3e7, 3e8] {
-        let mut belt_loop = belt_loop.clone();
-        belt_loop.pulleys[1].half_angle = None;
-        belt_loop.law = FrictionLaw::Bristle { stiffness: 3e4 };
-        belt_loop.belt.kind = BeltKind::V(VBelt {
-            radial_stiffness: stiffness,
-            half_angle,
-            height: None,
-        });
-        let state = solve(&belt_loop).unwrap();
+        let state = solve(&in_wide_grooves(stiffness)).unwrap();
         let pairs = state.spans.iter().zip(&flat.spans);
         let tensions = pairs.map(|(v, flat)| (v.tension / flat.tension - 1.0).abs());
         let pulleys = state.pulleys.iter().zip(&flat.pulleys);
@@ -552,17 +587,9 @@ fn the_smallest_margin_of_two_pulleys_is_their_load_limit() {
 /// With all friction along the pulley a belt on a stiff groove carries R F (exp(μ φ/sin β) − 1).
 #[test]
 fn a_stiff_belt_in_a_wide_groove_carries_what_a_flat_belt_does() {
-    let half_angle = 60_f64.to_radians();
     let mut last = f64::INFINITY;
     for stiffness in [3e6, 3e7] {
-        let mut belt_loop = accessories(Closure::SetupTension(500.0));
-        belt_loop.pulleys[1].half_angle = None;
-        belt_loop.law = FrictionLaw::Bristle { stiffness: 3e4 };
-        belt_loop.belt.kind = BeltKind::V(VBelt {
-            radial_stiffness: stiffness,
-            half_angle,
-            height: None,
-        });
+        let belt_loop = in_wide_grooves(stiffness);
         let state = solve_with_margins(&belt_loop, &SolveOptions::default()).unwrap();
         let driven = 1..state.pulleys.len();
         let deviations = driven.map(|index| {
@@ -570,7 +597,7 @@ fn a_stiff_belt_in_a_wide_groove_carries_what_a_flat_belt_does() {
             let slack = state.spans[index - 1]
                 .tractive_tension
                 .min(state.spans[index].tractive_tension);
-            let friction = stated.friction_coefficient / half_angle.sin() * pulley.wrap;
+            let friction = stated.friction_coefficient / WIDE.to_radians().sin() * pulley.wrap;
             let capstan = stated.radius * slack * friction.exp_m1();
             (pulley.torque_capacity.unwrap() / capstan - 1.0).abs()
         });

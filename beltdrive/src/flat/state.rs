@@ -6,14 +6,9 @@ use crate::friction::epp;
 use crate::friction::rim::contact::{Contact, Place};
 use crate::friction::rim::profile::profile;
 use crate::results::possible;
-use crate::{
-    BeltKind, Check, Convergence, Drive, Entry, FrictionLaw, NormalForce, PulleyState, SteadyState,
-    Warning,
-};
+use crate::results::warning::large_strain;
+use crate::{Check, Convergence, Drive, Entry, FrictionLaw, PulleyState, SteadyState};
 use web_time::Instant;
-
-/// From this strain on the friction zones of models with small and with finite strains differ visibly.
-const LARGE_STRAIN: f64 = 0.02;
 
 /// The whole steady state.
 pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -> SteadyState {
@@ -31,6 +26,7 @@ pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -
         contact.integral(|place| stretch(place).recip())
     });
     let span = solved.geometry.span;
+    let against_rims = solved.contact.iter().map(|contact| contact.strain);
     let mut state = SteadyState {
         drive: drive.clone(),
         mass_flow: flow,
@@ -47,7 +43,7 @@ pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -
         compression_power: 0.0,
         driver,
         driven,
-        warnings: warnings(drive, solved),
+        warnings: Vec::from_iter(large_strain(&drive.belt, drive.law, tight, against_rims)),
         checks: Vec::new(),
         convergence: Convergence {
             newton_iterations: solved.evaluations,
@@ -60,22 +56,6 @@ pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -
     state.convergence.error_estimate = closing_error(solved);
     state.convergence.seconds = start.elapsed().as_secs_f64();
     state
-}
-
-/// A remark on strains, of the tight span or against a rim, that only matter to elastic friction, which
-/// acts per unstretched length.
-fn warnings(drive: &Drive, solved: &ClosedForm) -> Vec<Warning> {
-    let [_, tight] = solved.tension;
-    let against_rim = solved.contact.iter().map(|contact| contact.strain);
-    let strain = against_rim.fold(tight / drive.belt.axial_stiffness, f64::max);
-    let exact = BeltKind::Flat {
-        normal_force: NormalForce::Exact,
-    };
-    let is_elastic = matches!(drive.law, FrictionLaw::Epp { .. });
-    match is_elastic && drive.belt.kind != exact && strain > LARGE_STRAIN {
-        true => vec![Warning::LargeStrain { strain }],
-        false => Vec::new(),
-    }
 }
 
 /// How far the tractions at the ends of both pulleys are off, relative; at least the rounding of

@@ -5,7 +5,7 @@
 
 use super::belt_loop;
 use super::scale::{HUB_LOAD, Scale};
-use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value, words};
+use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value, warning, words};
 use crate::belt_loop::{self as loops, BeltLoop, Closure, Duty, LoopPulley, Mount, Sense, Side};
 use crate::input::Key;
 use crate::{BeltKind, Drive, PulleyState, SteadyState};
@@ -65,7 +65,7 @@ pub fn drawn(state: &SteadyState) -> Answer {
     groups.push(Group::single("", belt_loop::statement(&as_loop(state))));
     Answer {
         heading: heading(&state.drive, &[]),
-        remarks: state.warnings.iter().map(words::warning).collect(),
+        remarks: warning::messages(&state.warnings),
         groups,
         ..Answer::default()
     }
@@ -81,14 +81,8 @@ pub(crate) fn heading(drive: &Drive, varied: &[Key]) -> Vec<String> {
 /// The drive as a loop that is closed by its slack tension.
 fn as_loop(state: &SteadyState) -> BeltLoop {
     let drive = &state.drive;
-    let pulley = |name: &str, x: f64, radius, duty| LoopPulley {
-        name: name.to_owned(),
-        mount: Mount::Fixed([x, 0.0]),
-        radius,
-        side: Side::Inside,
-        friction_coefficient: drive.friction_coefficient,
-        half_angle: None,
-        duty,
+    let pulley = |name: &str, x: f64, radius, duty| {
+        LoopPulley::new(name, [x, 0.0], radius, drive.friction_coefficient, duty)
     };
     let driver = Duty::Driver(drive.driver_speed);
     let driven = Duty::Torque(state.driven.torque);

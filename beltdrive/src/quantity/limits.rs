@@ -4,7 +4,7 @@ use super::events as reasons;
 use super::parameter::{self, parameter};
 use super::scalars::Scalars;
 use super::two_pulleys;
-use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value, words};
+use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value, warning, words};
 use crate::{BranchEnd, Limit, Limits, PulleyErrors, RangeEnd, StateErrors};
 
 /// Both ends of the range beside each other.
@@ -21,8 +21,10 @@ pub fn answer(limits: &Limits) -> Answer {
         (_, reason) => format!("{name}: {reason}"),
     }));
     let remarks = ends.into_iter().flat_map(|(name, limit)| {
-        let warnings = limit.warnings(&branch.drive, &key).into_iter();
-        warnings.map(move |remark| format!("{name}: {}", words::warning(&remark)))
+        let warnings = warning::messages(&limit.warnings(&branch.drive, &key));
+        warnings
+            .into_iter()
+            .map(move |remark| format!("{name}: {remark}"))
     });
     let mut statement = two_pulleys::statement(&branch.drive);
     statement.extend(parameter::statement(key));
@@ -46,7 +48,7 @@ fn limit(limits: &Limits, name: &str, limit: &Limit) -> Vec<Quantity> {
     let key = branch.key;
     let pulley = reasons::range_end_pulley(limit.reason).map(words::pulley);
     let warnings = limit.warnings(&branch.drive, &key);
-    let warnings = warnings.iter().map(two_pulleys::warning).collect();
+    let warnings = warnings.iter().map(warning::subject).collect();
     let mut drive = branch.drive.clone();
     key.set(&mut drive, limit.value);
     let tolerance = branch.convergence.tolerance;

@@ -1,7 +1,7 @@
 //! What there is to tell of the states of a loop over a number of its drive file.
 
 use super::belt_loop;
-use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value};
+use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value, warning};
 use crate::belt_loop::{
     LoopBranch, LoopEnd, LoopLimit, LoopLimitCurve, LoopLimits, LoopPoint, Varied,
 };
@@ -31,12 +31,20 @@ pub fn limits(limits: &LoopLimits) -> Answer {
     let asked = format!("Limits of {}", limits.varied.name());
     let mut heading = heading(&limits.smallest.point, &asked);
     heading.extend(ends.map(|(word, limit)| format!("{word}: {}", limit.end)));
+    let remarks = ends.iter().flat_map(|(word, limit)| {
+        let LoopPoint {
+            belt_loop, state, ..
+        } = &limit.point;
+        let remarks = warning::messages(&state.warnings(belt_loop)).into_iter();
+        remarks.map(move |remark| format!("{word}: {remark}"))
+    });
     let subjects = ends.map(|(word, limit)| Subject {
         head: word.to_owned(),
         ..row(limited(&limits.varied, limit), &limit.point)
     });
     Answer {
         heading,
+        remarks: remarks.collect(),
         groups: vec![
             Group::single("", statement(&limits.smallest.point, &limits.varied)),
             Group::new("", Layout::Named, subjects.to_vec()),

@@ -20,6 +20,7 @@ pub mod stability;
 pub mod two_pulleys;
 pub(crate) mod value;
 pub mod verification;
+mod warning;
 pub(crate) mod words;
 
 pub use measure::{Measure, UnitSystem};

@@ -3,8 +3,8 @@
 pub(crate) use super::as_loop::heading;
 pub use super::as_loop::{as_drive, drawn, groups, of_loop};
 use super::scalars::Scalars;
-use super::{Answer, Group, Layout, Measure, Quantity, Subject, belt_loop, words};
-use crate::{BeltKind, Convergence, Drive, PulleyState, StateSummary, SteadyState, Warning};
+use super::{Answer, Group, Layout, Measure, Quantity, Subject, belt_loop, warning, words};
+use crate::{BeltKind, Convergence, Drive, PulleyState, StateSummary, SteadyState};
 use std::borrow::Cow;
 
 /// The steady state, with `as_loop`: the pulleys, the spans and the loop, as of any loop of pulleys.
@@ -36,12 +36,11 @@ pub fn answer(state: &SteadyState, as_loop: [Group; 3]) -> Answer {
     let [mut of_pulleys, of_spans, mut of_loop] = as_loop;
     hide(&mut of_pulleys, &pulleys);
     hide(&mut of_loop, &whole);
-    let warnings = state.warnings.iter().map(warning).collect();
     let checks = state.checks.iter().map(belt_loop::check).collect();
     let convergence = convergence(&state.drive, &state.convergence);
     Answer {
         heading: words::title(&state.drive, &[]),
-        remarks: state.warnings.iter().map(words::warning).collect(),
+        remarks: warning::messages(&state.warnings),
         groups: vec![
             Group::single("", statement(&state.drive)),
             pulleys,
@@ -50,7 +49,7 @@ pub fn answer(state: &SteadyState, as_loop: [Group; 3]) -> Answer {
             whole,
             of_loop,
             Group::new("profiles", Layout::Named, profiles(state)),
-            Group::new("warnings", Layout::Columns, warnings),
+            warning::group(&state.warnings),
             Group::new("checks", Layout::Columns, checks),
             Group::single("convergence", convergence),
         ],
@@ -116,37 +115,6 @@ fn profiles(state: &SteadyState) -> Vec<Subject> {
         profile("driver", &state.driver),
         profile("driven", &state.driven),
     ]
-}
-
-/// A remark on the validity of a state, for programs.
-pub(super) fn warning(remark: &Warning) -> Subject {
-    let number = |key, measure, value| Quantity::number(key, "", measure, value, 0.0);
-    let mut quantities = match *remark {
-        Warning::Overhang {
-            pulley,
-            inclination,
-        } => vec![
-            Quantity::word("kind", "", "overhang".to_owned()),
-            Quantity::word("pulley", "", words::pulley(pulley).to_owned()),
-            number("inclination", Measure::Angle, inclination),
-        ],
-        Warning::LargeStrain { strain } | Warning::LargeStretch { strain } => vec![
-            Quantity::word("kind", "", "large strain".to_owned()),
-            number("strain", Measure::Number, strain),
-        ],
-        Warning::Sunk {
-            pulley,
-            penetration,
-            height,
-        } => vec![
-            Quantity::word("kind", "", "belt height".to_owned()),
-            Quantity::word("pulley", "", words::pulley(pulley).to_owned()),
-            number("penetration", Measure::Length, penetration),
-            number("height", Measure::Length, height),
-        ],
-    };
-    quantities.push(Quantity::word("message", "", words::warning(remark)));
-    Subject::new("", quantities)
 }
 
 /// How a state was found and how accurate it is.

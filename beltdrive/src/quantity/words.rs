@@ -3,7 +3,7 @@
 use super::precision::six_digits;
 use super::{Measure, UnitSystem};
 use crate::input::Key;
-use crate::{BeltKind, Check, Drive, FrictionLaw, NormalForce, Pulley, Warning, Zone, ZoneKind};
+use crate::{BeltKind, Check, Drive, FrictionLaw, NormalForce, Pulley, Zone, ZoneKind};
 
 /// A friction law in words, with its parameters and a coefficient that is the same for all pulleys; what
 /// varies has no value.
@@ -77,41 +77,6 @@ pub(crate) fn title(drive: &Drive, varied: &[Key]) -> Vec<String> {
 pub(crate) fn law_of(drive: &Drive, varied: &[Key]) -> String {
     let paths: Vec<_> = varied.iter().map(Key::path).collect();
     law(drive.law, Some(drive.friction_coefficient), &paths)
-}
-
-/// What a warning tells the user, on one line.
-pub(crate) fn warning(warning: &Warning) -> String {
-    match warning {
-        Warning::Overhang {
-            pulley,
-            inclination,
-        } => format!(
-            "the belt overhangs itself on the {}: inclination {:.2}° exceeds 90°, not a usable design",
-            pulley.name(),
-            inclination.to_degrees()
-        ),
-        Warning::LargeStrain { strain } => format!(
-            "the belt is stretched by {:.2} %, too much for small strains: choose \
-             normal_force=\"exact\"",
-            100.0 * strain
-        ),
-        Warning::LargeStretch { strain } => format!(
-            "the belt is stretched by {} %, more than the model stands for: check the tensions and \
-             axial_stiffness",
-            six_digits(100.0 * strain)
-        ),
-        Warning::Sunk {
-            pulley,
-            penetration,
-            height,
-        } => format!(
-            "the belt sinks into the groove of the {} by {:.2} mm, more than its height of {} mm: not a \
-             usable design",
-            pulley.name(),
-            1e3 * penetration,
-            six_digits(1e3 * height)
-        ),
-    }
 }
 
 /// The word for a pulley in columns, JSON and CSV.

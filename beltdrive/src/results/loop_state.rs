@@ -1,5 +1,7 @@
 //! The steady state of a belt loop, as it is answered.
 
+use super::warning::{Warning, beyond_model, large_strain, overhangs};
+use crate::drive::belt_loop::BeltLoop;
 use crate::drive::layout::Layout;
 use crate::friction::rim::contact::Contact;
 use crate::friction::rim::profile::profile;
@@ -84,6 +86,29 @@ pub struct LoopConvergence {
 }
 
 impl LoopState {
+    /// Remarks on the validity of this state of a loop, with the names of its pulleys.
+    pub fn warnings(&self, belt_loop: &BeltLoop) -> Vec<Warning<String>> {
+        let belt = &belt_loop.belt;
+        let tensions = self.spans.iter().map(|span| span.tension);
+        let largest = tensions.fold(0.0, f64::max);
+        let name = |pulley: &PulleyState| pulley.name.clone();
+        match &self.contacts {
+            Contacts::Flat { contacts, .. } => {
+                let against_rims = contacts.iter().map(|contact| contact.strain);
+                Vec::from_iter(large_strain(belt, belt_loop.law, largest, against_rims))
+            }
+            Contacts::V(profiles) => {
+                let pulleys = self.pulleys.iter();
+                let overhangs = overhangs(pulleys.clone().map(name).zip(profiles));
+                let sunk = pulleys.filter_map(|pulley| {
+                    let groove = pulley.groove.as_ref()?;
+                    Some((name(pulley), groove.max_penetration))
+                });
+                overhangs.chain(beyond_model(belt, largest, sunk)).collect()
+            }
+        }
+    }
+
     /// The belt along the contact with a pulley, by its index in belt order; computed when it is asked for.
     ///
     /// # Panics

@@ -13,3 +13,4 @@ pub(crate) mod stability;
 pub(crate) mod state_summary;
 pub(crate) mod steady_state;
 pub(crate) mod v_warnings;
+pub(crate) mod warning;

@@ -1,6 +1,7 @@
 //! The steady state of a drive: everything that reports, tables and figures show.
 
 use crate::results::possible;
+use crate::results::warning::Warning;
 use crate::vbelt::Solved;
 use crate::{Drive, SolveError};
 use serde::Serialize;
@@ -193,38 +194,6 @@ impl Pulley {
             Self::Driver => "driver",
         }
     }
-}
-
-/// A remark on the validity of a state.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Warning {
-    /// The inclination exceeds 90° on a pulley: the belt overhangs itself, which is a solution of
-    /// the equations but not a design.
-    Overhang {
-        /// The pulley on which it happens.
-        pulley: Pulley,
-        /// Largest inclination, rad.
-        inclination: f64,
-    },
-    /// The belt is stretched by more than a model of small strains stands for (flat belts).
-    LargeStrain {
-        /// The largest of the strain T/EA of the tight span and those of the belt against the rims.
-        strain: f64,
-    },
-    /// The belt is stretched by more than the model of V-belts stands for.
-    LargeStretch {
-        /// Strain T/EA of the tight span.
-        strain: f64,
-    },
-    /// The belt sinks into the groove of a pulley by more than its height (V-belts of known height).
-    Sunk {
-        /// The pulley on which it happens.
-        pulley: Pulley,
-        /// Largest penetration, m.
-        penetration: f64,
-        /// Height of the belt, m.
-        height: f64,
-    },
 }
 
 /// A verified invariant.

@@ -8,8 +8,7 @@ pub(crate) use pulley::along;
 pub(crate) use statement::{heading, statement};
 
 use super::scale::Scale;
-use super::words;
-use super::{Answer, Group, Layout, Measure, Quantity, Subject};
+use super::{Answer, Group, Layout, Measure, Quantity, Subject, warning, words};
 use crate::Check;
 use crate::belt_loop::{BeltLoop, LoopConvergence, LoopState, SpanState};
 
@@ -22,6 +21,8 @@ pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
         let quantities = tensioner::quantities(name, &tensioner.guide, found, &scale(state));
         groups.push(Group::single("tensioner", quantities));
     }
+    let warnings = state.warnings(belt_loop);
+    groups.push(warning::group(&warnings));
     let checks = state.checks.iter().map(check).collect();
     groups.push(Group::new("checks", Layout::Columns, checks));
     if let Some(found) = &state.convergence {
@@ -29,6 +30,7 @@ pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
     }
     Answer {
         heading: heading(belt_loop),
+        remarks: warning::messages(&warnings),
         groups,
         notes: state.checks.iter().map(words::check).collect(),
         ..Answer::default()
