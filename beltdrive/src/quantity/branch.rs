@@ -53,7 +53,10 @@ pub fn answer(branch: &Branch) -> Answer {
             Group::single("end", parameter::end(&branch.end)),
             Group::single("convergence", convergence),
         ],
-        notes: vec![format!("end of the branch: {}", branch.end)],
+        notes: vec![format!("end of the branch: {}", branch.end)]
+            .into_iter()
+            .chain(words::speed_loss(branch.drive.belt.kind).1)
+            .collect(),
         ..Answer::default()
     }
 }

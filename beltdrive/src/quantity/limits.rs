@@ -38,7 +38,7 @@ pub fn answer(limits: &Limits) -> Answer {
             Group::new("", Layout::Named, subjects.to_vec()),
             Group::single("convergence", convergence),
         ],
-        ..Answer::default()
+        notes: Vec::from_iter(words::speed_loss(branch.drive.belt.kind).1),
     }
 }
 

@@ -91,7 +91,7 @@ impl<'a> Scalars<'a> {
             scale.relative("mass_flow", "mass flow", Measure::MassFlow, state.mass_flow),
             scale.against(
                 "speed_loss",
-                "speed loss",
+                words::speed_loss(self.drive.belt.kind).0,
                 Measure::Share,
                 state.speed_loss,
                 1.0,

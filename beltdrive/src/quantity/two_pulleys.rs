@@ -38,6 +38,8 @@ pub fn answer(state: &SteadyState, as_loop: [Group; 3]) -> Answer {
     hide(&mut of_loop, &whole);
     let checks = state.checks.iter().map(belt_loop::check).collect();
     let convergence = convergence(&state.drive, &state.convergence);
+    let (_, of_speed) = words::speed_loss(state.drive.belt.kind);
+    let checked = state.checks.iter().map(words::check);
     Answer {
         heading: words::title(&state.drive, &[]),
         remarks: warning::messages(&state.warnings),
@@ -53,7 +55,7 @@ pub fn answer(state: &SteadyState, as_loop: [Group; 3]) -> Answer {
             Group::new("checks", Layout::Columns, checks),
             Group::single("convergence", convergence),
         ],
-        notes: state.checks.iter().map(words::check).collect(),
+        notes: of_speed.into_iter().chain(checked).collect(),
     }
 }
 

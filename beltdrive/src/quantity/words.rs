@@ -79,6 +79,18 @@ pub(crate) fn law_of(drive: &Drive, varied: &[Key]) -> String {
     law(drive.law, Some(drive.friction_coefficient), &paths)
 }
 
+/// What the speed loss of a belt is called, and for V-belts the note that tells why.
+pub(crate) fn speed_loss(belt: BeltKind) -> (&'static str, Option<String>) {
+    match belt {
+        BeltKind::Flat { .. } => ("speed loss", None),
+        BeltKind::V(_) => {
+            let note = "speed loss against the speeds of the pitch circles: a V-belt that sinks more deeply \
+                        into one groove than into another has one without load";
+            ("speed loss, pitch circles", Some(note.to_owned()))
+        }
+    }
+}
+
 /// The word for a pulley in columns, JSON and CSV.
 pub(crate) fn pulley(pulley: Pulley) -> &'static str {
     match pulley {

@@ -36,13 +36,17 @@ fn the_state_of_a_v_belt_as_a_table() {
 
     belt length, unstretched                       4322.35  mm
     mass flow                                      2.76768  kg/s
-    speed loss                                     2.02214  %
+    speed loss, pitch circles                      2.02214  %
     efficiency                                     96.2380  %
     friction loss                                  587.288  W
     compression of the belt                          0.041  W
 
     power in                                       15.6120  kW
     power out                                      15.0247  kW
+
+
+    speed loss against the speeds of the pitch circles: a V-belt that sinks more deeply into one groove
+        than into another has one without load
     ");
 }
 

@@ -22,6 +22,7 @@ pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
         groups.push(Group::single("tensioner", quantities));
     }
     let warnings = state.warnings(belt_loop);
+    let (_, of_speed) = words::speed_loss(belt_loop.belt.kind);
     groups.push(warning::group(&warnings));
     let checks = state.checks.iter().map(check).collect();
     groups.push(Group::new("checks", Layout::Columns, checks));
@@ -32,8 +33,10 @@ pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
         heading: heading(belt_loop),
         remarks: warning::messages(&warnings),
         groups,
-        notes: state.checks.iter().map(words::check).collect(),
-        ..Answer::default()
+        notes: of_speed
+            .into_iter()
+            .chain(state.checks.iter().map(words::check))
+            .collect(),
     }
 }
 

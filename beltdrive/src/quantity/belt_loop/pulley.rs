@@ -1,7 +1,7 @@
 //! What there is to tell of a pulley of a belt loop.
 
 use super::super::scale::{HUB_LOAD, Scale};
-use super::super::{Measure, Quantity, Subject, Value};
+use super::super::{Measure, Quantity, Subject, Value, words};
 use super::statement::coefficient;
 use crate::belt_loop::{BeltLoop, Duty, LoopState, Side};
 use crate::{BeltKind, Profile};
@@ -83,7 +83,7 @@ pub(super) fn subject(
         ),
         scale.against(
             "speed_loss",
-            "speed loss",
+            words::speed_loss(belt_loop.belt.kind).0,
             Measure::Share,
             pulley.speed_loss,
             1.0,
