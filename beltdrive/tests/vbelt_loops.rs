@@ -584,6 +584,38 @@ fn the_smallest_margin_of_two_pulleys_is_their_load_limit() {
     }
 }
 
+/// Every pulley with a torque has a margin, and the loop carries its load up to the limit and not beyond.
+#[test]
+fn coulomb_friction_has_margins_and_a_limit() {
+    let belt_loop = with_law(
+        accessories(Closure::SetupTension(500.0)),
+        FrictionLaw::Coulomb,
+    );
+    let options = SolveOptions { tolerance: 1e-5 };
+    let state = solve_with_margins(&belt_loop, &options).unwrap();
+    let margins = state.pulleys.iter().map(|pulley| pulley.torque_margin);
+    let margins: Vec<_> = margins.map(Option::unwrap).collect();
+    let limit = state.load_limit.unwrap().factor;
+    println!("margins {margins:?}, limit {limit}");
+    assert!(margins.iter().all(|margin| *margin > limit));
+    let loaded = |factor: f64| {
+        let mut belt_loop = belt_loop.clone();
+        for pulley in &mut belt_loop.pulleys {
+            if let Duty::Torque(torque) = &mut pulley.duty {
+                *torque *= factor;
+            }
+        }
+        solve_to(&belt_loop, &options)
+    };
+    loaded(0.99 * limit).unwrap();
+    match loaded(1.01 * limit).unwrap_err() {
+        LoopError::Overloaded { load_factor, .. } => {
+            close("limit", 1.01 * limit * load_factor, limit, 1e-4);
+        }
+        error => panic!("{error}"),
+    }
+}
+
 /// With all friction along the pulley a belt on a stiff groove carries R F (exp(μ φ/sin β) − 1).
 #[test]
 fn a_stiff_belt_in_a_wide_groove_carries_what_a_flat_belt_does() {

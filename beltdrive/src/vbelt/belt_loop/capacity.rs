@@ -15,7 +15,8 @@
 
 use super::super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
 use super::super::{Contact, Groove, Law, Regime};
-use super::climb::{followed, rough};
+use super::climb::{followed, on_the_way};
+use super::levelling::Levelling;
 use super::problem::FLOW;
 use super::seat::Seat;
 use super::solve::Solved;
@@ -121,7 +122,8 @@ impl bvp::Guess for OfState<'_> {
 
 impl Solved {
     /// The largest torque of a pulley over that of the state; `None` if it has none or the largest was not found.
-    pub(super) fn torque_margin(&self, pulley: usize, tolerance: f64) -> Option<f64> {
+    /// It is sought from the rough state of the same loop.
+    pub(super) fn torque_margin(&self, pulley: usize, rough: &Self, tolerance: f64) -> Option<f64> {
         let problem = &self.problem;
         let segment = problem.segment(pulley)?;
         let p = self.solution.parameters();
@@ -136,7 +138,7 @@ impl Solved {
         let slack = if change > 0.0 { entry } else { exit }[TENSION];
         let turned = problem.plane.lay(coordinate, &ends).turned[pulley];
         let capstan = |friction: f64| slack * (friction * turned).exp_m1() / change.abs();
-        let groove = match problem.seats[pulley] {
+        let groove = match rough.problem.seats[pulley] {
             Seat::Groove(groove) => groove,
             Seat::Back(back) => return Some(capstan(back.friction_coefficient)),
             Seat::Idle => return None,
@@ -150,20 +152,25 @@ impl Solved {
             turned,
             change,
         };
-        let options = rough(tolerance);
+        let options = on_the_way(tolerance);
         let guess = OfState {
-            solved: self,
+            solved: rough,
             segment,
         };
         let (mut family, z) = Family::new(&one, GROWTH, &[], &guess, &options).ok()?;
         let within = followed([-1.0, to.ln()], &options);
         let branch = Branch::new(&mut family, &z, Direction::Increasing, &within).ok()?;
         let branch = branch.event(|_, point| point.z[point.z.len() - 1 - GROWTH + SPEED]);
+        let mut levelling = Levelling::default();
         for point in branch {
             match point.kind {
                 Kind::LimitPoint | Kind::Event(_) => return Some(point.lambda().exp()),
                 Kind::Bound => return None,
-                _ => {}
+                _ => {
+                    if let Some(limit) = levelling.top(&point, 1.0) {
+                        return Some(limit.exp());
+                    }
+                }
             }
         }
         None

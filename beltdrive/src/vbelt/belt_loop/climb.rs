@@ -2,11 +2,12 @@
 //! that is asked for or to where no state carries more.
 
 use super::super::path::Effort;
-use super::problem::LoopProblem;
+use super::levelling::Levelling;
+use super::problem::FLOW;
 use super::solve::{Search, Solved};
 use crate::results::difficulty;
 use bvp::{Control, Family, Options, Problem, Scheme, Solution};
-use continuation::{Branch, Direction, Kind};
+use continuation::{Branch, Direction, Kind, Point};
 use std::f64::consts::FRAC_PI_2;
 
 /// Tolerance of the states on the way, which are only guesses of those to come.
@@ -44,7 +45,7 @@ impl Search<'_> {
         let begin = from.problem.factor(p);
         let free = from.problem.clone().with_unknown_factor();
         let unknown = Problem::parameters(&free) - 1;
-        let options = rough(self.tolerance);
+        let options = on_the_way(self.tolerance);
         let guess = WithFactor {
             solution: &from.solution,
             factor: begin,
@@ -67,12 +68,16 @@ impl Search<'_> {
         for &(_, index) in &moving {
             branch = branch.event(move |_, point| point.z[point.z.len() - 1 - unknown + index]);
         }
-        let mut reached = begin;
+        let (mut reached, mut levelling) = (begin, Levelling::default());
         while let Some(point) = branch.next() {
             let factor = point.lambda();
             let solution = || branch.system().solution(&point.z);
+            let top = |factor| {
+                let (problem, solution) = (free.clone(), solution());
+                Climbed::Limit(top(&Solved { problem, solution }, &point, factor))
+            };
             match point.kind {
-                Kind::LimitPoint => return Climbed::Limit(top(&free, &solution(), factor)),
+                Kind::LimitPoint => return top(factor),
                 Kind::Event(index) => {
                     return Climbed::Limit(Top {
                         factor,
@@ -93,7 +98,12 @@ impl Search<'_> {
                         Err(cause) => lost(reached, difficulty::of_solver(&cause)),
                     };
                 }
-                _ => reached = factor,
+                _ => {
+                    if let Some(factor) = levelling.top(&point, factor) {
+                        return top(factor);
+                    }
+                    reached = factor;
+                }
             }
         }
         let cause = "the states change too abruptly there to be followed";
@@ -102,7 +112,7 @@ impl Search<'_> {
 }
 
 /// How states on the way are solved, if the final tolerance is this.
-pub(super) fn rough(tolerance: f64) -> Options {
+pub(super) fn on_the_way(tolerance: f64) -> Options {
     Options {
         tolerance: tolerance.max(ROUGH),
         scheme: Some(Scheme::Gauss { stages: 5 }),
@@ -121,20 +131,27 @@ pub(super) fn followed([low, high]: [f64; 2], options: &Options) -> continuation
     }
 }
 
-/// What ends the load at a limit point: the belt overhangs, or the pulley slips on the largest share of
-/// whose contact friction is at its limit.
-fn top(problem: &LoopProblem, solution: &Solution, factor: f64) -> Top {
-    let solved = Solved {
-        problem: problem.clone(),
-        solution: solution.clone(),
-    };
-    let pulleys = solved.problem.pulley_of.iter();
-    let slipping = pulleys.map(|&pulley| (solved.slip_share(pulley), pulley));
-    let (_, slips) = slipping.fold(
+/// What ends the load at a limit point: the belt overhangs, or the pulley slips whose speed falls most against that
+/// of the belt.
+fn top(solved: &Solved, point: &Point, factor: f64) -> Top {
+    let problem = &solved.problem;
+    let p = solved.solution.parameters();
+    let moved = &point.tangent[point.tangent.len() - p.len()..];
+    let of_belt = moved[FLOW] / p[FLOW];
+    let slowed = problem
+        .pulley_of
+        .iter()
+        .enumerate()
+        .map(|(segment, &pulley)| {
+            let of_pulley = problem.speed_index(segment).map(|index| moved[index]);
+            let of_pulley = of_pulley.unwrap_or(0.0) / problem.omega(segment, p);
+            ((of_pulley - of_belt).abs(), pulley)
+        });
+    let (_, slips) = slowed.fold(
         (0.0, 0),
         |most, next| if next.0 > most.0 { next } else { most },
     );
-    let ends = solved.with_ends(|at, _| solved.problem.end_angles(at));
+    let ends = solved.with_ends(|at, _| problem.end_angles(at));
     let steep = ends.iter().position(|ends| ends.exit.abs() > FRAC_PI_2);
     Top {
         factor,

@@ -61,19 +61,6 @@ impl Solved {
     }
 }
 
-impl Solved {
-    /// Share of the contact with a pulley on which friction is at its limit.
-    pub(super) fn slip_share(&self, pulley: usize) -> f64 {
-        let (zones, wrap) = match self.touching(pulley, 0.0) {
-            Touching::Groove(on) => (on.friction_zones(), on.exit()[super::super::ANGLE]),
-            Touching::Back(on) => (on.zones(), on.wrap()),
-            Touching::Idle(_) => return 0.0,
-        };
-        let slipping = zones.iter().filter(|zone| zone.kind == ZoneKind::Slip);
-        slipping.map(|zone| zone.to - zone.from).sum::<f64>() / wrap
-    }
-}
-
 impl OnBack<'_> {
     fn problem(&self) -> &LoopProblem {
         &self.solved.problem

@@ -32,39 +32,44 @@ pub(super) struct Start<'s> {
 }
 
 impl Search<'_> {
-    /// The state with the law of the loop, from nothing.
-    pub(super) fn at(&mut self, start: &Start<'_>, effort: Effort) -> Result<Solved, bvp::Error> {
+    /// The state with the law of the loop, roughly and from nothing. Coulomb friction still has a large ε.
+    pub(super) fn rough(&mut self, start: &Start<'_>) -> Result<Solved, bvp::Error> {
         let pulleys = self.belt_loop.pulleys.iter();
         let softest = pulleys.map(|pulley| pulley.friction_coefficient / pulley.radius);
         let soft = START_STIFFNESS * softest.fold(0.0, f64::max);
-        let rough = match self.belt_loop.law {
-            FrictionLaw::Bristle { stiffness } => self.bristles(start, stiffness, soft)?,
-            law => {
-                let soft = self.cold(start, soft)?;
-                let mut outcome = self.enter_coulomb(&soft, start, FIRST_EPSILONS[0]);
-                for epsilon in &FIRST_EPSILONS[1..] {
-                    if outcome.is_err() {
-                        outcome = self.enter_coulomb(&soft, start, *epsilon);
-                    }
-                }
-                let coulomb = outcome?;
-                match law {
-                    FrictionLaw::Epp { .. } => {
-                        let blended = self.enter_epp(&coulomb, start);
-                        blended
-                            .and_then(|blended| self.lower_epsilon(blended))
-                            .or_else(|_| {
-                                let sharp = self.lower_epsilon(coulomb)?;
-                                self.enter_epp(&sharp, start)
-                            })?
-                    }
-                    _ => self.lower_epsilon(coulomb)?,
-                }
+        if let FrictionLaw::Bristle { stiffness } = self.belt_loop.law {
+            return self.bristles(start, stiffness, soft);
+        }
+        let soft = self.cold(start, soft)?;
+        let mut outcome = self.enter_coulomb(&soft, start, FIRST_EPSILONS[0]);
+        for epsilon in &FIRST_EPSILONS[1..] {
+            if outcome.is_err() {
+                outcome = self.enter_coulomb(&soft, start, *epsilon);
             }
-        };
-        match effort {
-            Effort::Final => self.finish(rough),
-            _ => Ok(rough),
+        }
+        let coulomb = outcome?;
+        match self.belt_loop.law {
+            FrictionLaw::Epp { .. } => {
+                let blended = self.enter_epp(&coulomb, start);
+                blended
+                    .and_then(|blended| self.lower_epsilon(blended))
+                    .or_else(|_| {
+                        let sharp = self.lower_epsilon(coulomb)?;
+                        self.enter_epp(&sharp, start)
+                    })
+            }
+            _ => Ok(coulomb),
+        }
+    }
+
+    /// The state to the tolerance, from a rough one.
+    pub(super) fn sharpen(&mut self, rough: Solved) -> Result<Solved, bvp::Error> {
+        match self.belt_loop.law {
+            FrictionLaw::Coulomb => {
+                let sharp = self.lower_epsilon(rough)?;
+                self.finish(sharp)
+            }
+            _ => self.finish(rough),
         }
     }
 
@@ -171,7 +176,7 @@ impl Search<'_> {
     }
 
     /// Solves to the tolerance, and lowers ε until its effect is below that.
-    pub(super) fn finish(&mut self, rough: Solved) -> Result<Solved, bvp::Error> {
+    fn finish(&mut self, rough: Solved) -> Result<Solved, bvp::Error> {
         let mut here = self.attempt(rough.problem, &rough.solution, Effort::Final)?;
         if let FrictionLaw::Bristle { .. } = self.belt_loop.law {
             return Ok(here);

@@ -11,6 +11,7 @@ mod climb;
 mod contacts;
 mod guess;
 mod laws;
+mod levelling;
 mod plane;
 mod problem;
 mod rest;

@@ -77,7 +77,17 @@ pub(super) struct Search<'l> {
 struct Found {
     at_rest: RestProblem,
     rest: Rest,
-    running: Solved,
+    running: Running,
+}
+
+/// A running loop.
+struct Running {
+    /// To the tolerance.
+    solved: Solved,
+    /// Roughly, to raise the load from. Coulomb friction has a large ε there, which matters little where the belt
+    /// slips (margins change by 1e-6) and makes the way there easy: with a small one neither the driver of three
+    /// grooves had a margin nor their loop a load limit.
+    rough: Solved,
 }
 
 /// The steady state of a loop with a V-belt.
@@ -88,7 +98,7 @@ pub(crate) fn solve(belt_loop: &BeltLoop, tolerance: f64) -> Result<LoopState, L
         rest,
         running,
     } = search.find()?;
-    state(&mut search, &rest, &at_rest, &running)
+    state(&mut search, &rest, &at_rest, &running.solved)
 }
 
 /// As [`solve`], with what takes longer than the state: the torque margin of every pulley and the load limit.
@@ -100,16 +110,16 @@ pub(crate) fn solve_with_margins(
     let Found {
         at_rest,
         rest,
-        running,
+        running: Running { solved, rough },
     } = search.find()?;
-    let mut found = state(&mut search, &rest, &at_rest, &running)?;
+    let mut found = state(&mut search, &rest, &at_rest, &solved)?;
     for (index, pulley) in found.pulleys.iter_mut().enumerate() {
-        pulley.torque_margin = running.torque_margin(index, tolerance);
+        pulley.torque_margin = solved.torque_margin(index, &rough, tolerance);
         pulley.torque_capacity = pulley
             .torque_margin
             .map(|margin| margin * pulley.torque.abs());
     }
-    found.load_limit = search.load_limit(running).ok().flatten();
+    found.load_limit = search.load_limit(rough).ok().flatten();
     Ok(found)
 }
 
@@ -175,17 +185,24 @@ impl<'l> Search<'l> {
             }
         };
         let running = self.running(target, None, start)?;
-        let (length, coordinate) = running.with_ends(|at, p| {
-            let [unstretched, _] = running.problem.lengths(at, p);
-            (unstretched, running.problem.coordinate(p))
+        let problem = &running.solved.problem;
+        let (length, coordinate) = running.solved.with_ends(|at, p| {
+            let [unstretched, _] = problem.lengths(at, p);
+            (unstretched, problem.coordinate(p))
         });
         let layout = belt_loop.layout(coordinate)?;
         let (at_rest, rest) = self.rest(Known::Length(length), coordinate, &layout)?;
         self.found(at_rest, rest, running)
     }
 
-    fn found(&self, at_rest: RestProblem, rest: Rest, running: Solved) -> Result<Found, LoopError> {
-        let coordinate = running.problem.coordinate(running.solution.parameters());
+    fn found(
+        &self,
+        at_rest: RestProblem,
+        rest: Rest,
+        running: Running,
+    ) -> Result<Found, LoopError> {
+        let Solved { problem, solution } = &running.solved;
+        let coordinate = problem.coordinate(solution.parameters());
         for coordinate in [rest.coordinate, coordinate] {
             within_travel(self.belt_loop, coordinate)?;
         }
@@ -276,7 +293,7 @@ impl<'l> Search<'l> {
         target: Target,
         rest: Option<&Rest>,
         coordinate: f64,
-    ) -> Result<Solved, LoopError> {
+    ) -> Result<Running, LoopError> {
         let layout = self.belt_loop.layout(coordinate)?;
         self.presses(target, &layout)?;
         let start = |factor: f64| {
@@ -291,25 +308,25 @@ impl<'l> Search<'l> {
         };
         let [whole, shares @ ..] = SHARES.map(start);
         let direct = match whole.is_taut() {
-            true => self.at(&whole, Effort::Final).map_err(Some),
+            true => self
+                .rough(&whole)
+                .and_then(|rough| self.sharpened(rough))
+                .map_err(Some),
             false => Err(None),
         };
-        if let Ok(solved) = &direct
-            && solved.is_drive()
-            && !solved.may_be_beyond()
-        {
-            return Ok(solved.clone());
-        }
+        let is_safe = |solved: &Solved| solved.is_drive() && !solved.may_be_beyond();
+        let direct = match direct {
+            Ok(running) if is_safe(&running.solved) => return Ok(running),
+            other => other,
+        };
         for share in shares.iter().filter(|share| share.is_taut()) {
-            match self.at(share, Effort::Start) {
-                Ok(solved) if solved.is_drive() && !solved.may_be_beyond() => {
-                    return self.raise(&solved);
-                }
+            match self.rough(share) {
+                Ok(rough) if is_safe(&rough) => return self.raise(&rough),
                 _ => {}
             }
         }
         match direct {
-            Ok(solved) if solved.is_drive() => Ok(solved),
+            Ok(running) if running.solved.is_drive() => Ok(running),
             Err(Some(cause)) => Err(self.lost(0.0, &cause)),
             _ => Err(LoopError::NotConverged {
                 reached: 0.0,
@@ -339,10 +356,10 @@ impl<'l> Search<'l> {
     }
 
     /// Raises the load of a state to the whole.
-    fn raise(&mut self, from: &Solved) -> Result<Solved, LoopError> {
+    fn raise(&mut self, from: &Solved) -> Result<Running, LoopError> {
         match self.climb(from, 1.0) {
-            Climbed::Reached(solved) => {
-                let outcome = self.finish(*solved);
+            Climbed::Reached(rough) => {
+                let outcome = self.sharpened(*rough);
                 outcome.map_err(|cause| self.lost(1.0, &cause))
             }
             Climbed::Limit(Top {
@@ -356,6 +373,12 @@ impl<'l> Search<'l> {
             }),
             Climbed::Lost { reached, cause } => Err(LoopError::NotConverged { reached, cause }),
         }
+    }
+
+    /// The running loop to the tolerance, from a rough one with a large ε.
+    fn sharpened(&mut self, rough: Solved) -> Result<Running, bvp::Error> {
+        let solved = self.sharpen(rough.clone())?;
+        Ok(Running { solved, rough })
     }
 
     /// Solves one problem from a guess.
