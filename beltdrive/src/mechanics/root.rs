@@ -26,18 +26,31 @@ const CONTRACTION: f64 = 2.0;
 
 /// A first step with an estimated slope is the last one if it is below `within` times this: its error is about
 /// the step times that of the estimate, not times the step before.
-const ESTIMATED: f64 = 1e-4;
+pub(crate) const ESTIMATED: f64 = 1e-4;
 
 /// The root near a place, with the value there and an estimate of the slope, by the secant method: the last
 /// step is below `within`, and the error far below that. `None` if it is not found at once within a range.
 pub(crate) fn near(
+    function: impl FnMut(f64) -> f64,
+    start: [f64; 2],
+    slope: f64,
+    range: [f64; 2],
+    within: f64,
+) -> Option<f64> {
+    let within = [ESTIMATED * within, within];
+    let [root, _] = near_with_slope(function, start, slope, range, within)?;
+    Some(root)
+}
+
+/// As [`near`], with the last slope. The first step is the last one below the first number of `within`, which may
+/// be the second if the slope is known.
+pub(crate) fn near_with_slope(
     mut function: impl FnMut(f64) -> f64,
     [mut place, mut value]: [f64; 2],
     mut slope: f64,
     [from, to]: [f64; 2],
-    within: f64,
-) -> Option<f64> {
-    let mut last = ESTIMATED * within;
+    [mut last, within]: [f64; 2],
+) -> Option<[f64; 2]> {
     for _ in 0..STEPS {
         let step = match value == 0.0 {
             true => 0.0,
@@ -50,7 +63,7 @@ pub(crate) fn near(
             return None;
         }
         if step.abs() <= last {
-            return Some(next);
+            return Some([next, slope]);
         }
         last = within;
         let found = function(next);

@@ -3,8 +3,9 @@
 use super::problem::Problem;
 use super::running::{LOOSEST, Running, RunningBelt};
 use crate::drive::layout::Layout;
-use crate::mechanics::root::{bracketed, near};
+use crate::mechanics::root::{ESTIMATED, bracketed, near, near_with_slope};
 use crate::{FrictionLaw, NormalForce};
+use std::cell::Cell;
 
 /// Where the search for the slackest tension begins, as a share of the axial stiffness: the strain of a
 /// slack belt. It only decides how often the bracket is doubled.
@@ -49,6 +50,18 @@ struct Guess {
 #[derive(Clone, Copy)]
 pub(super) struct Closing<'p> {
     running: Running<'p>,
+    /// What was found where the tensioner was just before.
+    known: &'p Known,
+}
+
+/// What was found with the tensioner in a neighbouring place: a search that begins there takes two evaluations in
+/// place of four.
+#[derive(Default)]
+pub(super) struct Known {
+    /// Slackest tension above that of the guess, N, and slope of [`Closing::surplus`] over its own.
+    tension: Cell<Option<[f64; 2]>>,
+    /// For [`Running::speed`].
+    speed: Cell<Option<[f64; 2]>>,
 }
 
 impl<'p> Closing<'p> {
@@ -58,9 +71,10 @@ impl<'p> Closing<'p> {
         layout: &'p Layout,
         law: FrictionLaw,
         factor: f64,
+        known: &'p Known,
     ) -> Self {
-        let running = Running::new(problem, layout, law, factor);
-        Self { running }
+        let running = Running::new(problem, layout, law, factor, &known.speed);
+        Self { running, known }
     }
 
     /// By how much the belt is tighter than the closure asks for, in m or N, and what that is measured with.
@@ -134,37 +148,39 @@ impl<'p> Closing<'p> {
             self.surplus(slackest)
                 .map_or(f64::NAN, |[surplus, _]| surplus)
         };
-        let start = guess.slackest - self.running.factor * guess.offset;
+        let ([above, steeper], first) = match self.known.tension.get() {
+            Some(known) => (known, NEAR),
+            None => ([0.0, 1.0], ESTIMATED * NEAR),
+        };
+        let guessed = guess.slackest - self.running.factor * guess.offset;
+        let (start, slope) = (guessed + above, guess.slope * steeper);
         let range = [LOOSEST, f64::INFINITY];
-        (start > LOOSEST).then(|| {
-            near(
-                surplus,
-                [start, surplus(start)],
-                guess.slope,
-                range,
-                NEAR * guess.tension,
-            )
-        })?
+        let within = [first, NEAR].map(|within| within * guess.tension);
+        let found = (start > LOOSEST)
+            .then(|| near_with_slope(surplus, [start, surplus(start)], slope, range, within))?;
+        self.known
+            .tension
+            .set(found.map(|[root, slope]| [root - guessed, slope / guess.slope]));
+        found.map(|[root, _]| root)
     }
 
-    /// The factor on all torques at which the first pulley slips, and the tractive tension of the slackest
-    /// span there, N: with the change of traction c, the offset o and the capacity C of the pulleys that
-    /// tension is the factor times the largest c/(exp C − 1) − o. `None` if it is not found at once, and with
-    /// the convention `thesis`, where the capacities depend on the speed.
-    pub(super) fn slips_first(&self) -> Option<[f64; 2]> {
-        if self.running.problem.convention == NormalForce::Thesis {
-            return None;
-        }
-        let unit = Running {
-            factor: 1.0,
-            law: FrictionLaw::Coulomb,
-            ..self.running
+    /// The factor on all torques at which the first pulley slips, and the tractive tension of a span there, N: with
+    /// the change of traction c, the offset o and the capacity C of the pulleys the traction of the slackest span is
+    /// the factor times the largest c/(exp C − 1) − o. `None` if it is not found at once.
+    pub(super) fn slips_first(&self, span: usize) -> Option<[f64; 2]> {
+        let at = |factor: f64| {
+            let running = Running {
+                factor,
+                law: FrictionLaw::Coulomb,
+                ..self.running
+            };
+            Self { running, ..*self }
         };
-        let (guess, bound) = (self.guess(), unit.capacity_bound());
+        let (guess, bound) = (self.guess(), at(1.0).running.capacity_bound());
         let surplus = |factor: f64| {
-            let running = Running { factor, ..unit };
-            let loaded = Self { running };
-            let surplus = loaded.surplus(factor * bound);
+            let loaded = at(factor);
+            let slackest = loaded.running.slackest_slipping(factor * bound);
+            let surplus = slackest.and_then(|slackest| loaded.surplus(slackest));
             surplus.map_or(f64::NAN, |[surplus, _]| surplus)
         };
         let rise = bound + guess.offset;
@@ -177,7 +193,9 @@ impl<'p> Closing<'p> {
             [0.0, f64::INFINITY],
             within,
         )?;
-        Some([found, found * bound])
+        let running = at(found).running;
+        let moving = running.moving_with(running.slackest_slipping(found * bound)?)?;
+        Some([found, running.tractive(moving, span)])
     }
 
     /// The running belt that the closure asks for: `Ok(None)` if it would have to be looser than the

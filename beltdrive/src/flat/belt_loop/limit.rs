@@ -1,6 +1,6 @@
 //! How much of its load a loop carries: the load factor limit, and gross slip.
 
-use super::closing::Closing;
+use super::closing::{Closing, Known};
 use super::problem::{Loaded, Problem};
 use crate::FrictionLaw;
 use crate::drive::layout::Layout;
@@ -98,13 +98,12 @@ pub(super) fn load_limit(
 /// The load factor limit, above 1, at the equilibrium of the tensioner next to that of the whole load, if it
 /// is found at once.
 fn first_slip(problem: &Problem<'_>, whole: &Loaded) -> Option<f64> {
-    let slips_first =
-        |layout: &Layout| Closing::new(problem, layout, FrictionLaw::Coulomb, 1.0).slips_first();
-    let idler = problem
-        .belt_loop
-        .tensioner()
-        .map_or(0, |(pulley, _)| pulley);
-    let offset = problem.loads.offsets[idler];
+    let carried = problem.belt_loop.tensioner();
+    let idler = carried.map_or(0, |(pulley, _)| pulley);
+    let known = Known::default();
+    let slips_first = |layout: &Layout| {
+        Closing::new(problem, layout, FrictionLaw::Coulomb, 1.0, &known).slips_first(idler)
+    };
     let lost = LoopError::NotFound {
         what: "load factor limit",
     };
@@ -114,8 +113,8 @@ fn first_slip(problem: &Problem<'_>, whole: &Loaded) -> Option<f64> {
         problem.towards,
         "at the load factor limit",
         |layout| {
-            let [factor, slackest] = slips_first(layout).ok_or(lost.clone())?;
-            Ok([slackest + factor * offset, problem.tension_per_length()])
+            let [_, tractive] = slips_first(layout).ok_or(lost.clone())?;
+            Ok([tractive, problem.tension_per_length()])
         },
     )
     .ok()?;

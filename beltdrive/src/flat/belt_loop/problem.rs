@@ -1,6 +1,6 @@
 //! A loop with its torques: without them, and under a share of them.
 
-use super::closing::{Closing, Target};
+use super::closing::{Closing, Known, Target};
 use super::loads::Loads;
 use super::rest::{Rest, rest_of_length};
 use super::running::RunningBelt;
@@ -82,19 +82,20 @@ impl Problem<'_> {
             what: "tension of the running belt",
         };
         let pulley = self.belt_loop.tensioner().map_or(0, |(pulley, _)| pulley);
+        let known = Known::default();
         let (coordinate, layout) = equilibrium(
             self.belt_loop,
             self.start,
             self.towards,
             "under load",
             |layout| {
-                let running = Closing::new(self, layout, law, factor);
+                let running = Closing::new(self, layout, law, factor, &known);
                 let tractive = running.closed_tractive(pulley);
                 let tractive = tractive.map_err(|()| lost.clone())?;
                 Ok([tractive, self.tension_per_length()])
             },
         )?;
-        let belt = Closing::new(self, &layout, law, factor).closed();
+        let belt = Closing::new(self, &layout, law, factor, &known).closed();
         Ok(Loaded {
             coordinate,
             belt: belt.map_err(|()| lost)?,

@@ -8,8 +8,9 @@ use crate::drive::layout::Layout;
 use crate::friction::coulomb;
 use crate::friction::rim::contact::{Arc, Contact};
 use crate::friction::rim::traction::Traction;
-use crate::mechanics::root::{bracketed, near};
+use crate::mechanics::root::{ESTIMATED, bracketed, near_with_slope};
 use crate::{FrictionLaw, NormalForce};
+use std::cell::Cell;
 
 /// A tension in place of 0, N: its ratio to any other is a number.
 pub(super) const LOOSEST: f64 = 1e-200;
@@ -17,6 +18,9 @@ pub(super) const LOOSEST: f64 = 1e-200;
 /// The last step of the secant method for the belt speed, relative. Its error is about this times the step
 /// before.
 const SPEED: f64 = 1e-13;
+
+/// Most turns for the tension at which the first pulley slips: three to five are usual.
+const TURNS: usize = 12;
 
 /// Pulleys at fixed places, their loads and a friction law.
 #[derive(Clone, Copy)]
@@ -26,6 +30,8 @@ pub(super) struct Running<'p> {
     pub(super) law: FrictionLaw,
     /// Factor on all torques.
     pub(super) factor: f64,
+    /// Speed that was just found over its guess, and slope of what is to vanish there.
+    pub(super) known: &'p Cell<Option<[f64; 2]>>,
 }
 
 /// The belt at a speed.
@@ -73,12 +79,14 @@ impl<'p> Running<'p> {
         layout: &'p Layout,
         law: FrictionLaw,
         factor: f64,
+        known: &'p Cell<Option<[f64; 2]>>,
     ) -> Self {
         Self {
             problem,
             layout,
             law,
             factor,
+            known,
         }
     }
 
@@ -194,18 +202,25 @@ impl<'p> Running<'p> {
 
     /// The speed near a guess at which the driver takes the belt along.
     fn speed_near(&self, guess: f64, excess: impl Fn(f64) -> f64) -> Option<f64> {
-        let at_guess = excess(guess);
         let range = [0.5 * guess, 2.0 * guess];
-        let found = near(
+        let ([faster, slope], first) = match self.known.get() {
+            Some(known) => (known, SPEED),
+            None => ([1.0, 1.0], ESTIMATED * SPEED),
+        };
+        let start = faster * guess;
+        let found = near_with_slope(
             &excess,
-            [guess, at_guess],
-            guess.recip(),
+            [start, excess(start)],
+            slope / guess,
             range,
-            SPEED * guess,
+            [first, SPEED].map(|within| within * guess),
         );
-        if found.is_some() {
-            return found;
+        self.known
+            .set(found.map(|[speed, slope]| [speed / guess, slope * guess]));
+        if let Some([speed, _]) = found {
+            return Some(speed);
         }
+        let at_guess = excess(guess);
         let bound = match at_guess < 0.0 {
             // The belt outruns a driver that is driven.
             true => {
@@ -281,10 +296,35 @@ impl<'p> Running<'p> {
     pub(super) fn capacity_bound(&self) -> f64 {
         // The largest slip rate of the convention `thesis`, where the belt is no faster than the rim.
         let fastest = self.moving(self.problem.rim, 0.0);
-        let raised = match self.problem.convention {
-            NormalForce::Thesis if fastest.belt.stiffness <= 0.0 => return 0.0,
-            _ => fastest.belt.slip_rate(1.0, 1.0),
-        };
+        match self.problem.convention {
+            NormalForce::Thesis if fastest.belt.stiffness <= 0.0 => 0.0,
+            _ => self.slipping_at(fastest.belt),
+        }
+    }
+
+    /// The tension of the slackest span as in [`Self::moving`] at which the first pulley slips, N, from one near it.
+    /// With the convention `thesis` capacities depend on the speed, but little: each turn divides the error by
+    /// EA/(m c²) at least.
+    pub(super) fn slackest_slipping(&self, near: f64) -> Option<f64> {
+        if self.problem.convention != NormalForce::Thesis {
+            return Some(near);
+        }
+        let mut slackest = near;
+        for _ in 0..TURNS {
+            let Moving { belt, .. } = self.moving_with(slackest)?;
+            let next = belt.tension(self.slipping_at(belt));
+            let change = (next - slackest).abs();
+            slackest = next;
+            if change <= SPEED * slackest {
+                return Some(slackest);
+            }
+        }
+        None
+    }
+
+    /// The traction of the slackest span of a moving belt at which the first pulley slips, N.
+    pub(super) fn slipping_at(&self, belt: Traction) -> f64 {
+        let raised = belt.slip_rate(1.0, 1.0);
         let Loads { changes, .. } = &self.problem.loads;
         let bound = |pulley: usize| {
             let [behind, before] = self.spans(pulley).map(|span| self.offset(span));

@@ -53,6 +53,11 @@ impl Contact {
         integral
     }
 
+    /// How much longer the belt in a zone is than without tension, m.
+    pub(crate) fn elongation_by_quadrature(&self, zone: &ContactZone) -> f64 {
+        self.over(zone, &|place| self.arc.belt.elongation(place.traction))
+    }
+
     /// As [`Self::over`], of several functions.
     pub(crate) fn all_over<const N: usize>(
         &self,

@@ -52,7 +52,7 @@ pub(crate) trait Developing {
 
     /// How much longer the belt in the zone is than without tension, m.
     fn elongation(&self, contact: &Contact, zone: &ContactZone) -> f64 {
-        contact.over(zone, &|place| contact.arc.belt.elongation(place.traction))
+        contact.elongation_by_quadrature(zone)
     }
 }
 
