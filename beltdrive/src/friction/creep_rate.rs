@@ -16,9 +16,16 @@ use super::rim::contact::{Arc, Contact, Place};
 use super::rim::zone::{ContactZone, Developing, Friction, Law};
 use super::row::OnRims;
 use super::{Parameter, Row};
-use crate::mechanics::root::bracketed;
+use crate::mechanics::root::{bracketed, near};
 use crate::quantity::Measure;
 use crate::{FrictionLaw, NormalForce, ZoneKind};
+
+/// The last step of the secant method for the logarithm of the slip velocity at the entry. Its error is about this
+/// times the step before.
+const NEAR: f64 = 1e-11;
+
+/// Turns of the guess: each divides its error by the ratio of q and Y to y(0).
+const TURNS: usize = 3;
 
 /// Loads below this many logarithms are not told apart from none by the first guess.
 const LEAST: f64 = 40.0;
@@ -57,14 +64,26 @@ pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
                 evaluations += 1;
                 Creep::with_logarithm(&arc, speed, saturation, logarithm).load(&arc) - load
             };
+            let [guess, slope] = guess(&arc, speed, saturation, load);
+            let start = [guess, residual(guess)];
+            let near = near(
+                &mut residual,
+                start,
+                slope,
+                [f64::MIN, saturation.ln()],
+                NEAR,
+            );
             let most = saturation.ln();
             let unit = speed * arc.entry() / arc.belt.stiffness;
             // The slip velocity grows at most by exp(a L (B ± v_s)/v_s) over the arc.
             let growth = arc.capacity() * (unit + 2.0 * saturation) / saturation;
             let least = (unit * load.min(1.0)).ln() - growth - LEAST;
             let ends = [least.min(most - 1.0), most];
-            let [low, high] = [residual(ends[0]), arc.capacity() - load];
-            bracketed(residual, ends, [low, high])?
+            let mut found = || {
+                let values = [residual(ends[0]), arc.capacity() - load];
+                bracketed(&mut residual, ends, values)
+            };
+            near.or_else(|| found())?
         }
         false => f64::NEG_INFINITY,
     };
@@ -99,6 +118,34 @@ pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
         });
     }
     Some(contact)
+}
+
+/// About the logarithm of the slip velocity y(0) at the entry with which an arc carries a load, and the slope of
+/// the load with it.
+///
+/// With x of [`Creep`] at both ends of the zone of creep, whose last slip velocity Y follows from the load or is
+/// `v_s`, it is y(0) = q Y/(B ± Y) exp(−a B s/`v_s`), of which the right side hardly depends on y(0).
+fn guess(arc: &Arc, speed: f64, saturation: f64, load: f64) -> [f64; 2] {
+    let sense = arc.sense;
+    let unit = speed * arc.entry() / arc.belt.stiffness;
+    let gained = sense * (sense * load).exp_m1() * unit;
+    let (mut logarithm, mut slope) = (f64::NEG_INFINITY, f64::NAN);
+    for _ in 0..TURNS {
+        let entry = logarithm.exp();
+        let b = unit - sense * entry;
+        let mut length = arc.length;
+        let mut last = gained + entry;
+        slope = last / unit * (-sense * load).exp();
+        if last >= saturation {
+            last = saturation;
+            let creeping = sense * (sense * (last - entry) / unit).ln_1p();
+            length -= (load - creeping) / arc.slip_rate;
+            slope = last / unit;
+        }
+        let decayed = arc.slip_rate * b * length / saturation;
+        logarithm = (unit * last / (b + sense * last)).ln() - decayed;
+    }
+    [logarithm, slope]
 }
 
 /// Friction a P y/`v_s` with the slip velocity y below `v_s`.
