@@ -79,11 +79,11 @@ pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
             let growth = arc.capacity() * (unit + 2.0 * saturation) / saturation;
             let least = (unit * load.min(1.0)).ln() - growth - LEAST;
             let ends = [least.min(most - 1.0), most];
-            let mut found = || {
+            let found = || {
                 let values = [residual(ends[0]), arc.capacity() - load];
                 bracketed(&mut residual, ends, values)
             };
-            near.or_else(|| found())?
+            near.or_else(found)?
         }
         false => f64::NEG_INFINITY,
     };
