@@ -231,6 +231,19 @@ fn what_is_at_fault_decides_the_exit_status() {
     assert!(code == 2 && errors.contains("pulley"), "{errors}");
     let output = run(&["stability", &example("serpentine")]);
     assert_eq!(output.status.code(), Some(2));
+    let over = ["--parameter", "friction.coefficient", "--from", "0.01"];
+    let output = run(&[
+        &["trace", &example("serpentine")],
+        &over[..],
+        &["--to", "5"],
+    ]
+    .concat());
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        errors.contains("gross slip") && errors.contains("--from 0.01"),
+        "{errors}"
+    );
 }
 
 #[test]

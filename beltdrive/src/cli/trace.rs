@@ -1,7 +1,7 @@
 //! `beltdrive trace`: a branch of steady states, or of limits, over one entry of the drive file.
 
 use super::{common::Common, failure::Failure, origin::Origin, parameter};
-use beltdrive::belt_loop::{self, Varied};
+use beltdrive::belt_loop::{self, Refusal, Varied};
 use beltdrive::input::{Argument, DriveFile, FileKey, Key, Stated};
 use beltdrive::quantity;
 use beltdrive::{BranchEnd, Drive, plot};
@@ -103,12 +103,20 @@ impl Trace {
         let parameter = key("--parameter", &self.parameter)?;
         let varied = Varied::Key(parameter.clone());
         let options = self.common.options();
+        let beginning = |refusal: Refusal| match Failure::from(refusal) {
+            Failure::Unsolved(text) => Failure::Unsolved(format!(
+                "{text}\nhelp: that is at --from {}; begin where the loop has a state",
+                self.from
+            )),
+            usage @ Failure::Usage(_) => usage,
+        };
         let (name, answer) = match &self.curve {
             None => {
                 let range = self.range_of(&parameter)?;
                 let branch = self.common.with_progress(|progress| {
                     belt_loop::trace(file, &varied, range, &options, progress)
-                })?;
+                });
+                let branch = branch.map_err(beginning)?;
                 ("branch.svg", quantity::loop_range::branch(&branch))
             }
             Some(path) => {
@@ -119,7 +127,8 @@ impl Trace {
                 let range = self.range_of(&second)?;
                 let curve = self.common.with_progress(|progress| {
                     belt_loop::limit_curve(file, &varied, &second, range, &options, progress)
-                })?;
+                });
+                let curve = curve.map_err(beginning)?;
                 ("limit_curve.svg", quantity::loop_range::limit_curve(&curve))
             }
         };

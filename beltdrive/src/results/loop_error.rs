@@ -100,7 +100,9 @@ pub enum LoopError {
         formal: Option<Box<LoadedState>>,
     },
     /// Rigid friction would carry the load, but elastic friction has to creep so far that a pulley stalls.
-    #[error("pulley `{pulley}` stalls: elastic friction carries its torque only with full slip")]
+    #[error(
+        "pulley `{pulley}` stalls: friction of this law carries its torque only with full slip"
+    )]
     Stalls {
         /// The pulley.
         pulley: String,
