@@ -6,6 +6,8 @@ use super::levelling::Levelling;
 use super::problem::FLOW;
 use super::solve::{Search, Solved};
 use crate::results::difficulty;
+use crate::results::loop_error::LoopError;
+use crate::results::loop_state::LoadLimit;
 use bvp::{Control, Family, Options, Problem, Scheme, Solution};
 use continuation::{Branch, Direction, Kind, Point};
 use std::f64::consts::FRAC_PI_2;
@@ -16,6 +18,9 @@ const ROUGH: f64 = 1e-4;
 const MAX_INTERVALS: usize = 4000;
 /// The most steps.
 const STEPS: usize = 300;
+
+/// Largest load factor that is tried: beyond it the torques are but rounding errors of the driver's.
+const LARGEST_FACTOR: f64 = 1e9;
 
 /// Where a climb ends.
 pub(super) enum Climbed {
@@ -39,6 +44,29 @@ pub(super) struct Top {
 }
 
 impl Search<'_> {
+    /// How far all torques can be raised from a state, found by raising them; `None` if that is not at all, or
+    /// farther than anything that was tried.
+    pub(super) fn load_limit(&mut self, from: Solved) -> Result<Option<LoadLimit>, LoopError> {
+        let mut pulleys = self.belt_loop.pulleys.iter();
+        if pulleys.all(|pulley| pulley.duty.torque_at(1.0) == 0.0) {
+            return Ok(None);
+        }
+        let (mut here, mut to) = (from, 2.0);
+        while to < LARGEST_FACTOR {
+            match self.climb(&here, to) {
+                Climbed::Reached(solved) => here = *solved,
+                Climbed::Limit(Top { factor, pulley, .. }) => {
+                    return Ok(Some(LoadLimit { factor, pulley }));
+                }
+                Climbed::Lost { reached, cause } => {
+                    return Err(LoopError::NotConverged { reached, cause });
+                }
+            }
+            to *= 2.0;
+        }
+        Ok(None)
+    }
+
     /// Raises the load from a state to a factor on all torques, above that of the state.
     pub(super) fn climb(&mut self, from: &Solved, to: f64) -> Climbed {
         let p = from.solution.parameters();

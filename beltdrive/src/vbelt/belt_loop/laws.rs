@@ -31,6 +31,13 @@ pub(super) struct Start<'s> {
     pub(super) factor: f64,
 }
 
+impl Start<'_> {
+    /// Whether the belt pulls in all spans.
+    pub(super) fn is_taut(&self) -> bool {
+        self.tractive.iter().all(|&tension| tension > 0.0)
+    }
+}
+
 impl Search<'_> {
     /// The state with the law of the loop, roughly and from nothing. Coulomb friction still has a large ε.
     pub(super) fn rough(&mut self, start: &Start<'_>) -> Result<Solved, bvp::Error> {

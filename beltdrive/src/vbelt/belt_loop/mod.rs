@@ -4,6 +4,7 @@
 //! touch the back of the belt and are flat. `problem` states the running loop as one boundary value
 //! problem, `rest` the belt at rest.
 
+mod at_rest;
 mod back;
 mod capacity;
 mod checks;
@@ -16,6 +17,7 @@ mod plane;
 mod problem;
 mod rest;
 mod rest_guess;
+mod running;
 mod seat;
 mod seating;
 mod solve;
