@@ -8,7 +8,9 @@
 //! - the tension has a maximum where the belt overhangs at the exit of the driver.
 //!
 //! A maximum of the tension is a limit point, at which the tension cannot be prescribed; the
-//! contact length of the driver can, so near it that is prescribed and the tension is an unknown.
+//! contact length of the driver can, so near it that is prescribed and the tension is an unknown. Where the
+//! driver slips grossly the length may have its maximum at nearly the same place; the speed of the driven pulley
+//! falls all the way, and takes its part.
 
 use super::carried::Carried;
 use super::path::{Effort, Path, Solved, Stuck};
@@ -44,6 +46,41 @@ pub(super) struct Limit {
     pub(super) reason: LimitReason,
     /// The state at the end.
     pub(super) state: Solved,
+}
+
+/// What is prescribed in place of the tension, and rises along the branch.
+#[derive(Clone, Copy, Debug)]
+enum Coordinate {
+    /// The contact length of the driver.
+    DriverLength,
+    /// The speed of the driven pulley with the sign turned round.
+    DrivenSpeed,
+}
+
+impl Coordinate {
+    /// Its value in a state.
+    fn of(self, solved: &Solved) -> f64 {
+        match self {
+            Self::DriverLength => solved.driver_length(),
+            Self::DrivenSpeed => -solved.driven_speed(),
+        }
+    }
+
+    /// The value farther along by a step in its logarithm.
+    fn beyond(self, solved: &Solved, step: f64) -> f64 {
+        let value = self.of(solved);
+        match self {
+            Self::DriverLength => value * step.exp(),
+            Self::DrivenSpeed => value * (-step).exp(),
+        }
+    }
+
+    fn instead(self, value: f64) -> Instead {
+        match self {
+            Self::DriverLength => Instead::DriverLength(value),
+            Self::DrivenSpeed => Instead::DrivenSpeed(-value),
+        }
+    }
 }
 
 /// The outcome of a search at one load.
@@ -106,8 +143,9 @@ impl Path<'_> {
         if !steep && solved.driven_speed() > SLOW {
             return true;
         }
-        let length = solved.driver_length() * SIDE_STEP.exp();
-        match self.at_length(solved, length, Effort::Careful) {
+        let coordinate = Coordinate::DriverLength;
+        let longer = coordinate.beyond(solved, SIDE_STEP);
+        match self.at(coordinate, longer, solved, Effort::Careful) {
             Ok(longer) => longer.tight_tension() > solved.tight_tension(),
             Err(_) => true,
         }
@@ -142,7 +180,8 @@ impl Path<'_> {
             Err(Stuck {
                 last: Some(last), ..
             }) if last.driven_speed() > 0.0 && last.tight_tension() < target => {
-                self.lengthen(*last, target)
+                let outcome = self.lengthen(Coordinate::DriverLength, (*last).clone(), target);
+                outcome.or_else(|_| self.lengthen(Coordinate::DrivenSpeed, *last, target))
             }
             Err(Stuck {
                 last: Some(last), ..
@@ -151,14 +190,19 @@ impl Path<'_> {
         }
     }
 
-    /// Follows the branch by the contact length of the driver until the tension reaches `target`,
-    /// or has passed its maximum, or the driven pulley stops.
-    fn lengthen(&mut self, start: Solved, target: f64) -> Result<Found, Stuck> {
+    /// Follows the branch by another coordinate until the tension reaches `target`, or has passed its
+    /// maximum, or the driven pulley stops.
+    fn lengthen(
+        &mut self,
+        coordinate: Coordinate,
+        start: Solved,
+        target: f64,
+    ) -> Result<Found, Stuck> {
         let (mut before, mut here) = (None, start);
         let mut step = LENGTH_STEP;
         for _ in 0..MAX_LENGTH_STEPS {
-            let length = here.driver_length() * step.exp();
-            let next = match self.at_length(&here, length, Effort::Careful) {
+            let beyond = coordinate.beyond(&here, step);
+            let next = match self.at(coordinate, beyond, &here, Effort::Careful) {
                 Ok(next) => next,
                 Err(_) if step > 1e-3 * LENGTH_STEP => {
                     step *= 0.4;
@@ -173,15 +217,15 @@ impl Path<'_> {
                 return self.arrive(next, target);
             }
             if next.tight_tension() < here.tight_tension() {
-                let shorter = here.driver_length() * (-step).exp();
+                let shorter = coordinate.beyond(&here, -step);
                 let first = match before {
                     Some(before) => before,
                     // The very first step has passed the maximum.
                     None => self
-                        .at_length(&here, shorter, Effort::Careful)
+                        .at(coordinate, shorter, &here, Effort::Careful)
                         .map_err(|cause| Stuck::after(here.clone(), cause))?,
                 };
-                return self.maximum([first, here, next]);
+                return self.maximum(coordinate, [first, here, next]);
             }
             step *= 1.3;
             before = Some(std::mem::replace(&mut here, next));
@@ -199,43 +243,44 @@ impl Path<'_> {
         self.classify(solved)
     }
 
-    /// The state with another contact length of the driver, from a neighbour.
-    fn at_length(
+    /// The state with another value of a coordinate, from a neighbour.
+    fn at(
         &mut self,
+        coordinate: Coordinate,
+        value: f64,
         from: &Solved,
-        length: f64,
         effort: Effort,
     ) -> Result<Solved, bvp::Error> {
         let problem = from
             .problem
             .clone()
-            .with_unknown_tight_tension(Instead::DriverLength(length));
+            .with_unknown_tight_tension(coordinate.instead(value));
         self.attempt(problem, &Carried(from), effort)
     }
 
-    /// The maximum of the tight tension over the contact length, between three states around it, by
+    /// The maximum of the tight tension over a coordinate, between three states around it, by
     /// successive parabolas (Brent 1973, chapter 5, without the safeguard of golden sections: the
     /// states bracket one smooth maximum).
-    fn maximum(&mut self, states: [Solved; 3]) -> Result<Found, Stuck> {
+    fn maximum(&mut self, coordinate: Coordinate, states: [Solved; 3]) -> Result<Found, Stuck> {
         let [low, top, high] = states;
         // As accurate as those to come: else a rough state may seem to be the highest.
         let mut low = self.again(low, Effort::Full)?;
         let mut top = self.again(top, Effort::Full)?;
         let mut high = self.again(high, Effort::Full)?;
         for _ in 0..20 {
-            let point = |s: &Solved| (s.driver_length(), s.tight_tension());
+            let point = |s: &Solved| (coordinate.of(s), s.tight_tension());
             let [(a, fa), (b, fb), (c, fc)] = [point(&low), point(&top), point(&high)];
             let (left, right) = ((b - a) * (fb - fc), (b - c) * (fb - fa));
             let shift = 0.5 * ((b - a) * left - (b - c) * right) / (left - right);
-            let length = b - shift;
-            let settled = shift.abs() <= LIMIT_ACCURACY.sqrt() * b || !shift.is_finite();
-            let inside = if length > a && length < c {
-                length
+            let summit = b - shift;
+            let settled = shift.abs() <= LIMIT_ACCURACY.sqrt() * b.abs() || !shift.is_finite();
+            let inside = if summit > a && summit < c {
+                summit
             } else {
                 0.5 * (a + b)
             };
             let next = self
-                .at_length(&top, inside, Effort::Full)
+                .at(coordinate, inside, &top, Effort::Full)
                 .map_err(|cause| Stuck::after(top.clone(), cause))?;
             let better = next.tight_tension() >= top.tight_tension();
             match (better, inside < b) {
