@@ -3,7 +3,7 @@
 
 use beltdrive::{
     Drive, FrictionLaw, LimitReason, SolveError, SolveOptions, SpanTension, SteadyState, Warning,
-    examples, input, solve, solve_from,
+    ZoneKind, examples, input, solve, solve_from,
 };
 
 fn kim(law: FrictionLaw, tight: f64) -> Drive {
@@ -86,6 +86,75 @@ fn locked_belts_are_found_within_the_error_that_is_stated() {
     for tight in [101.0, 102.0, 110.0, 150.0, 300.0, 400.0] {
         let state = state(FrictionLaw::Coulomb, tight);
         assert!(state.convergence.newton_iterations <= 200);
+    }
+}
+
+#[test]
+fn elastic_friction_in_front_of_a_lock_zone_is_found_exactly() {
+    // As above, with an elastic segment in front: the limits of both wraps, and where the zones end.
+    for (tight, expected, ends, steps) in [
+        (
+            700.0,
+            [102.70474497, 2.7680087763, 194.88974455, 198.29109403],
+            [5.07567, 0.0],
+            70,
+        ),
+        (
+            200.0,
+            [104.41130879, 2.8090631948, 188.96092453, 189.38899312],
+            [4.55641, 1.52851],
+            80,
+        ),
+        (
+            105.0,
+            [104.70430718, 2.8169364266, 186.79971508, 186.78376188],
+            [4.51225, 4.29503],
+            120,
+        ),
+    ] {
+        let state = state(EPP, tight);
+        let c = &state.convergence;
+        let stated = c.slip_normalisation_effect + c.error_estimate;
+        assert_constants(&state, expected, 2.0 * stated);
+        for (on, end) in [&state.driven, &state.driver].into_iter().zip(ends) {
+            let elastic = on
+                .zones
+                .iter()
+                .filter(|zone| zone.kind == ZoneKind::Elastic);
+            let found: f64 = elastic.map(|zone| zone.to).sum();
+            assert!(
+                (found.to_degrees() - end).abs() < 2e-5,
+                "{}",
+                found.to_degrees()
+            );
+        }
+        let newton = c.newton_iterations;
+        assert!(newton <= steps, "{newton} at {tight} N");
+    }
+}
+
+#[test]
+fn soft_elastic_friction_holds_the_belt_on_both_pulleys() {
+    let state = state(FrictionLaw::Epp { stiffness: 2e6 }, 200.0);
+    for pulley in [&state.driven, &state.driver] {
+        let kinds: Vec<ZoneKind> = pulley.zones.iter().map(|zone| zone.kind).collect();
+        assert_eq!(
+            kinds,
+            [ZoneKind::Elastic, ZoneKind::Adhesion, ZoneKind::Slip]
+        );
+        let stick = pulley.zones[1];
+        assert!(stick.to - stick.from > 1.5);
+        let profile = &pulley.profile;
+        let inside = profile.angle.iter().zip(&profile.tractive_tension);
+        let tensions: Vec<f64> = inside
+            .filter(|(angle, _)| (stick.from..stick.to).contains(angle))
+            .map(|(_, tension)| *tension)
+            .collect();
+        let [least, most] = [f64::min, f64::max].map(|pick| {
+            let first = tensions[0];
+            tensions.iter().copied().fold(first, pick)
+        });
+        assert!(tensions.len() > 2 && most - least < 1e-9 * most);
     }
 }
 

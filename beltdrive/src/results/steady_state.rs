@@ -118,7 +118,8 @@ pub enum ZoneKind {
     Elastic,
     /// Friction at its limit: the belt slides.
     Slip,
-    /// No friction: the belt sticks and its tension is constant (flat belts, Coulomb friction).
+    /// The belt sticks and its tension is constant. There is no friction (flat belts, Coulomb friction), or
+    /// friction below its limit that only holds the belt in the groove (V-belts, EPP friction).
     Adhesion,
     /// Friction below its limit that grows with the slip velocity (flat belts, creep-rate friction).
     Creep,

@@ -1,7 +1,7 @@
 //! A solution as the guess of a neighbouring problem.
 
 use super::path::Solved;
-use super::{LAW, MAX_STATES};
+use super::{DRIVER, LAW, Law, MAX_STATES};
 
 /// A solution as the guess of a problem with another parameter, of another law (states that the law
 /// does not have are left out, those that it adds begin at zero) or with the tight tension unknown.
@@ -13,7 +13,8 @@ impl bvp::Guess for Carried<'_> {
         let known = solution.segments()[segment].states;
         let mut states = [0.0; MAX_STATES];
         solution.state(segment, s, &mut states[..known]);
-        if y.len() != known {
+        let is_bristle = matches!(self.0.problem.groove(DRIVER).law, Law::Bristle { .. });
+        if is_bristle && y.len() < known {
             states[LAW..].fill(0.0);
         }
         y.copy_from_slice(&states[..y.len()]);

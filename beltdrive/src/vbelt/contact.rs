@@ -27,13 +27,16 @@
 //!
 //! How q depends on slip and deflection is in `groove`.
 
-use super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION, elastic};
+use super::groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 use super::{Groove, Law, Regime, Strand};
 use bvp::Real;
+use std::f64::consts::PI;
 
 /// All local quantities at one point of the contact, scaled.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact<T> {
+    /// What is known about the friction.
+    pub(crate) regime: Regime,
     /// Tractive tension F.
     pub(crate) tractive: T,
     /// Belt tension T.
@@ -87,10 +90,25 @@ impl<T: Real> Contact<T> {
         let transverse = penetration * groove.radial_stiffness;
         let (pressure, traction) = match groove.law {
             Law::Bristle { .. } => {
-                let pressure = groove.pressure(transverse * 0.5, state[LAW + 1]);
-                (pressure, [state[LAW] * pressure, state[LAW + 1] * pressure])
+                let mu = groove.friction_coefficient;
+                let slipping = groove.pressure(transverse * 0.5, state[LAW + 1]);
+                let carrying = match groove.elastic() {
+                    Some(_) => groove.friction(regime, state, slipping * mu) / mu,
+                    None => slipping,
+                };
+                let traction = [state[LAW] * carrying, state[LAW + 1] * carrying];
+                let axial = transverse * 0.5 - traction[1] * groove.sin_beta;
+                (axial / groove.cos_beta, traction)
             }
-            Law::Coulomb | Law::Epp { .. } | Law::Sliding { .. } => {
+            _ if regime == Regime::Stick => {
+                // The outward load n is F/r, which keeps the inclination.
+                let tan_beta = groove.sin_beta / groove.cos_beta;
+                let held = tractive / (one - penetration);
+                let up = (transverse * tan_beta - held) * (0.5 * groove.cos_beta);
+                let axial = transverse * 0.5 - up * groove.sin_beta;
+                (axial / groove.cos_beta, [T::from_f64(0.0), up])
+            }
+            Law::Normalised { .. } | Law::Sliding { .. } => {
                 let direction = match groove.law {
                     Law::Sliding { .. } => state[LAW].sin_cos().into(),
                     _ => [slip_t / slip_norm, slip_w / slip_norm],
@@ -104,6 +122,7 @@ impl<T: Real> Contact<T> {
             }
         };
         Self {
+            regime,
             tractive,
             tension,
             speed,
@@ -129,16 +148,19 @@ impl<T: Real> Contact<T> {
         rates[INCLINATION] = sweep - turning;
         rates[PENETRATION] = -self.sin_theta;
         rates[ANGLE] = sweep;
+        if let Some(elastic) = groove.elastic() {
+            rates[groove.displacement()] = self.displacement_rate(elastic.unstretched);
+        }
         match groove.law {
-            Law::Coulomb => {}
-            Law::Epp { unstretched, .. } => rates[LAW] = self.displacement_rate(unstretched),
-            Law::Sliding { lag, lead } => {
+            Law::Normalised { .. } => {}
+            Law::Sliding { .. } if self.regime == Regime::Stick => rates[LAW] = T::from_f64(0.0),
+            Law::Sliding { lag, lead, .. } => {
                 let turning = self.across(self.slip_rates(groove, rates), state);
                 // |e| cos² of half the angle between slip and traction: |e| but where they are opposed.
                 let weight = (self.slip_norm + self.alignment(state)) * 0.5;
                 rates[LAW] = (self.misalignment(state) + turning * lead) / (weight * lead + lag);
             }
-            Law::Bristle { stiffness } => {
+            Law::Bristle { stiffness, .. } => {
                 let saturation = self.slip_norm / groove.friction_coefficient;
                 for (axis, &slip) in self.slip.iter().enumerate() {
                     rates[LAW + axis] = (slip - saturation * state[LAW + axis]) * stiffness;
@@ -226,21 +248,40 @@ impl<T: Real> Contact<T> {
     }
 }
 
+/// Excess of the traction that would hold the belt over that of friction straight up the groove, at a place
+/// where it stops to sink: zero where it begins to stick.
+pub(crate) fn hold_excess<T: Real>(
+    groove: &Groove,
+    before: Regime,
+    state: &[T],
+    omega: T,
+    flow: T,
+) -> T {
+    let mut sinking = [T::from_f64(0.0); MAX_STATES];
+    let sinking = &mut sinking[..state.len()];
+    sinking.copy_from_slice(state);
+    sinking[LAW] = T::from_f64(PI);
+    let sliding = Contact::new(groove, before, sinking, omega, flow);
+    let held = Contact::new(groove, Regime::Stick, state, omega, flow);
+    held.traction[1] - sliding.traction[1]
+}
+
 /// Excess `k_f` |u| − μ p of the elastic friction over its limit: zero where elastic and slip zones
 /// of EPP friction meet, positive in slip. Other laws have no limit to exceed; they give zero.
 pub(crate) fn limit_excess<T: Real>(groove: &Groove, state: &[T], omega: T, flow: T) -> T {
-    match groove.law {
-        Law::Epp { stiffness, .. } => {
+    match groove.elastic() {
+        Some(elastic) => {
             let slip = Contact::new(groove, Regime::Slip, state, omega, flow);
-            elastic(stiffness, state) - slip.pressure * groove.friction_coefficient
+            groove.elastic_friction(elastic, state) - slip.pressure * groove.friction_coefficient
         }
-        Law::Coulomb | Law::Sliding { .. } | Law::Bristle { .. } => T::from_f64(0.0),
+        None => T::from_f64(0.0),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vbelt::groove::Elastic;
 
     fn groove(law: Law, epsilon: f64) -> Groove {
         let (sin_beta, cos_beta) = 18_f64.to_radians().sin_cos();
@@ -259,12 +300,15 @@ mod tests {
     }
 
     fn epp(weight: f64) -> Law {
-        Law::Epp {
+        let elastic = Some(Elastic {
             stiffness: 4.0,
             unstretched: 0.15,
             weight,
-        }
+        });
+        Law::Normalised { elastic }
     }
+
+    const COULOMB: Law = Law::Normalised { elastic: None };
 
     /// F, θ, x, φ, then the state of EPP, with ω and G.
     const STATE: [f64; 5] = [0.7, 0.12, 0.03, 1.1, 0.3];
@@ -277,7 +321,7 @@ mod tests {
 
     #[test]
     fn the_face_plane_form_is_the_published_one() {
-        let groove = groove(Law::Coulomb, 0.05);
+        let groove = groove(COULOMB, 0.05);
         let c = Contact::new(&groove, Regime::Slip, &STATE[..4], OMEGA, FLOW);
         let [tractive, theta, x, _, _] = STATE;
         let tension = groove.strand.tension(tractive, FLOW);
@@ -306,10 +350,13 @@ mod tests {
 
     #[test]
     fn bristles_bent_to_their_limit_along_the_slip_are_coulomb_friction() {
-        let coulomb = contact(Law::Coulomb, 0.0, Regime::Slip, &STATE[..4]);
+        let coulomb = contact(COULOMB, 0.0, Regime::Slip, &STATE[..4]);
         let bend = coulomb.slip.map(|e| 0.4 * e / coulomb.slip_norm);
         let state = [&STATE[..4], &bend[..]].concat();
-        let law = Law::Bristle { stiffness: 400.0 };
+        let law = Law::Bristle {
+            stiffness: 400.0,
+            elastic: None,
+        };
         let bristle = contact(law, 0.0, Regime::Slip, &state);
         assert!((bristle.outward - coulomb.outward).abs() < 1e-14);
         assert!((bristle.retarding - coulomb.retarding).abs() < 1e-14);
@@ -321,7 +368,7 @@ mod tests {
 
     #[test]
     fn epp_slips_as_coulomb_and_blends_into_it() {
-        let coulomb = contact(Law::Coulomb, 0.01, Regime::Slip, &STATE[..4]);
+        let coulomb = contact(COULOMB, 0.01, Regime::Slip, &STATE[..4]);
         let slip = contact(epp(1.0), 0.01, Regime::Slip, &STATE);
         let unblended = contact(epp(0.0), 0.01, Regime::Either, &STATE);
         assert_eq!(slip.traction, coulomb.traction);
@@ -353,6 +400,7 @@ mod tests {
         let law = Law::Sliding {
             lag: 1e-3,
             lead: 0.02,
+            elastic: None,
         };
         let mut state = STATE;
         let slip = contact(law, 0.0, Regime::Slip, &state).slip;
@@ -362,7 +410,7 @@ mod tests {
 
     #[test]
     fn traction_along_the_slip_is_coulomb_friction() {
-        let coulomb = contact(Law::Coulomb, 0.0, Regime::Slip, &STATE[..4]);
+        let coulomb = contact(COULOMB, 0.0, Regime::Slip, &STATE[..4]);
         let (law, state) = sliding(0.0);
         let sliding = contact(law, 0.0, Regime::Slip, &state);
         assert!((sliding.outward - coulomb.outward).abs() < 1e-14);
@@ -407,13 +455,46 @@ mod tests {
         let (here, along, turning) = rate(0.0);
         assert!((along * (here.slip_norm * 0.02 + 1e-3) - 0.02 * turning).abs() < 1e-14);
         // Against it only ℓ resists.
-        let (_, against, turning) = rate(std::f64::consts::PI);
+        let (_, against, turning) = rate(PI);
         assert!((against * 1e-3 - 0.02 * turning).abs() < 1e-13);
     }
 
     #[test]
+    fn a_belt_that_sticks_keeps_its_place() {
+        let elastic = Some(Elastic {
+            stiffness: 4.0,
+            unstretched: 0.15,
+            weight: 1.0,
+        });
+        let law = Law::Sliding {
+            lag: 1e-3,
+            lead: 0.02,
+            elastic,
+        };
+        let groove = groove(law, 0.0);
+        let mut state = [0.7, 0.0, 0.025, 1.1, 0.3, 0.02];
+        let c = Contact::new(&groove, Regime::Stick, &state, OMEGA, FLOW);
+        let mut rates = [0.0; 6];
+        c.rates(&groove, &state, &mut rates);
+        let held = [TENSION, INCLINATION, PENETRATION, LAW].map(|index| rates[index]);
+        assert!(held.iter().all(|rate| rate.abs() < 1e-15), "{held:?}");
+        assert_eq!(rates[ANGLE], 1.0 / 0.975);
+        assert!((rates[LAW + 1] - (c.tension - 0.15)).abs() < 1e-15);
+        // The faces carry the transverse load, whatever friction does.
+        let [sin, cos] = [groove.sin_beta, groove.cos_beta];
+        let carried = 2.0 * (c.pressure * cos + c.traction[1] * sin);
+        assert!((carried - c.transverse).abs() < 1e-14);
+        // It begins to stick where elastic friction is as large as that.
+        state[LAW + 1] = c.friction() / 4.0;
+        assert!(c.traction[1] < 0.0);
+        assert!(hold_excess(&groove, Regime::Elastic, &state, OMEGA, FLOW).abs() < 1e-14);
+        state[LAW + 1] *= 1.1;
+        assert!(hold_excess(&groove, Regime::Elastic, &state, OMEGA, FLOW) > 0.0);
+    }
+
+    #[test]
     fn no_friction_holds_a_belt_at_the_frictionless_penetration() {
-        let mut groove = groove(Law::Coulomb, 1e-3);
+        let mut groove = groove(COULOMB, 1e-3);
         groove.friction_coefficient = 0.0;
         // Exact for a belt along a circle of radius 1 − x: k x tan β = F/(1 − x).
         let x = 0.03;
@@ -429,9 +510,15 @@ mod tests {
     #[test]
     fn power_is_balanced_at_every_point() {
         for (law, extra) in [
-            (Law::Coulomb, &[][..]),
+            (COULOMB, &[][..]),
             (epp(0.7), &[0.02]),
-            (Law::Bristle { stiffness: 400.0 }, &[-0.3, 0.1]),
+            (
+                Law::Bristle {
+                    stiffness: 400.0,
+                    elastic: None,
+                },
+                &[-0.3, 0.1],
+            ),
         ] {
             let groove = groove(law, 0.02);
             let state = [&STATE[..4], extra].concat();
@@ -449,7 +536,7 @@ mod tests {
     fn locked_slip_keeps_its_digits() {
         // G and ω such that V = ω r (1 + 1e-9): the slip is 1e-9 to the rounding of G.
         let state = [0.7, 0.0, 0.03, 0.0];
-        let groove = groove(Law::Coulomb, 0.0);
+        let groove = groove(COULOMB, 0.0);
         let mut flow = OMEGA * 0.97;
         for _ in 0..30 {
             let tension = groove.strand.tension(state[TENSION], flow);

@@ -17,9 +17,10 @@
 //! Together Σ z n + Σ z + 2: the states and the parameters. Where another quantity is
 //! prescribed instead of the tension of the tight span, that is one more parameter, the last.
 
-use super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
+use super::groove::{ANGLE, Elastic, INCLINATION, LAW, PENETRATION, TENSION};
 use super::{
-    Contact, DRIVEN, DRIVER, EndAngles, Groove, Law, Layout, Regime, Scales, limit_excess,
+    Contact, DRIVEN, DRIVER, EndAngles, Groove, Law, Layout, Regime, Scales, hold_excess,
+    limit_excess,
 };
 use crate::{Drive, FrictionLaw, SpanTension};
 use bvp::{Ends, Problem, Real, Segment};
@@ -75,14 +76,20 @@ impl DriveProblem {
                 FrictionLaw::Coulomb => Law::Sliding {
                     lag: smoothing,
                     lead: LEAD,
+                    elastic: None,
                 },
-                FrictionLaw::Epp { stiffness } => Law::Epp {
-                    stiffness: units.friction_stiffness(stiffness, radius),
-                    unstretched: drive.load.slack.value() / units.force,
-                    weight: 1.0,
+                FrictionLaw::Epp { stiffness } => Law::Sliding {
+                    lag: smoothing,
+                    lead: LEAD,
+                    elastic: Some(Elastic {
+                        stiffness: units.friction_stiffness(stiffness, radius),
+                        unstretched: drive.load.slack.value() / units.force,
+                        weight: 1.0,
+                    }),
                 },
                 FrictionLaw::Bristle { stiffness } => Law::Bristle {
                     stiffness: stiffness * radius,
+                    elastic: None,
                 },
                 _ => panic!("a law for V-belts was expected"),
             };
@@ -155,8 +162,8 @@ impl DriveProblem {
     /// Other laws stay as they are.
     pub(crate) fn with_direction(mut self, is_state: bool) -> Self {
         for groove in &mut self.grooves {
-            if let (Law::Sliding { .. }, false) = (groove.law, is_state) {
-                groove.law = Law::Coulomb;
+            if let (Law::Sliding { elastic, .. }, false) = (groove.law, is_state) {
+                groove.law = Law::Normalised { elastic };
             }
         }
         let regimes = self.regimes.clone();
@@ -168,8 +175,8 @@ impl DriveProblem {
     /// Coulomb and bristle friction stay as they are.
     pub(crate) fn with_epp_weight(mut self, share: f64) -> Self {
         for groove in &mut self.grooves {
-            if let Law::Epp { weight, .. } = &mut groove.law {
-                *weight = share;
+            if let Some(elastic) = groove.law.elastic_mut() {
+                elastic.weight = share;
             }
         }
         self
@@ -199,16 +206,18 @@ impl DriveProblem {
         for (groove, radius) in self.grooves.iter_mut().zip(self.scales.radius) {
             groove.law = Law::Bristle {
                 stiffness: stiffness * radius,
+                elastic: groove.elastic(),
             };
         }
-        self
+        let [driven, driver] = self.regimes().map(<[Regime]>::to_vec);
+        self.with_zones([&driven, &driver])
     }
 
     /// The length ℓ/R of Coulomb friction, or the normalisation ε of EPP friction; zero for bristles.
     pub(crate) fn smoothing(&self) -> f64 {
         match self.grooves[DRIVER].law {
             Law::Sliding { lag, .. } => lag,
-            Law::Coulomb | Law::Epp { .. } => self.grooves[DRIVER].epsilon,
+            Law::Normalised { .. } => self.grooves[DRIVER].epsilon,
             Law::Bristle { .. } => 0.0,
         }
     }
@@ -220,7 +229,7 @@ impl DriveProblem {
 
     /// Whether the law of friction has elastic and slip zones.
     pub(crate) fn has_zones(&self) -> bool {
-        matches!(self.grooves[DRIVER].law, Law::Epp { .. })
+        self.grooves[DRIVER].elastic().is_some()
     }
 
     /// Whether those zones are segments.
@@ -327,6 +336,10 @@ impl DriveProblem {
     fn junction<T: Real>(&self, next: usize, y: &[T], p: &[T]) -> T {
         let pulley = self.pulley(next);
         let groove = &self.grooves[pulley];
+        if self.regimes[next] == Regime::Stick {
+            let (speed, flow) = (Self::speed(pulley, p), Self::flow(p));
+            return hold_excess(groove, self.regimes[next - 1], y, speed, flow);
+        }
         if self.regimes[next - 1] == self.regimes[next] {
             return self.contact(next, y, p).turn_excess(groove);
         }
@@ -398,10 +411,20 @@ impl Problem for DriveProblem {
             }
             for next in zones.start + 1..zones.end {
                 let (before, after) = (at.end(next - 1), at.start(next));
-                for (&before, &after) in before.iter().zip(after) {
-                    zero(after - before);
+                for (index, (&before, &after)) in before.iter().zip(after).enumerate() {
+                    // The belt breaks loose in a direction of its own.
+                    if self.regimes[next - 1] != Regime::Stick || index != LAW {
+                        zero(after - before);
+                    }
                 }
-                zero(self.junction(next, before, p));
+                if self.regimes[next] == Regime::Stick {
+                    let contact = self.contact(next, after, p);
+                    zero(contact.slip[0]);
+                    zero(contact.slip[1]);
+                }
+                if self.regimes[next - 1] != Regime::Stick {
+                    zero(self.junction(next, before, p));
+                }
             }
         }
         let exits = [DRIVEN, DRIVER].map(|pulley| at.end(self.zones(pulley).end - 1));

@@ -4,12 +4,24 @@
 //! speed (see `contact`). The traction q of a face against that slip is
 //!
 //! ```text
-//! Coulomb   q = μ p e/|e|,  |e| = sqrt(e_t² + e_w² + ε²)  (e/|e| is 0/0 where the belt locks)
+//! Coulomb   q = μ p e/|e|   (0/0 where the belt locks)
 //! EPP       q = f e/|e|,    f = min(k_f |u|, μ p),         du/ds = (T − T_o)/EA
 //! bristle   q = p B,        dB/ds = κ (e − |e| B/μ),       after Dahl (1968), a vector here
 //! ```
 //!
-//! A slipping contact is a bristle contact with B = μ e/|e|.
+//! A slipping contact is a bristle contact with B = μ e/|e|. The direction e/|e| is had in three ways: with
+//! |e| = sqrt(`e_t`² + `e_w`² + ε²), as a state that follows it, or as that of bristles.
+//!
+//! Coulomb friction never holds the belt along an arc. EPP friction can: where f grows along the contact, the
+//! belt that sinks comes to rest at a place at which friction straight up the groove just holds it, and behind
+//! that place f is more than is needed. The belt sticks, F, θ = 0 and x constant, under
+//!
+//! ```text
+//! q_t = 0    q_w = (k x tan β − F/r) cos β/2    |q_w| ≤ f
+//! ```
+//!
+//! until it breaks loose in a direction of its own, at a place that the other end of the contact decides: every
+//! solution behind a place at rest leaves it, and none comes to it but where `q_w` = −f.
 
 use super::Strand;
 use bvp::Real;
@@ -28,33 +40,54 @@ pub(super) const LAW: usize = 4;
 /// The largest number of states of any law; in a loop the elongation of the belt follows them.
 pub(super) const MAX_STATES: usize = LAW + 3;
 
-/// A friction law, scaled.
+/// How the direction of friction follows from the slip, scaled. EPP friction has an [`Elastic`] part and its
+/// displacement u as the last state; without it friction is Coulomb's, or that of bristles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Law {
-    /// States F, θ, x, φ.
-    Coulomb,
-    /// States F, θ, x, φ, u.
-    Epp {
-        /// Stiffness `k_f` R²/EA.
-        stiffness: f64,
-        /// Tension `T_o` at which the displacement does not grow.
-        unstretched: f64,
-        /// Share of this law in a blend with Coulomb's, 0 to 1, where the regime is
-        /// [`Either`](Regime::Either).
-        weight: f64,
+    /// Along the slip, which is normalised by ε: states F, θ, x, φ (and u).
+    Normalised {
+        /// What EPP friction has more than Coulomb friction.
+        elastic: Option<Elastic>,
     },
-    /// Coulomb friction whose direction γ is a state: F, θ, x, φ, γ.
+    /// Along a direction γ that follows the slip: F, θ, x, φ, γ (and u).
     Sliding {
         /// Length ℓ/R over which the direction of the traction follows that of the slip.
         lag: f64,
         /// Length τ/R over which it is made to, by the rate of the slip.
         lead: f64,
+        /// What EPP friction has more than Coulomb friction.
+        elastic: Option<Elastic>,
     },
-    /// States F, θ, x, φ, `B_t`, `B_w`.
+    /// Along the deflection of bristles: F, θ, x, φ, `B_t`, `B_w` (and u).
     Bristle {
         /// Stiffness κ R.
         stiffness: f64,
+        /// The limit of EPP friction in place of μ p.
+        elastic: Option<Elastic>,
     },
+}
+
+impl Law {
+    /// What EPP friction has more.
+    pub(super) fn elastic_mut(&mut self) -> Option<&mut Elastic> {
+        match self {
+            Self::Normalised { elastic }
+            | Self::Sliding { elastic, .. }
+            | Self::Bristle { elastic, .. } => elastic.as_mut(),
+        }
+    }
+}
+
+/// Elastic friction below the limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Elastic {
+    /// Stiffness `k_f` R²/EA.
+    pub(super) stiffness: f64,
+    /// Tension `T_o` at which the displacement does not grow.
+    pub(super) unstretched: f64,
+    /// Share of EPP friction in a blend with Coulomb's, 0 to 1, where the regime is
+    /// [`Either`](Regime::Either).
+    pub(super) weight: f64,
 }
 
 /// What is known about the friction on a segment of the contact. Only EPP friction distinguishes.
@@ -64,6 +97,8 @@ pub(crate) enum Regime {
     Elastic,
     /// f = μ p.
     Slip,
+    /// The belt does not slip, and friction below `k_f` |u| and μ p holds it where it is.
+    Stick,
     /// The smaller of the two; not smooth where they cross.
     Either,
 }
@@ -90,11 +125,30 @@ pub(crate) struct Groove {
 impl Groove {
     /// Number of states of the contact.
     pub(crate) fn states(&self) -> usize {
+        self.displacement() + usize::from(self.elastic().is_some())
+    }
+
+    /// What EPP friction has more than Coulomb friction.
+    pub(super) fn elastic(&self) -> Option<Elastic> {
         match self.law {
-            Law::Coulomb => LAW,
-            Law::Epp { .. } | Law::Sliding { .. } => LAW + 1,
+            Law::Normalised { elastic }
+            | Law::Sliding { elastic, .. }
+            | Law::Bristle { elastic, .. } => elastic,
+        }
+    }
+
+    /// Index of the displacement u of EPP friction among the states.
+    pub(super) fn displacement(&self) -> usize {
+        match self.law {
+            Law::Normalised { .. } => LAW,
+            Law::Sliding { .. } => LAW + 1,
             Law::Bristle { .. } => LAW + 2,
         }
+    }
+
+    /// Elastic friction `k_f` |u|.
+    pub(super) fn elastic_friction<T: Real>(&self, elastic: Elastic, state: &[T]) -> T {
+        state[self.displacement()].abs() * elastic.stiffness
     }
 
     /// Penetration that carries the tension F on the pitch circle without friction, to first order
@@ -108,7 +162,7 @@ impl Groove {
     pub(super) fn normalisation(&self) -> f64 {
         match self.law {
             Law::Bristle { .. } | Law::Sliding { .. } => 1e-20,
-            Law::Coulomb | Law::Epp { .. } => self.epsilon,
+            Law::Normalised { .. } => self.epsilon,
         }
     }
 
@@ -119,20 +173,14 @@ impl Groove {
 
     /// The friction force f per length of Coulomb's law and of EPP, whose `limit` is μ p in slip.
     pub(super) fn friction<T: Real>(&self, regime: Regime, state: &[T], limit: T) -> T {
-        match (self.law, regime) {
-            (Law::Epp { stiffness, .. }, Regime::Elastic) => elastic(stiffness, state),
-            (
-                Law::Epp {
-                    stiffness, weight, ..
-                },
-                Regime::Either,
-            ) => limit.min(limit + (elastic(stiffness, state) - limit) * weight),
-            _ => limit,
+        let Some(elastic) = self.elastic() else {
+            return limit;
+        };
+        let friction = self.elastic_friction(elastic, state);
+        match regime {
+            Regime::Elastic => friction,
+            Regime::Slip | Regime::Stick => limit,
+            Regime::Either => limit.min(limit + (friction - limit) * elastic.weight),
         }
     }
-}
-
-/// Elastic friction `k_f` |u|.
-pub(super) fn elastic<T: Real>(stiffness: f64, state: &[T]) -> T {
-    state[LAW].abs() * stiffness
 }

@@ -75,13 +75,13 @@ impl Contacting {
             -(depth_slope * rise * fall + depth * (rise_slope * fall - rise * fall_slope));
         y[PENETRATION] = depth * rise * fall;
         y[ANGLE] = angle;
+        if let Some(elastic) = groove.elastic() {
+            let [start, here] = [entry, force].map(|force| groove.strand.tension(force, flow));
+            y[groove.displacement()] = ((start + here) / 2.0 - elastic.unstretched) * angle;
+        }
         match groove.law {
-            Law::Coulomb => {}
-            Law::Epp { unstretched, .. } => {
-                let [start, here] = [entry, force].map(|force| groove.strand.tension(force, flow));
-                y[LAW] = ((start + here) / 2.0 - unstretched) * angle;
-            }
-            Law::Sliding { .. } => y[LAW..].fill(0.0),
+            Law::Normalised { .. } => {}
+            Law::Sliding { .. } => y[LAW] = 0.0,
             Law::Bristle { .. } => {
                 y[LAW] = 0.5 * groove.friction_coefficient.copysign(slope);
                 y[LAW + 1] = 0.0;
@@ -209,7 +209,7 @@ mod tests {
         let zoned = whole
             .clone()
             .with_zones([&[Regime::Elastic, Regime::Slip], &[Regime::Slip]]);
-        let (mut left, mut right, mut middle) = ([0.0; 5], [0.0; 5], [0.0; 5]);
+        let (mut left, mut right, mut middle) = ([0.0; 6], [0.0; 6], [0.0; 6]);
         Guess::new(&zoned).state(0, 1.0, &mut left);
         Guess::new(&zoned).state(1, 0.0, &mut right);
         Guess::new(&whole).state(0, 0.5, &mut middle);

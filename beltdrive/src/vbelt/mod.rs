@@ -39,7 +39,7 @@ mod watched;
 mod zones;
 
 pub(crate) use closure::{EndAngles, Layout};
-pub(crate) use contact::{Contact, limit_excess};
+pub(crate) use contact::{Contact, hold_excess, limit_excess};
 pub(crate) use drive_problem::{DriveProblem, Instead};
 pub(crate) use groove::{Groove, Law, Regime};
 pub(crate) use guess::Guess;

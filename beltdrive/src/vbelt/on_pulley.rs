@@ -143,9 +143,9 @@ impl OnPulley<'_> {
                     stretched += 0.5 * (place - at) * (rate + rate_before);
                 }
                 last = Some((place, rate));
-                let displacement = match self.groove.law {
-                    Law::Epp { .. } => y[LAW],
-                    Law::Coulomb | Law::Sliding { .. } | Law::Bristle { .. } => stretched,
+                let displacement = match self.groove.elastic() {
+                    Some(_) => y[self.groove.displacement()],
+                    None => stretched,
                 };
                 profile.angle.push(y[ANGLE]);
                 profile.arc_length.push(place * radius);
@@ -188,17 +188,18 @@ impl OnPulley<'_> {
             let segment = stretch.segment;
             let ends = [self.solution.start(segment), self.solution.end(segment)].map(angle);
             let kind = match (self.groove.law, stretch.regime) {
-                (Law::Epp { .. }, Regime::Elastic) => ZoneKind::Elastic,
-                (Law::Epp { .. }, Regime::Either) => {
-                    let is_elastic =
-                        |y: &[f64]| limit_excess(self.groove, y, self.omega, self.flow) < 0.0;
-                    self.sampled_zones(segment, is_elastic, &mut zones);
-                    continue;
-                }
-                (Law::Coulomb | Law::Epp { .. } | Law::Sliding { .. }, _) => ZoneKind::Slip,
+                (_, Regime::Stick) => ZoneKind::Adhesion,
                 (Law::Bristle { .. }, _) => {
                     let limit = SLIPPING_BRISTLES * self.groove.friction_coefficient;
                     let is_elastic = |y: &[f64]| y[LAW].hypot(y[LAW + 1]) < limit;
+                    self.sampled_zones(segment, is_elastic, &mut zones);
+                    continue;
+                }
+                (_, Regime::Elastic) => ZoneKind::Elastic,
+                (_, Regime::Slip) => ZoneKind::Slip,
+                (_, Regime::Either) => {
+                    let is_elastic =
+                        |y: &[f64]| limit_excess(self.groove, y, self.omega, self.flow) < 0.0;
                     self.sampled_zones(segment, is_elastic, &mut zones);
                     continue;
                 }

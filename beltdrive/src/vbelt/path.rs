@@ -31,6 +31,11 @@ pub(super) enum Effort {
 }
 
 impl Effort {
+    /// Whether it is only good enough on the way.
+    pub(super) fn is_rough(self) -> bool {
+        matches!(self, Self::Start | Self::Rough | Self::Careful)
+    }
+
     /// How a problem is solved with it, if the final tolerance is this.
     pub(super) fn options(self, tolerance: f64) -> Options {
         let (tolerance, stages, max_newton_steps) = match self {
@@ -100,10 +105,15 @@ impl Solved {
 
     /// Whether it is solved to a tolerance with a law whose direction is smoothed.
     pub(super) fn is_resolved(&self, law: FrictionLaw, tolerance: f64) -> bool {
-        let same = match (law, self.problem.groove(DRIVER).law) {
-            (FrictionLaw::Coulomb, Law::Coulomb) => true,
-            (FrictionLaw::Coulomb, Law::Sliding { lead, .. }) => lead > 0.0,
-            (FrictionLaw::Epp { .. }, Law::Epp { weight, .. }) => weight == 1.0,
+        let groove = self.problem.groove(DRIVER);
+        let follows = match groove.law {
+            Law::Normalised { .. } => true,
+            Law::Sliding { lead, .. } => lead > 0.0,
+            Law::Bristle { .. } => false,
+        };
+        let same = match (law, groove.elastic()) {
+            (FrictionLaw::Coulomb, None) => follows,
+            (FrictionLaw::Epp { .. }, Some(elastic)) => follows && elastic.weight == 1.0,
             _ => false,
         };
         same && self.solution.defect() <= tolerance

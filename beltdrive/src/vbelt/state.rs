@@ -9,6 +9,10 @@ use crate::results::v_warnings;
 use std::sync::Arc;
 use web_time::Instant;
 
+/// What the checks of a state allow, in multiples of the tolerance: integrals of the continuous solution are as
+/// accurate as its defect.
+const ALLOWED: f64 = 10.0;
+
 /// The steady state of a solved drive.
 pub(super) fn steady_state(path: &Path<'_>, solved: Solved, start: Instant) -> SteadyState {
     let mut state = describe(path, &solved);
@@ -119,8 +123,7 @@ fn on_pulley(solved: &Solved, pulley: usize) -> OnPulley<'_> {
 /// ```
 fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Check> {
     let problem = &solved.problem;
-    // Integrals of the continuous solution are as accurate as its defect.
-    let limit = 10.0 * path.tolerance;
+    let limit = ALLOWED * path.tolerance;
     let tight = solved.tight_tension().abs();
     let moment = |pulley: usize| {
         let change = on_pulley(solved, pulley).change_of_moment();
@@ -158,10 +161,17 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
         checks.push(check("friction against the slip", gained, limit));
     }
     if problem.has_zones() {
-        let wrong = wrong_friction(&on);
+        let wrong = wrong_friction(solved);
         checks.push(check("friction zones of their kind", wrong, limit));
     }
     checks
+}
+
+/// Whether friction is against the slip, and elastic or at its limit where it is taken to be.
+pub(super) fn obeys_friction(solved: &Solved, tolerance: f64) -> bool {
+    let limit = ALLOWED * tolerance;
+    let is_right = !solved.problem.has_zones() || wrong_friction(solved) <= limit;
+    is_right && power_gained(solved) <= limit
 }
 
 /// Power that the belt gains where the traction pulls with its slip, as a share of that which it spends
@@ -173,17 +183,24 @@ pub(super) fn power_gained(solved: &Solved) -> f64 {
     gained / (friction + gained)
 }
 
-/// By how much friction is above its limit in elastic zones or below it in slip zones, as a share of the
-/// largest pressure.
-fn wrong_friction(on: &[OnPulley<'_>; 2]) -> f64 {
+/// By how much friction is above its limit in elastic zones, below it in slip zones, or more than holds a belt that
+/// sticks, or the pressure below zero, as a share of the largest pressure.
+fn wrong_friction(solved: &Solved) -> f64 {
+    let on = [DRIVEN, DRIVER].map(|pulley| on_pulley(solved, pulley));
     let (mut highest, mut wrong) = (0.0f64, 0.0f64);
-    for on in on {
+    for on in &on {
         on.for_each_point(|stretch, _, _, y| {
-            highest = highest.max(on.contact(stretch.regime, y).pressure);
+            let pressure = on.contact(stretch.regime, y).pressure;
+            highest = highest.max(pressure);
+            wrong = wrong.max(-pressure);
             let excess = super::limit_excess(on.groove, y, on.omega, on.flow);
             wrong = wrong.max(match stretch.regime {
                 Regime::Elastic => excess,
                 Regime::Slip => -excess,
+                Regime::Stick => {
+                    let limit = on.contact(Regime::Either, y).friction();
+                    on.contact(Regime::Stick, y).friction() - limit
+                }
                 Regime::Either => 0.0,
             });
         });
@@ -225,6 +242,7 @@ fn friction_zones(solved: &Solved, pulley: usize) -> Vec<Zone> {
         let kind = match regime {
             Regime::Elastic => ZoneKind::Elastic,
             Regime::Slip | Regime::Either => ZoneKind::Slip,
+            Regime::Stick => ZoneKind::Adhesion,
         };
         extend(&mut zones, kind, from, to);
     }

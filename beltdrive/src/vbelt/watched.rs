@@ -102,6 +102,7 @@ impl Tracer<'_> {
                     kind: match here.problem.regime(segment) {
                         Regime::Elastic => ZoneKind::Elastic,
                         Regime::Slip | Regime::Either => ZoneKind::Slip,
+                        Regime::Stick => ZoneKind::Adhesion,
                     },
                 })
             }

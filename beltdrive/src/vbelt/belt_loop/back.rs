@@ -48,8 +48,8 @@ impl Back {
     /// Number of states of the contact but for the elongation.
     pub(super) fn states(&self) -> usize {
         match self.law {
-            Law::Coulomb | Law::Sliding { .. } => LAW,
-            Law::Epp { .. } | Law::Bristle { .. } => LAW + 1,
+            Law::Normalised { elastic: None } | Law::Sliding { elastic: None, .. } => LAW,
+            _ => LAW + 1,
         }
     }
 
@@ -62,20 +62,18 @@ impl Back {
         let epsilon = match self.law {
             // Only keeps the derivative of |e| finite where e = 0.
             Law::Bristle { .. } => 1e-20,
-            Law::Coulomb | Law::Epp { .. } | Law::Sliding { .. } => self.epsilon,
+            Law::Normalised { .. } | Law::Sliding { .. } => self.epsilon,
         };
         let size = (slip * slip + epsilon.powi(2)).sqrt();
         let friction = match self.law {
             Law::Bristle { .. } => tractive * state[LAW],
-            Law::Coulomb | Law::Sliding { .. } => {
-                tractive * (slip / size) * self.friction_coefficient
-            }
-            Law::Epp {
-                stiffness, weight, ..
-            } => {
+            Law::Normalised { elastic } | Law::Sliding { elastic, .. } => {
                 let limit = tractive * self.friction_coefficient;
-                let elastic = state[LAW].abs() * stiffness;
-                limit.min(limit + (elastic - limit) * weight) * (slip / size)
+                let friction = elastic.map_or(limit, |elastic| {
+                    let excess = state[LAW].abs() * elastic.stiffness - limit;
+                    limit.min(limit + excess * elastic.weight)
+                });
+                friction * (slip / size)
             }
         };
         Rubbing {
@@ -91,9 +89,12 @@ impl Back {
     pub(super) fn rates<T: Real>(&self, at: &Rubbing<T>, state: &[T], rates: &mut [T]) {
         rates[TENSION] = at.friction;
         match self.law {
-            Law::Coulomb | Law::Sliding { .. } => {}
-            Law::Epp { unstretched, .. } => rates[LAW] = at.tension - unstretched,
-            Law::Bristle { stiffness } => {
+            Law::Normalised { elastic } | Law::Sliding { elastic, .. } => {
+                if let Some(elastic) = elastic {
+                    rates[LAW] = at.tension - elastic.unstretched;
+                }
+            }
+            Law::Bristle { stiffness, .. } => {
                 let saturation = at.size / self.friction_coefficient;
                 rates[LAW] = (at.slip - saturation * state[LAW]) * stiffness;
             }

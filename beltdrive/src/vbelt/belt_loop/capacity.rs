@@ -14,7 +14,7 @@
 //! the law: it carries R F (exp(μ φ) − 1).
 
 use super::super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
-use super::super::{Contact, Groove, Law, Regime};
+use super::super::{Contact, Groove, Regime};
 use super::climb::{followed, on_the_way};
 use super::levelling::Levelling;
 use super::problem::FLOW;
@@ -65,8 +65,8 @@ impl Problem for OneGroove {
         let flow = T::from_f64(self.flow);
         let contact = Contact::new(&self.groove, Regime::Either, y, p[SPEED], flow);
         contact.rates(&self.groove, y, dy);
-        if let Law::Epp { .. } = self.groove.law {
-            dy[LAW] -= self.reference;
+        if self.groove.elastic().is_some() {
+            dy[self.groove.displacement()] -= self.reference;
         }
         for rate in dy {
             *rate *= p[LENGTH];

@@ -22,7 +22,7 @@
 //! are parameters.
 
 use super::super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
-use super::super::{Contact, EndAngles, Law, Regime, Units};
+use super::super::{Contact, EndAngles, Regime, Units};
 use super::back;
 use super::plane::{Laid, Plane};
 use super::seat::{Seat, scaled_law};
@@ -157,8 +157,8 @@ impl LoopProblem {
     /// The same loop with EPP friction blended into Coulomb friction by `share` in \[0, 1\].
     pub(super) fn with_epp_weight(mut self, share: f64) -> Self {
         for law in self.seats.iter_mut().filter_map(Seat::law_mut) {
-            if let Law::Epp { weight, .. } = law {
-                *weight = share;
+            if let Some(elastic) = law.elastic_mut() {
+                elastic.weight = share;
             }
         }
         self

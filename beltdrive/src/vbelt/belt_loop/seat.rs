@@ -1,5 +1,6 @@
 //! How the belt touches a pulley, scaled.
 
+use super::super::groove::Elastic;
 use super::super::{Groove, Law, Strand, Units};
 use super::back::Back;
 use crate::FrictionLaw;
@@ -87,7 +88,7 @@ pub(super) fn frictionless(belt_loop: &BeltLoop, pulley: &LoopPulley, units: Uni
         cos_beta,
         friction_coefficient: 0.0,
         radial_stiffness: units.radial_stiffness(belt.radial_stiffness, pulley.radius),
-        law: Law::Coulomb,
+        law: Law::Normalised { elastic: None },
         epsilon: 1.0,
     }
 }
@@ -98,12 +99,15 @@ pub(super) fn scaled_law(law: FrictionLaw, units: Units, radius: f64) -> Law {
     match law {
         FrictionLaw::Bristle { stiffness } => Law::Bristle {
             stiffness: stiffness * radius,
+            elastic: None,
         },
-        FrictionLaw::Epp { stiffness } => Law::Epp {
-            stiffness: units.friction_stiffness(stiffness, radius),
-            unstretched: 0.0,
-            weight: 1.0,
+        FrictionLaw::Epp { stiffness } => Law::Normalised {
+            elastic: Some(Elastic {
+                stiffness: units.friction_stiffness(stiffness, radius),
+                unstretched: 0.0,
+                weight: 1.0,
+            }),
         },
-        _ => Law::Coulomb,
+        _ => Law::Normalised { elastic: None },
     }
 }

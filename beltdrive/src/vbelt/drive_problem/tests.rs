@@ -23,15 +23,28 @@ fn every_condition_is_written_and_none_is_missing() {
         &[Regime::Elastic, Regime::Slip],
         &[Regime::Slip, Regime::Elastic, Regime::Slip],
     ]);
+    let sticking = problem(LAWS[1]).with_zones([
+        &[
+            Regime::Elastic,
+            Regime::Stick,
+            Regime::Elastic,
+            Regime::Slip,
+        ],
+        &[Regime::Slip, Regime::Slip],
+    ]);
+    let normalised = epp.clone().with_direction(false);
     let fixed = epp
         .clone()
         .with_unknown_tight_tension(Instead::DriverLength(3.4));
-    for (problem, unknowns) in LAWS.map(problem).into_iter().chain([epp, fixed]).zip([
-        2 * 5 + 4,
+    let zoned = [epp, sticking, normalised, fixed];
+    for (problem, unknowns) in LAWS.map(problem).into_iter().chain(zoned).zip([
         2 * 5 + 4,
         2 * 6 + 4,
+        2 * 6 + 4,
+        5 * 6 + 7,
+        6 * 6 + 8,
         5 * 5 + 7,
-        5 * 5 + 8,
+        5 * 6 + 8,
     ]) {
         assert_eq!(problem.condition_count(), unknowns);
         let segments = problem.segments();
@@ -127,8 +140,8 @@ proptest! {
             if matches!(law, FrictionLaw::Epp { .. }) {
                 // Keep away from the kinks at u = 0 and at the limit of the elastic friction.
                 let speed = DriveProblem::speed(segment, &p);
-                let excess = limit_excess(problem.groove(segment), &y[..5], speed, p[1]);
-                prop_assume!(y[4].abs() > 1e-4 && excess.abs() > 1e-2);
+                let excess = limit_excess(problem.groove(segment), &y, speed, p[1]);
+                prop_assume!(y[5].abs() > 1e-4 && excess.abs() > 1e-2);
             }
             let n = problem.groove(segment).states();
             let z: Vec<f64> = y[..n].iter().chain(&p).copied().collect();

@@ -1,43 +1,34 @@
 //! A contact cut into the zones on which its equations are smooth.
 //!
 //! Elastic and slipping friction cross at places that are not known beforehand, and the right-hand side
-//! has a kink there. Every contact also has a turn: the belt that was pulled into the groove begins to be
+//! has a kink there. Elastic friction that grows along the contact may come to hold the belt, which then sticks
+//! until it breaks loose. Every contact also has a turn: the belt that was pulled into the groove begins to be
 //! lifted out of it, and where it hardly slips the traction turns within an arc that is as short as the slip
 //! is small. Once the zones between these places are segments of unknown length, every segment is smooth
 //! and the mesh follows the turn.
 
+mod kinds;
+mod samples;
+
 use super::path::Solved;
-use super::{
-    ANGLE, Contact, DRIVEN, DRIVER, DriveProblem, LAW, Law, MAX_STATES, Regime, limit_excess,
-};
+use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, LAW, Law, MAX_STATES, Regime};
+use kinds::{Zone, cut_at_turn, friction_zones, one_zone, without_kinks};
+use samples::{Sample, samples};
 
-use std::f64::consts::TAU;
-
-/// Samples per mesh interval in search of crossings.
-const SAMPLES: usize = 8;
-/// A zone shorter than this share of the contact is not told from its neighbours.
-const SHORTEST_ZONE: f64 = 1e-4;
 /// Nodes nearer than this to each other or to the ends of a zone, in its length, are left out.
 const NODE_MARGIN: f64 = 1e-4;
 
-/// A zone of one kind between two places on a pulley, in scaled arc length from the entry.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Zone {
-    regime: Regime,
-    from: f64,
-    to: f64,
-}
-
-/// What is seen of a solution at a place on a pulley.
-#[derive(Clone, Copy, Debug)]
-struct Sample {
-    place: f64,
-    /// Excess of elastic friction over its limit.
-    limit: f64,
-    /// Excess of the traction over that in the middle of the turn.
-    turn: f64,
-    /// Direction of the traction, continuous along the pulley.
-    direction: f64,
+/// Where a belt that sticks is taken to break loose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Loose {
+    /// Where the solution shows it.
+    Seen,
+    /// Where the bristles hold it with the smallest share of their limit, which falls as long as it sticks.
+    Early,
+    /// Where the bristles reach their limit again.
+    Late,
+    /// At once: it does not stick.
+    Never,
 }
 
 /// A solution cut anew into zones: the guess of the problem that has them as segments.
@@ -50,23 +41,35 @@ pub(super) struct Cut<'a> {
 impl<'a> Cut<'a> {
     /// The zones that a solution shows.
     pub(super) fn of(solved: &'a Solved) -> Self {
-        Self::of_samples(solved, false)
+        Self::new(solved, false, [Loose::Seen; 2])
     }
 
     /// As [`Cut::of`], with a last slip zone where elastic friction reaches the exit. The belt presses no
     /// longer there, so that it slips at the very end, on a way that may lie between two samples.
     pub(super) fn with_exits(solved: &'a Solved) -> Self {
-        Self::of_samples(solved, true)
+        Self::new(solved, true, [Loose::Seen; 2])
     }
 
-    fn of_samples(solved: &'a Solved, at_exit: bool) -> Self {
-        let samples = [DRIVEN, DRIVER].map(|pulley| samples(solved, pulley, at_exit));
+    /// The zones that bristles show on the driven pulley and the driver, those of elastic and slipping friction
+    /// taken together.
+    pub(super) fn of_bristles(solved: &'a Solved, loose: [Loose; 2]) -> Self {
+        Self::new(solved, false, loose)
+    }
+
+    fn new(solved: &'a Solved, at_exit: bool, loose: [Loose; 2]) -> Self {
+        let samples =
+            [DRIVEN, DRIVER].map(|pulley| samples(solved, pulley, at_exit, loose[pulley]));
         let p = solved.solution.parameters();
         let pulleys = [DRIVEN, DRIVER].map(|pulley| {
             let length = solved.problem.contact_length(pulley, p);
-            match solved.problem.has_zones() {
-                true => friction_zones(&samples[pulley], length),
-                false => around_turn(&samples[pulley], length),
+            let zones = match (solved.problem.has_zones(), loose[pulley]) {
+                (true, Loose::Seen) => friction_zones(&samples[pulley], length),
+                (true, _) => without_kinks(friction_zones(&samples[pulley], length)),
+                (false, _) => one_zone(length),
+            };
+            match solved.problem.groove(pulley).law {
+                Law::Normalised { .. } => zones,
+                _ => cut_at_turn(zones, &samples[pulley], length),
             }
         });
         Self {
@@ -74,6 +77,22 @@ impl<'a> Cut<'a> {
             samples,
             pulleys,
         }
+    }
+
+    /// Whether they are the segments of the solution but for the place of the turn.
+    pub(super) fn is_nearly_kept(&self) -> bool {
+        let kinds = |zones: &[Regime]| {
+            let mut kinds = zones.to_vec();
+            kinds.dedup();
+            kinds
+        };
+        let seen = self.regimes().map(|zones| kinds(&zones));
+        seen == self.solved.problem.regimes().map(kinds)
+    }
+
+    /// Whether they are the same zones at the same places.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        self.pulleys == other.pulleys
     }
 
     fn regimes(&self) -> [Vec<Regime>; 2] {
@@ -120,137 +139,6 @@ impl<'a> Cut<'a> {
     }
 }
 
-/// Looks at a solution along one pulley, at the exit too if asked for.
-fn samples(solved: &Solved, pulley: usize, at_exit: bool) -> Vec<Sample> {
-    let (problem, solution) = (&solved.problem, &solved.solution);
-    let p = solution.parameters();
-    let groove = problem.groove(pulley);
-    let (speed, flow) = (DriveProblem::speed(pulley, p), DriveProblem::flow(p));
-    let mut samples: Vec<Sample> = Vec::new();
-    let mut before = 0.0;
-    for segment in problem.zones(pulley) {
-        let length = p[DriveProblem::length_index(segment)];
-        let mut y = [0.0; MAX_STATES];
-        let y = &mut y[..solution.segments()[segment].states];
-        let inside = solution.mesh(segment).windows(2).flat_map(|pair| {
-            let share = |sample| (sample as f64 + 0.5) / SAMPLES as f64;
-            (0..SAMPLES).map(move |sample| pair[0] + (pair[1] - pair[0]) * share(sample))
-        });
-        let is_last = segment + 1 == problem.zones(pulley).end;
-        for s in inside.chain((at_exit && is_last).then_some(1.0)) {
-            solution.state(segment, s, y);
-            let contact = problem.contact(segment, y, p);
-            let direction = direction(groove.law, y, &contact);
-            samples.push(Sample {
-                place: before + s * length,
-                limit: limit_excess(groove, y, speed, flow),
-                turn: contact.turn_excess(groove),
-                direction: samples.last().map_or(direction, |last| {
-                    let turns = (last.direction - direction) / TAU;
-                    direction + turns.round() * TAU
-                }),
-            });
-        }
-        before += length;
-    }
-    samples
-}
-
-/// The direction of the traction, up to whole turns.
-fn direction(law: Law, y: &[f64], contact: &Contact<f64>) -> f64 {
-    match law {
-        Law::Sliding { .. } => y[LAW],
-        Law::Bristle { .. } => y[LAW].atan2(y[LAW + 1]),
-        Law::Coulomb | Law::Epp { .. } => contact.slip[0].atan2(contact.slip[1]),
-    }
-}
-
-/// The zones before and behind the turn.
-fn around_turn(samples: &[Sample], length: f64) -> Vec<Zone> {
-    let zone = |from: f64, to: f64| Zone {
-        regime: Regime::Slip,
-        from,
-        to,
-    };
-    let mut pairs = samples.windows(2).rev();
-    match pairs.find(|pair| pair[0].turn < 0.0 && pair[1].turn >= 0.0) {
-        Some([before, after]) => {
-            let place = crossing(before.place, before.turn, after.place, after.turn);
-            vec![zone(0.0, place), zone(place, length)]
-        }
-        _ => vec![zone(0.0, length)],
-    }
-}
-
-/// The zones of elastic and slipping friction, from the sign of the excess of the one over the other.
-fn friction_zones(samples: &[Sample], length: f64) -> Vec<Zone> {
-    let mut zones: Vec<Zone> = Vec::new();
-    // The last sample, and the size of the limit, below which a sign is rounding.
-    let (mut last, mut largest) = (None::<Sample>, 0.0f64);
-    for &sample in samples {
-        let Sample { place, limit, .. } = sample;
-        largest = largest.max(limit.abs());
-        if limit.abs() <= 1e-9 * largest {
-            continue;
-        }
-        let regime = if limit > 0.0 {
-            Regime::Slip
-        } else {
-            Regime::Elastic
-        };
-        match zones.last_mut() {
-            Some(zone) if zone.regime == regime => zone.to = place,
-            Some(zone) => {
-                let before = last.unwrap_or(sample);
-                let from = crossing(before.place, before.limit, place, limit);
-                zone.to = from;
-                let to = place;
-                zones.push(Zone { regime, from, to });
-            }
-            None => zones.push(Zone {
-                regime,
-                from: 0.0,
-                to: place,
-            }),
-        }
-        last = Some(sample);
-    }
-    if let Some(zone) = zones.last_mut() {
-        zone.to = length;
-    }
-    merge_short(zones, SHORTEST_ZONE * length)
-}
-
-/// Where a value that changes its sign between two places is zero, linearly.
-fn crossing(from: f64, before: f64, to: f64, after: f64) -> f64 {
-    from + (to - from) * before / (before - after)
-}
-
-/// Gives zones shorter than `shortest` to their neighbours and joins zones of one kind.
-fn merge_short(zones: Vec<Zone>, shortest: f64) -> Vec<Zone> {
-    let mut merged: Vec<Zone> = Vec::with_capacity(zones.len());
-    for mut zone in zones {
-        match merged.last_mut() {
-            Some(last) if last.to - last.from < shortest => {
-                zone.from = last.from;
-                *last = zone;
-            }
-            Some(last) if last.regime == zone.regime || zone.to - zone.from < shortest => {
-                last.to = zone.to;
-            }
-            _ => merged.push(zone),
-        }
-    }
-    merged.dedup_by(|next, zone| {
-        let same = zone.regime == next.regime;
-        if same {
-            zone.to = next.to;
-        }
-        same
-    });
-    merged
-}
-
 /// The segment of a solution with a place on a pulley (scaled arc length from the entry), and s
 /// there.
 fn locate(solved: &Solved, pulley: usize, place: f64) -> (usize, f64) {
@@ -276,7 +164,7 @@ pub(super) fn angles(solved: &Solved, pulley: usize) -> Vec<(Regime, [f64; 2])> 
     };
     let p = solved.solution.parameters();
     let length = solved.problem.contact_length(pulley, p);
-    friction_zones(&samples(solved, pulley, false), length)
+    friction_zones(&samples(solved, pulley, false, Loose::Seen), length)
         .into_iter()
         .map(|zone| (zone.regime, [zone.from, zone.to].map(angle)))
         .collect()
@@ -293,6 +181,7 @@ impl bvp::Guess for Cut<'_> {
         self.solved.solution.state(known, s, &mut states[..count]);
         if let Law::Bristle { .. } = self.solved.problem.groove(pulley).law {
             states[LAW] = self.direction(pulley, place);
+            states[LAW + 1] = states[LAW + 2];
         }
         y.copy_from_slice(&states[..y.len()]);
     }

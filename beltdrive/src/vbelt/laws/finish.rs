@@ -1,0 +1,131 @@
+//! The end of the way: zones of the right kind, the tolerance, and a smoothing without effect.
+
+use super::GREAT_STEP;
+use crate::FrictionLaw;
+use crate::vbelt::DriveProblem;
+use crate::vbelt::path::{Effort, Path, Solved, Stuck};
+use crate::vbelt::zones::Cut;
+
+/// ℓ/R or ε at which the profile is first resolved to the tolerance.
+pub(in crate::vbelt) const RESOLVED: f64 = 1e-7;
+/// ε below which slip velocities drown in the rounding of the speeds they are differences of; no effect of ℓ
+/// was seen to need one as short.
+pub(in crate::vbelt) const SMALLEST: f64 = 1e-12;
+/// The effect of ℓ may be this share of the tolerance.
+const LAG_SHARE: f64 = 0.1;
+/// The effect of ε may be this share of the tolerance.
+pub(in crate::vbelt) const EFFECT_SHARE: f64 = 0.3;
+/// Zones are found anew at most so often; if they still change, the check of the state says so.
+const MAX_CUTS: usize = 8;
+
+impl Path<'_> {
+    /// A solution with its zones found anew, until every zone is of the kind it was taken for. Rough solutions
+    /// keep zones that could not be changed: those of a shorter ℓ may be found again.
+    pub(super) fn split_zones(&mut self, solved: Solved, effort: Effort) -> Result<Solved, Stuck> {
+        let mut here = solved;
+        for _ in 0..MAX_CUTS {
+            let cut = Cut::of(&here);
+            if cut.is_kept() {
+                break;
+            }
+            let problem = cut.apply(here.problem.clone());
+            here = match self.attempt(problem, &cut, effort) {
+                Ok(solved) => solved,
+                Err(_) if effort.is_rough() || cut.is_nearly_kept() => break,
+                Err(cause) => return Err(Stuck::after(here, cause)),
+            };
+        }
+        Ok(here)
+    }
+
+    /// A solution with its zones found anew where they are segments.
+    pub(in crate::vbelt) fn keep_zones(
+        &mut self,
+        solved: Solved,
+        effort: Effort,
+    ) -> Result<Solved, Stuck> {
+        if solved.problem.is_split() {
+            self.split_zones(solved, effort)
+        } else {
+            Ok(solved)
+        }
+    }
+
+    /// Solves to the tolerance, and smooths less until the effect of that is below that.
+    pub(in crate::vbelt) fn finish(&mut self, rough: Solved) -> Result<Solved, Stuck> {
+        if let FrictionLaw::Bristle { .. } = self.drive.law {
+            return self.again(rough, Effort::Final);
+        }
+        let solved = self.again(rough, Effort::Full)?;
+        let here = self.keep_zones(solved, Effort::Final)?;
+        let mut here = self.slip_at_exits(here);
+        let share = match here.problem.has_direction() {
+            true => LAG_SHARE,
+            false => EFFECT_SHARE,
+        };
+        loop {
+            let smoothing = here.problem.smoothing();
+            let finer = self.smooth_less(here.clone(), 0.1 * smoothing, Effort::Full)?;
+            let constants = here.constants().into_iter().zip(finer.constants());
+            let change = constants
+                .map(|(a, b)| (a - b).abs() / (1.0 + b.abs()))
+                .fold(0.0, f64::max);
+            // The effect vanishes at least as fast as ℓ or ε: ten ninths of the change were that of
+            // the larger, one ninth is that of the smaller.
+            self.smoothing_effect = change / 0.9;
+            if self.smoothing_effect <= share * self.tolerance {
+                return self.with_estimate(here);
+            }
+            self.smoothing_effect = change / 9.0;
+            if self.smoothing_effect <= share * self.tolerance || smoothing <= SMALLEST {
+                return self.with_estimate(finer);
+            }
+            here = finer;
+        }
+    }
+
+    /// The solution with a slip zone at the exits that elastic friction reached, if there is one. Without it
+    /// the normal force is negative at the exit, which the checks refuse.
+    fn slip_at_exits(&mut self, here: Solved) -> Solved {
+        if !here.problem.is_split() {
+            return here;
+        }
+        let cut = Cut::with_exits(&here);
+        if cut.is_kept() {
+            return here;
+        }
+        let problem = cut.apply(here.problem.clone());
+        match self.attempt(problem, &cut, Effort::Final) {
+            Ok(slipping) if Cut::of(&slipping).is_kept() => slipping,
+            _ => here,
+        }
+    }
+
+    /// A solution with an estimate of its global error.
+    fn with_estimate(&mut self, solved: Solved) -> Result<Solved, Stuck> {
+        match solved.solution.error_estimate() {
+            Some(_) => Ok(solved),
+            None => self.again(solved, Effort::Final),
+        }
+    }
+
+    /// Shortens ℓ or lowers ε; bristles stay as they are.
+    pub(in crate::vbelt) fn smooth_less(
+        &mut self,
+        start: Solved,
+        smoothing: f64,
+        effort: Effort,
+    ) -> Result<Solved, Stuck> {
+        let from = start.problem.smoothing();
+        if from == 0.0 || from == smoothing {
+            return Ok(start);
+        }
+        let range = [from.ln(), smoothing.ln()];
+        self.follow(start, range, GREAT_STEP, effort, with_smoothing)
+    }
+}
+
+/// The same problem with ℓ/R or ε of eᵗ.
+pub(super) fn with_smoothing(problem: &DriveProblem, t: f64) -> DriveProblem {
+    problem.clone().with_smoothing(t.exp())
+}

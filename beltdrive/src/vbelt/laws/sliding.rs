@@ -1,0 +1,65 @@
+//! Coulomb friction whose direction is a state.
+//!
+//! The direction follows the slip over a length ℓ, without a lead at first, which is what Newton's method
+//! likes, and with a lead from there on, which needs few mesh intervals however short ℓ is.
+
+use super::RESOLVED;
+use crate::FrictionLaw;
+use crate::vbelt::carried::Carried;
+use crate::vbelt::path::{Effort, Path, Solved};
+use crate::vbelt::state::{obeys_friction, power_gained};
+use crate::vbelt::zones::Cut;
+
+/// Lengths ℓ/R with which Coulomb friction is entered, the first that works.
+const FIRST_LAGS: [f64; 2] = [1e-3, 1e-2];
+/// Lengths ℓ/R at which a lead is tried, in this order. On the drive of Kim (2009) the first works from
+/// 1.006 times the slack tension on.
+const LED_LAGS: [f64; 3] = [1e-5, 1e-6, 1e-7];
+/// Share of the power of friction that the belt may gain from a traction on the way that is not against its
+/// slip. Where the traction turns the wrong way round it is 0.03 and more, elsewhere less than 1e-6.
+const WRONG_WAY: f64 = 1e-4;
+
+impl Path<'_> {
+    /// Coulomb friction by way of bristles, if it is found so and friction obeys its law.
+    pub(super) fn coulomb(&mut self, bristles: &Solved, tight: f64) -> Option<Solved> {
+        let cut = Cut::of(bristles);
+        let entered = FIRST_LAGS.into_iter().find_map(|lag| {
+            let problem = self.problem(FrictionLaw::Coulomb, lag, tight);
+            let problem = cut.apply(problem.without_lead());
+            self.attempt(problem, &cut, Effort::Rough).ok()
+        });
+        self.sharpen(entered?)
+    }
+
+    /// ℓ shortened to its end, and the direction led as soon as that can be, if friction obeys its law then.
+    pub(super) fn sharpen(&mut self, entered: Solved) -> Option<Solved> {
+        let mut here = entered;
+        let mut lags = LED_LAGS.into_iter();
+        let sharp = loop {
+            let mut is_stuck = false;
+            here = match self.smooth_less(here, lags.next()?, Effort::Rough) {
+                Ok(shorter) => shorter,
+                // A lead may help on from where it got stuck.
+                Err(stuck) => {
+                    is_stuck = true;
+                    *stuck.last?
+                }
+            };
+            match self.lead(&here) {
+                Some(sharp) => break sharp,
+                None if is_stuck => return None,
+                None => {}
+            }
+        };
+        let solved = self.finish(sharp).ok()?;
+        obeys_friction(&solved, self.tolerance).then_some(solved)
+    }
+
+    /// A direction that is led, with a short ℓ, if the belt gains no power from friction then.
+    fn lead(&mut self, following: &Solved) -> Option<Solved> {
+        let led = following.problem.clone().with_lead();
+        let led = self.attempt(led, &Carried(following), Effort::Rough).ok()?;
+        let sharp = self.smooth_less(led, RESOLVED, Effort::Rough).ok()?;
+        (power_gained(&sharp) <= WRONG_WAY).then_some(sharp)
+    }
+}

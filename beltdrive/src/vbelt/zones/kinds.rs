@@ -1,0 +1,134 @@
+//! Zones of one kind of friction, from what is seen along a pulley.
+
+use super::samples::{Sample, turn};
+use crate::vbelt::Regime;
+
+/// A zone shorter than this share of the contact is not told from its neighbours.
+const SHORTEST_ZONE: f64 = 1e-4;
+/// A turn nearer than this share of the contact to an end of its zone is left to the mesh: a segment as short as
+/// that took Newton's method to a negative length on 2 of 40 drives.
+const SHORTEST_TURN: f64 = 3e-3;
+
+/// A zone of one kind between two places on a pulley, in scaled arc length from the entry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Zone {
+    pub(super) regime: Regime,
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+/// One zone of sliding from entry to exit.
+pub(super) fn one_zone(length: f64) -> Vec<Zone> {
+    vec![Zone {
+        regime: Regime::Slip,
+        from: 0.0,
+        to: length,
+    }]
+}
+
+/// The zones with those of elastic and slipping friction taken together.
+pub(super) fn without_kinks(zones: Vec<Zone>) -> Vec<Zone> {
+    let blurred = zones.into_iter().map(|zone| match zone.regime {
+        Regime::Stick => zone,
+        _ => Zone {
+            regime: Regime::Either,
+            ..zone
+        },
+    });
+    merge_short(blurred.collect(), 0.0)
+}
+
+/// The zones with that which has the turn in two, unless it is at an end of it.
+pub(super) fn cut_at_turn(zones: Vec<Zone>, samples: &[Sample], length: f64) -> Vec<Zone> {
+    let Some([before, after]) = turn(samples) else {
+        return zones;
+    };
+    let place = crossing(before.place, before.turn, after.place, after.turn);
+    let margin = SHORTEST_TURN * length;
+    let halves = |zone: Zone| match zone.regime != Regime::Stick
+        && zone.from + margin < place
+        && place < zone.to - margin
+    {
+        true => vec![
+            Zone { to: place, ..zone },
+            Zone {
+                from: place,
+                ..zone
+            },
+        ],
+        false => vec![zone],
+    };
+    zones.into_iter().flat_map(halves).collect()
+}
+
+/// The zones of elastic and slipping friction, from the sign of the excess of the one over the other.
+pub(super) fn friction_zones(samples: &[Sample], length: f64) -> Vec<Zone> {
+    let mut zones: Vec<Zone> = Vec::new();
+    // The last sample, and the size of the limit, below which a sign is rounding.
+    let (mut last, mut largest) = (None::<Sample>, 0.0f64);
+    for &sample in samples {
+        let Sample { place, limit, .. } = sample;
+        largest = largest.max(limit.abs());
+        if limit.abs() <= 1e-9 * largest {
+            continue;
+        }
+        let regime = match limit > 0.0 {
+            _ if sample.sticks => Regime::Stick,
+            true => Regime::Slip,
+            false => Regime::Elastic,
+        };
+        match zones.last_mut() {
+            Some(zone) if zone.regime == regime => zone.to = place,
+            Some(zone) => {
+                let before = last.unwrap_or(sample);
+                let from = match before.sticks || sample.sticks {
+                    true => 0.5 * (before.place + place),
+                    false => crossing(before.place, before.limit, place, limit),
+                };
+                zone.to = from;
+                let to = place;
+                zones.push(Zone { regime, from, to });
+            }
+            None => zones.push(Zone {
+                regime,
+                from: 0.0,
+                to: place,
+            }),
+        }
+        last = Some(sample);
+    }
+    if let Some(zone) = zones.last_mut() {
+        zone.to = length;
+    }
+    merge_short(zones, SHORTEST_ZONE * length)
+}
+
+/// Where a value that changes its sign between two places is zero, linearly.
+fn crossing(from: f64, before: f64, to: f64, after: f64) -> f64 {
+    from + (to - from) * before / (before - after)
+}
+
+/// Gives zones shorter than `shortest` to their neighbours and joins zones of one kind.
+fn merge_short(zones: Vec<Zone>, shortest: f64) -> Vec<Zone> {
+    let mut merged: Vec<Zone> = Vec::with_capacity(zones.len());
+    for mut zone in zones {
+        match merged.last_mut() {
+            Some(last) if last.to - last.from < shortest => {
+                zone.from = last.from;
+                *last = zone;
+            }
+            Some(last) if last.regime == zone.regime || zone.to - zone.from < shortest => {
+                last.to = zone.to;
+            }
+            _ => merged.push(zone),
+        }
+    }
+    merged.dedup_by(|next, zone| {
+        let same = zone.regime == next.regime;
+        if same {
+            zone.to = next.to;
+        }
+        same
+    });
+    merged
+}
