@@ -269,16 +269,19 @@ impl Run<'_> {
 
     /// The relative defects of a solution; where the error is controlled without those of intervals so short
     /// that their local defects do not show, as next to a jump of the right-hand side: these need not resolve
-    /// it.
+    /// it. All that are not resolved share what does not show: where a state decides on the jump, the
+    /// right-hand side is that of its other side along many short intervals.
     fn relevant_defects<'s>(
         &self,
         solution: &'s Solution,
     ) -> impl Iterator<Item = impl Iterator<Item = f64> + 's> + 's {
+        let Defects { relative, local } = &solution.quality.defects;
+        let all = relative.iter().flatten();
+        let unresolved = all.filter(|&&relative| relative > UNRESOLVED).count();
         let harmless = match self.problem.options.control {
-            Control::Error => UNNOTICED * self.problem.options.tolerance,
+            Control::Error => UNNOTICED * self.problem.options.tolerance / unresolved.max(1) as f64,
             Control::Both | Control::Defect => f64::NEG_INFINITY,
         };
-        let Defects { relative, local } = &solution.quality.defects;
         relative.iter().zip(local).map(move |(relative, local)| {
             let each = relative.iter().zip(local);
             each.map(move |(&relative, &local)| match local <= harmless {

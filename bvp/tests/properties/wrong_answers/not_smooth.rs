@@ -74,6 +74,42 @@ fn jumps_of_any_size_are_found() {
     }
 }
 
+/// y' = 1 + c \[y > θ\], y(0) = 0.
+struct Switch {
+    c: f64,
+    theta: f64,
+}
+
+impl Problem for Switch {
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(1)]
+    }
+
+    fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
+        let beyond = y[0].value() > self.theta;
+        dy[0] = T::from(if beyond { 1.0 + self.c } else { 1.0 });
+    }
+
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+        r[0] = at.start(0)[0];
+    }
+}
+
+#[test]
+fn a_jump_that_a_state_decides_on_is_where_the_state_is() {
+    let mut score = Score::default();
+    for c in [0.3, 3.0, 25.0, 40.0, 60.0] {
+        for i in 0..20 {
+            let theta = place(i);
+            let outcome = from_zero(&Switch { c, theta }, 1, 1e-3);
+            let name = format!("{c} from {theta}");
+            score.count(&name, 1e-3, outcome, |s| s + c * (s - theta).max(0.0));
+        }
+    }
+    // Newton's method does not see what moves the jump, and contracts by c / (1 + c).
+    assert!(score.solved >= 40, "{score:?}");
+}
+
 /// y' = ± c x^(−α), with the solution x^(1 − α); x is s, or 1 − s, where numbers near the end are no nearer to
 /// each other than 1e-16.
 struct Power {
