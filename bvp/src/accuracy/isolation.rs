@@ -65,8 +65,7 @@ pub(crate) fn is_open(a: f64) -> bool {
 /// Whether all states of a solution with this tolerance vanish: any mesh does for that, and may be too coarse
 /// for the directions beside it.
 pub(crate) fn vanishes(x: &Iterate, tolerance: f64) -> bool {
-    let mut states = x.segments.iter().flat_map(|segment| &segment.nodes);
-    states.all(|y| y.abs() <= NEGLIGIBLE * tolerance)
+    x.largest_state() <= NEGLIGIBLE * tolerance
 }
 
 /// From this amplification on a matrix may be singular to rounding: it leaves five digits, and is a lower

@@ -2,7 +2,7 @@
 
 use crate::discretisation::mesh::Mesh;
 use crate::discretisation::tableau::Tableau;
-use crate::kernels::dense::{add_product, add_scaled};
+use crate::kernels::dense::{add_product, add_scaled, max_or_nan};
 use crate::problem::guess::Guess;
 use crate::problem::problem::Segment;
 
@@ -81,6 +81,12 @@ impl Iterate {
             guess.state(index, nodes[last], &mut unknowns.nodes[last * n..]);
         }
         x
+    }
+
+    /// The largest state at a node.
+    pub(crate) fn largest_state(&self) -> f64 {
+        let states = self.segments.iter().flat_map(|segment| &segment.nodes);
+        states.fold(0.0, |largest, y| max_or_nan(largest, y.abs()))
     }
 
     /// self ← x + factor · correction.

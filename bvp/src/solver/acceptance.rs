@@ -90,7 +90,8 @@ impl Acceptance {
             }
             a = problem.amplification(&solution.x);
         }
-        if a * UNIT_ROUNDOFF > harmless || problem.collocation.is_suspect() {
+        let in_all = problem.collocation.amplification_in_all(a, &solution.x);
+        if is_high(in_all) || problem.collocation.is_suspect() {
             self.refuse_rounding(problem, solution, a)?;
         }
         if is_open(a) && problem.rounds(solution) {
@@ -222,10 +223,11 @@ impl Acceptance {
         a: f64,
     ) -> Result<(), Error> {
         let rounding = problem.collocation.rounding(&solution.x);
-        if !exceeds(rounding, a, problem.options.tolerance) {
+        let in_all = problem.collocation.amplification_in_all(a, &solution.x);
+        if !exceeds(rounding, in_all, problem.options.tolerance) {
             return Ok(());
         }
-        let rounding = rounding.max(a * UNIT_ROUNDOFF);
+        let rounding = rounding.max(in_all * UNIT_ROUNDOFF);
         let direction = problem.amplified(&solution.x);
         self.refused = true;
         Err(problem.undetermined(Some(rounding), direction, solution.clone()))

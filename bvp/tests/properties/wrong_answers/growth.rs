@@ -23,6 +23,29 @@ impl Problem for Growth {
     }
 }
 
+/// With the equation at exponents that leave less than a digit: what rounding makes of the start grows to
+/// 1e14 at the end, beside which the solution is too small to be seen.
+#[test]
+fn rounding_beside_what_has_grown_is_seen() {
+    let mut score = Score::default();
+    for i in 0..60 {
+        let exponent = 36.0 + 0.2 * f64::from(i);
+        for lambda in [0.8, 1.7, 3.1] {
+            let problem = Growth {
+                lambda,
+                length: exponent / lambda,
+            };
+            let guess = Constant {
+                states: vec![vec![1.0]],
+                parameters: vec![],
+            };
+            let outcome = solve(&problem, &guess, &Options::to(1e-3));
+            score.count(&format!("{lambda} {exponent}"), 1e-3, outcome, f64::cos);
+        }
+    }
+    assert_eq!(score.solved + score.refused, 180);
+}
+
 #[test]
 fn amplified_rounding_is_seen() {
     let mut score = Score::default();
