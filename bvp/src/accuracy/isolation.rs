@@ -82,27 +82,57 @@ impl Collocation<'_> {
         residual: &mut Residual,
         v: &mut Iterate,
     ) -> f64 {
-        self.force(x, tolerance, residual);
+        let segments = 0..self.equations.segments().len();
+        let sizes: Vec<_> = segments.map(|i| self.interval_sizes(i, x)).collect();
+        self.force(x, &sizes, tolerance, residual);
         self.correction(residual, v);
-        self.local_size(x, tolerance, v)
+        self.local_size(x, &sizes, tolerance, v)
     }
 
-    /// Forcings of the size of the solution `x`, linear on every interval, with random signs of the mean and of
-    /// the slope: a constant would not force what has a mean of zero over every interval, as sin 6πx on three.
-    fn force(&mut self, x: &Iterate, tolerance: f64, residual: &mut Residual) {
+    /// The largest |y| of every state on every interval of a segment: at its nodes and at the two collocation
+    /// points in its middle, as a wave may vanish at all nodes, sin 3πx on three intervals.
+    fn interval_sizes(&self, index: usize, x: &Iterate) -> Vec<f64> {
+        let (n, m) = (self.equations.segments()[index].states, self.tableau.stages);
+        let mut sizes = vec![0.0; n * (self.mesh[index].len() - 1)];
+        specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+            self.write_sizes([m, n], index, x, &mut sizes)));
+        sizes
+    }
+
+    #[inline(always)]
+    fn write_sizes(&self, [m, n]: [usize; 2], index: usize, x: &Iterate, sizes: &mut [f64]) {
+        let (t, mut buffer) = (&*self.tableau, vec![0.0; n]);
+        let y = &mut buffer[..n];
+        let intervals = self.mesh[index].windows(2).zip(sizes.chunks_exact_mut(n));
+        for (i, (ends, sizes)) in intervals.enumerate() {
+            let interval = Interval::new(&x.segments[index], n, t, i, ends);
+            enlarge(sizes, interval.y);
+            enlarge(sizes, interval.next);
+            for j in middle(m) {
+                interval.state(&t.a[j * m..][..m], y);
+                enlarge(sizes, y);
+            }
+        }
+    }
+
+    /// Forcings of the size of the solution `x` on every interval, linear there, with random signs of the mean
+    /// and of the slope: a constant would not force what has a mean of zero over every interval, as sin 6πx on
+    /// three.
+    fn force(&mut self, x: &Iterate, sizes: &[Vec<f64>], tolerance: f64, residual: &mut Residual) {
         let mut signs = Signs::default();
         let m = self.tableau.stages;
-        for (index, r) in residual.equations.iter_mut().enumerate() {
+        for (index, (r, sizes)) in residual.equations.iter_mut().zip(sizes).enumerate() {
             let n = self.equations.segments()[index].states;
             let mesh = &self.mesh[index];
             let length = mesh[mesh.len() - 1] - mesh[0];
             r.nodes.fill(0.0);
             for component in 0..n {
-                let y = Component::new(&x.segments[index].nodes, n, component);
-                let unit = unit(y.largest, tolerance);
-                let vanishes = unit > y.largest;
-                for (i, stages) in r.stages.chunks_exact_mut(m * n).enumerate() {
-                    let size = if vanishes { unit } else { y.at(i).abs() };
+                let largest = Component::new(sizes, n, component).largest;
+                let unit = unit(largest, tolerance);
+                let vanishes = unit > largest;
+                let sizes = sizes[component..].iter().step_by(n);
+                for (stages, &size) in r.stages.chunks_exact_mut(m * n).zip(sizes) {
+                    let size = if vanishes { unit } else { size };
                     let [mean, slope] = [(); 2].map(|()| signs.turn(size / length));
                     for (r, c) in stages.chunks_exact_mut(n).zip(&self.tableau.c) {
                         r[component] = mean + (c - 0.5) * slope;
@@ -116,20 +146,24 @@ impl Collocation<'_> {
         }
     }
 
-    /// The largest entry of a correction relative to the states at its node and the two beside it, or to one
+    /// The largest entry of a correction relative to the states on the intervals beside its place, or to one
     /// unit or the largest state, whichever is smaller, where they are less: forcings of the size of a
     /// solution make changes of its size, wherever it is large or small, unless they are amplified.
     ///
-    /// The same at the two collocation points in the middle of every interval, as a wave may vanish at all nodes:
-    /// sin 3πx on three intervals.
-    ///
     /// States that are the derivative of another one are left out: in a layer that the mesh does not
     /// resolve, and nothing depends on, they are as large as it is thin.
-    fn local_size(&self, x: &Iterate, tolerance: f64, correction: &Iterate) -> f64 {
+    fn local_size(
+        &self,
+        x: &Iterate,
+        sizes: &[Vec<f64>],
+        tolerance: f64,
+        correction: &Iterate,
+    ) -> f64 {
         let m = self.tableau.stages;
-        let segments = self.equations.segments().iter().enumerate();
-        let of_states = segments.fold(0.0, |largest, (index, &Segment { states: n, .. })| {
-            let sizes = self.local_sizes(index, x, tolerance);
+        let segments = self.equations.segments().iter().zip(sizes).enumerate();
+        let of_states = segments.fold(0.0, |largest, (index, (segment, sizes))| {
+            let n = segment.states;
+            let sizes = self.local_sizes(index, sizes, tolerance);
             let of_segment = specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
                 self.largest_change([m, n], index, correction, &sizes)));
             max_or_nan(largest, of_segment)
@@ -140,22 +174,19 @@ impl Collocation<'_> {
         })
     }
 
-    /// For all nodes of a segment the sizes beside which the changes of the states there are large.
-    fn local_sizes(&self, index: usize, x: &Iterate, tolerance: f64) -> Vec<f64> {
-        let nodes = &x.segments[index].nodes;
+    /// For all nodes of a segment the sizes beside which the changes of the states there are large, from
+    /// those on its intervals.
+    fn local_sizes(&self, index: usize, of_intervals: &[f64], tolerance: f64) -> Vec<f64> {
         let n = self.equations.segments()[index].states;
         let least = |state| match self.stages[index].is_slope(state) {
             true => f64::INFINITY,
-            false => unit(Component::new(nodes, n, state).largest, tolerance).min(1.0),
+            false => unit(Component::new(of_intervals, n, state).largest, tolerance).min(1.0),
         };
         let least: Vec<f64> = (0..n).map(least).collect();
-        let mut sizes = least.repeat(nodes.len() / n);
-        for (i, sizes) in sizes.chunks_exact_mut(n).enumerate() {
-            let around = &nodes[i.saturating_sub(1) * n..nodes.len().min((i + 2) * n)];
-            for y in around.chunks_exact(n) {
-                let each = sizes.iter_mut().zip(y);
-                each.for_each(|(size, y)| *size = size.max(y.abs()));
-            }
+        let mut sizes = least.repeat(of_intervals.len() / n + 1);
+        for (i, interval) in of_intervals.chunks_exact(n).enumerate() {
+            enlarge(&mut sizes[i * n..][..n], interval);
+            enlarge(&mut sizes[(i + 1) * n..][..n], interval);
         }
         sizes
     }
@@ -340,6 +371,14 @@ impl Collocation<'_> {
             .map(|(z, p)| (z / (1.0 + p.abs())).powi(2))
             .sum::<f64>();
         product * product / (slopes * changes)
+    }
+}
+
+/// Raises sizes to those of states.
+#[inline(always)]
+fn enlarge(sizes: &mut [f64], y: &[f64]) {
+    for (size, y) in sizes.iter_mut().zip(y) {
+        *size = size.max(y.abs());
     }
 }
 
