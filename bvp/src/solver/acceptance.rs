@@ -100,7 +100,7 @@ impl Acceptance {
                 .doubt(problem, direction, a, solution)
                 .map(Confirmed::On);
         }
-        if is_amplified(a, problem.options.tolerance)
+        if is_amplified(a)
             && let Some(direction) =
                 problem.direction(&solution.x, &solution.quality.defects.local, a)
         {
@@ -197,7 +197,7 @@ impl Acceptance {
             if is_open(a) {
                 break;
             }
-            if !is_amplified(a, problem.options.tolerance)
+            if !is_amplified(a)
                 || is_steady(before, a) && problem.direction(&x, &local, a).is_none()
             {
                 return Ok(mesh);

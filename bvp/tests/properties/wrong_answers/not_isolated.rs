@@ -158,10 +158,11 @@ fn orbits_that_come_in_families_are_refused() {
     }
 }
 
-/// y'' + (k π)² y = q sin((k + 1) π s) with zero ends: sin(k π s) may be added.
+/// y'' + (k π)² y = q sin(m π s), m ≠ k, with zero ends: sin(k π s) may be added.
 struct Resonance {
     k: f64,
     q: f64,
+    m: f64,
 }
 
 impl Problem for Resonance {
@@ -171,7 +172,7 @@ impl Problem for Resonance {
 
     fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {
         dy[0] = y[1];
-        dy[1] = (s * ((self.k + 1.0) * PI)).sin() * self.q - y[0] * (self.k * PI).powi(2);
+        dy[1] = (s * (self.m * PI)).sin() * self.q - y[0] * (self.k * PI).powi(2);
     }
 
     fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
@@ -189,8 +190,32 @@ fn a_resonance_is_refused() {
                     states: vec![vec![value, 0.0]],
                     parameters: vec![],
                 };
-                let outcome = solve(&Resonance { k, q }, &guess, &Options::to(tolerance));
+                let problem = Resonance { k, q, m: k + 1.0 };
+                let outcome = solve(&problem, &guess, &Options::to(tolerance));
                 assert!(outcome.is_err(), "k = {k}, q = {q}, {value}, {tolerance:e}");
+            }
+        }
+    }
+}
+
+/// The load makes less of it than the tolerance, so that any mesh resolves the solution, also one with a wave
+/// of the resonance on every interval.
+#[test]
+fn a_resonance_that_a_load_hardly_shows_is_refused() {
+    for k in [3.0, 4.0, 5.0, 6.0, 7.0] {
+        for beyond in [1.0, 2.0, 3.0] {
+            for q in [-0.15, -0.07, -0.02, 0.01, 0.03, 0.2] {
+                let guess = Constant {
+                    states: vec![vec![0.0, 0.0]],
+                    parameters: vec![],
+                };
+                let problem = Resonance {
+                    k,
+                    q,
+                    m: k + beyond,
+                };
+                let outcome = solve(&problem, &guess, &Options::to(1e-3));
+                assert!(outcome.is_err(), "k = {k}, {beyond}, q = {q}");
             }
         }
     }

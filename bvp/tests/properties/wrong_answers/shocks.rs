@@ -1,7 +1,8 @@
 //! Shocks whose place is exponentially ill determined.
 
-use super::Score;
+use super::{Score, place};
 use bvp::{Ends, Function, Options, Problem, Real, Segment, solve};
+use std::f64::consts::SQRT_2;
 
 /// ε y'' = y y', y(0) = 1, y(1) = −1.
 struct Shock {
@@ -49,4 +50,56 @@ fn a_shock_is_where_it_belongs_or_refused() {
     }
     // Where the slopes at the ends, e^(−1/2ε), are not lost in rounding, all are solved.
     assert!(score.solved > 180, "{score:?}");
+}
+
+/// ε² y'' = y³ − y with y' = 0 at the ends: all solutions are symmetric or antisymmetric about the middle.
+struct Interface {
+    epsilon: f64,
+}
+
+impl Problem for Interface {
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
+    }
+
+    fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
+        dy[0] = y[1];
+        dy[1] = (y[0].powi(3) - y[0]) / self.epsilon.powi(2);
+    }
+
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+        r[0] = at.start(0)[1];
+        r[1] = at.end(0)[1];
+    }
+}
+
+#[test]
+fn an_interface_that_the_ends_hardly_feel_is_in_the_middle_or_refused() {
+    for i in 0..160 {
+        let epsilon = 0.004 * 12f64.powf(f64::from(i) / 160.0);
+        let (at, wide) = (0.15 + 0.7 * place(i), 0.6 + 2.0 * place(3 * i));
+        let rate = 1.0 / (SQRT_2 * epsilon * wide);
+        let guess = Function {
+            state: |_: usize, s: f64| {
+                let tanh = (rate * (s - at)).tanh();
+                [tanh, rate * (1.0 - tanh * tanh)]
+            },
+            parameters: vec![],
+        };
+        let Ok(solution) = solve(&Interface { epsilon }, &guess, &Options::to(1e-3)) else {
+            continue;
+        };
+        let mut y = [[0.0; 2]; 2];
+        let mut asymmetry = [0.0f64; 2];
+        for i in 0..=200 {
+            let s = f64::from(i) / 400.0;
+            solution.state(0, s, &mut y[0]);
+            solution.state(0, 1.0 - s, &mut y[1]);
+            for (asymmetry, sign) in asymmetry.iter_mut().zip([-1.0, 1.0]) {
+                *asymmetry = asymmetry.max((y[0][0] + sign * y[1][0]).abs());
+            }
+        }
+        let [even, odd] = asymmetry;
+        assert!(even.min(odd) <= 2e-2, "{epsilon} from {at}: {even} {odd}");
+    }
 }
