@@ -254,10 +254,14 @@ impl Collocation<'_> {
         let mut change = self.zeros();
         self.correction(residual, &mut change);
         // With a change of the smallest singular value beyond this the exact problem may be singular; one
-        // that is not a number overflowed.
+        // that is not a number overflowed. What makes the nodes superconvergent is known by its order only, of
+        // the error as of z, and where it is amplified highly a change that shows at all may be a hundredth of
+        // the true one. Of the reference set none exceeds 3e-4; of 10 directions in which solutions of random
+        // problems were not isolated, amplified by 1e5 to 5e10, all exceed 8e-3.
+        let allowed = if is_high(a) { NEGLIGIBLE } else { UNNOTICED };
         let segments = self.equations.segments();
         let [change, size] = [&change, &z].map(|v| size_by_component(segments, x, tolerance, v));
-        let isolated = change < UNNOTICED * size;
+        let isolated = change < allowed * size;
         (!isolated).then(|| self.name(x, tolerance, &z))
     }
 

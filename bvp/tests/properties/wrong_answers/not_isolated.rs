@@ -158,6 +158,42 @@ fn orbits_that_come_in_families_are_refused() {
     }
 }
 
+/// The period of Van der Pol's limit cycle, which attracts, and its point with v = 0 on the right.
+fn limit_cycle(mu: f64) -> (f64, [f64; 2]) {
+    let (mut period, mut from) = (2.0 * PI, [2.0, 0.0]);
+    for _ in 0..60 {
+        let problem = Periodic {
+            orbit: Orbit::VanDerPol { mu },
+            period,
+        };
+        let end = along(&problem, from)[2000];
+        let mut slope = [0.0; 2];
+        problem.rhs(0, 0.0, &end, &[], &mut slope);
+        let late = end[1] / slope[1];
+        period *= 1.0 - late;
+        from = [end[0] - late * slope[0], 0.0];
+    }
+    (period, from)
+}
+
+#[test]
+fn a_limit_cycle_that_a_coarse_mesh_seems_to_fix_is_refused() {
+    for i in 0..40 {
+        let mu = 0.15 * 6f64.powf(f64::from(i) / 40.0);
+        let (period, from) = limit_cycle(mu);
+        let problem = Periodic {
+            orbit: Orbit::VanDerPol { mu },
+            period,
+        };
+        for off in [0.0, 1e-6, 1e-3, 1e-2] {
+            if let Ok(solution) = attempt(&problem, [from[0] + off, off], 1e-3) {
+                let rest = solution.start(0).iter().all(|y| y.abs() < 1e-6);
+                assert!(rest, "{mu} {off}: {:?}", solution.start(0));
+            }
+        }
+    }
+}
+
 /// y'' + (k π)² y = q sin(m π s), m ≠ k, with zero ends: sin(k π s) may be added.
 struct Resonance {
     k: f64,
