@@ -83,8 +83,9 @@ impl Acceptance {
             true => problem.amplification(&solution.x),
             false => f64::INFINITY,
         };
-        // A long step leaves its rounding, too.
-        if a * UNIT_ROUNDOFF * problem.newton.moved > harmless {
+        // A long step leaves its rounding, too; and a direction is looked at closely at the solution only.
+        let moved = problem.newton.moved;
+        if a * UNIT_ROUNDOFF * moved > harmless || moved > 0.0 && is_amplified(a) {
             if self.goes_on(problem, solution)? {
                 return Ok(Confirmed::Moved);
             }
