@@ -93,12 +93,17 @@ impl Diagram {
     pub(super) fn strokes(&self) -> Vec<Stroke> {
         let axis = self.axis();
         let is_near = |one: f64, other: f64| (axis.part(one) - axis.part(other)).abs() < 0.004;
+        // Along most of the way up and down, and of the states: these may be dense where curves begin.
         let covers = |one: &[f64], other: &[f64]| {
-            let near = one
-                .iter()
-                .zip(other)
-                .filter(|(one, other)| is_near(**one, **other));
-            2 * near.count() > one.len()
+            let share = (one.len() as f64).recip();
+            let weights = other.windows(2).zip(one).map(|(ends, value)| {
+                let weight = share + (axis.part(ends[1]) - axis.part(ends[0])).abs();
+                (weight, is_near(*value, ends[0]))
+            });
+            let [near, all] = weights.fold([0.0, 0.0], |[near, all], (weight, is_near)| {
+                [near + if is_near { weight } else { 0.0 }, all + weight]
+            });
+            2.0 * near > all
         };
         let curves = self.curves.iter().enumerate();
         let strokes = curves.map(|(index, curve)| match self.curves.len() {
