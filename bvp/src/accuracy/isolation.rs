@@ -10,8 +10,8 @@
 //! the estimated error e, so that S + e is nearer to the exact one; of the differential equations
 //! linearised there z has the defect `d = z' − J(S + e) z − F_p p − r / a`, and by defect correction
 //! ([`global_error`](crate::accuracy::global_error)) the size of A⁻¹ d is the relative change of the
-//! smallest singular value from the discretised problem to the exact one. Where it is of the order of one,
-//! the matrix is regular only by its discretisation: the solution belongs to a family, or is as good as
+//! smallest singular value from the discretised problem to the exact one. Where it shows beside one, the
+//! matrix may be regular only by its discretisation: the solution belongs to a family, or is as good as
 //! one, and z is the direction of the family.
 //!
 //! The amplification is a lower bound of ‖A⁻¹‖ by one solve, with random signs: N. J. Higham, *Accuracy

@@ -17,11 +17,11 @@
 //!    last linearisation was there already, and what Newton's method would still change must be at most 0.3
 //!    tolerances. If it is more, the method goes on from there.
 //! 2. **Rounding does not hide it.** The linearised equations are solved with random forcings of the size of
-//!    the solution, which shows how much they amplify. If the unit roundoff 1.1e-16 times that amplification
-//!    exceeds a tenth of the tolerance, the rounding error is measured by a linear system whose solution
-//!    is known; if it is too large, the error is [`IllConditioned`](Error::IllConditioned).
-//! 3. **It is the only solution near it.** Where the amplification is large, the direction that is amplified
-//!    may lead to other solutions: a periodic orbit without a condition on its phase can be shifted in time.
+//!    the solution, which shows how much they amplify. If that amplification times the largest state is 1000
+//!    or more, the rounding error is measured by a linear system whose solution is known; if it is too large,
+//!    the error is [`IllConditioned`](Error::IllConditioned).
+//! 3. **It is the only solution near it.** Where the amplification is 3.3 or more, the direction that is
+//!    amplified may lead to other solutions: a periodic orbit without a condition on its phase can be shifted in time.
 //!    Such a solution is one of a family, and refused as
 //!    [`SingularConditions`](Error::SingularConditions), which names the direction.
 //! 4. **The right-hand side has been seen between the points of the mesh**: next to every node on both
@@ -68,7 +68,8 @@
 //! * Rounding inside the right-hand side is not seen. Where f is a small difference of large numbers, the
 //!   solution has no more digits than f.
 //! * The estimate uses the Jacobians. Derivatives written by hand, if they are wrong, make it wrong, too
-//!   ([`check_jacobians`](crate::check_jacobians)).
+//!   ([`check_jacobians`](crate::check_jacobians)). A jump of f that a state decides on is in no Jacobian: the
+//!   error grows there by the ratio of the slopes on both sides, which the estimate does not know.
 //! * A layer inside a segment that no place falls into, and that neither the conditions nor the equations
 //!   elsewhere feel, is a peak as above.
 //! * Values far below 1 have an absolute error within the tolerance, and perhaps no correct digit, unless
