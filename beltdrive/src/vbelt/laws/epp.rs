@@ -11,7 +11,7 @@ use crate::vbelt::path::{Effort, Path, Solved, Stuck};
 use crate::vbelt::zones::{Cut, Loose};
 
 /// How many times as stiff as those of the start the bristles are that show the zones, in the order in which
-/// they are tried. Of 40 random drives the first finds 37 and the second one more.
+/// they are tried. Of 45 searches on 40 random drives the first found 43 and the second one more.
 const STIFFER: [f64; 2] = [10.0, 1.0];
 
 /// Where the belt is taken to break loose on the driven pulley and on the driver, in the order in which they are

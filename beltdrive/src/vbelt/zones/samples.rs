@@ -7,13 +7,13 @@ use std::f64::consts::TAU;
 
 /// Samples per mesh interval in search of crossings.
 const SAMPLES: usize = 8;
-/// Bristles below this share of their limit hold the belt. With 0.9 the belt was not seen to stick on 3 of 40
-/// drives where it does; the lag of bristles that slide is less.
+/// Bristles below this share of their limit hold the belt. With 0.9 the belt was not seen to stick on 2 of 40
+/// drives where it does; bristles that slide lag less than that, but in the turn.
 const HOLDING: f64 = 0.98;
 /// Cosine of the direction, from straight down the groove, in which the belt slips until it begins to stick.
 const SINKING: f64 = -0.9;
 /// The belt breaks loose at least this share of the contact before the turn: bristles are too soft to show a way
-/// between that is shorter, and without one Newton's method failed on 2 of 40 drives.
+/// between that is shorter, and without one Newton's method failed on 1 of 40 drives.
 const ROOM: f64 = 0.01;
 
 /// What is seen of a solution at a place on a pulley.
