@@ -145,11 +145,17 @@ fn soft_elastic_friction_holds_the_belt_on_both_pulleys() {
         let stick = pulley.zones[1];
         assert!(stick.to - stick.from > 1.5);
         let profile = &pulley.profile;
-        let inside = profile.angle.iter().zip(&profile.tractive_tension);
-        let tensions: Vec<f64> = inside
-            .filter(|(angle, _)| (stick.from..stick.to).contains(angle))
-            .map(|(_, tension)| *tension)
+        let points = 0..profile.angle.len();
+        let inside: Vec<usize> = points
+            .filter(|&i| (stick.from..stick.to).contains(&profile.angle[i]))
             .collect();
+        let tensions: Vec<f64> = inside
+            .iter()
+            .map(|&i| profile.tractive_tension[i])
+            .collect();
+        // It came to rest sinking.
+        let directions = inside.iter().map(|&i| profile.sliding_angle[i].cos());
+        assert!(directions.fold(-1.0, f64::max) < -0.999);
         let [least, most] = [f64::min, f64::max].map(|pick| {
             let first = tensions[0];
             tensions.iter().copied().fold(first, pick)

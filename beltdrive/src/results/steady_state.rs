@@ -169,7 +169,7 @@ pub struct Profile {
     /// Axial displacement u of the belt against the pulley, m.
     pub displacement: Vec<f64>,
     /// Sliding angle γ, rad: direction of the slip velocity from the outward radius towards the
-    /// motion of the pulley.
+    /// motion of the pulley; where a V-belt sticks, that in which it came to rest.
     pub sliding_angle: Vec<f64>,
     /// Normal force per length, N/m: p on each groove face of a V-belt, n of a flat belt.
     pub normal_force: Vec<f64>,

@@ -242,9 +242,16 @@ impl<T: Real> Contact<T> {
         self.traction[0].hypot(self.traction[1])
     }
 
-    /// Sliding angle γ, from the outward radius towards the motion of the pulley.
-    pub(crate) fn sliding_angle(&self) -> T {
-        self.slip[0].atan2(self.sin_theta)
+    /// Sliding angle γ, from the outward radius towards the motion of the pulley; where the belt sticks, that
+    /// in which it came to rest.
+    pub(crate) fn sliding_angle(&self, state: &[T]) -> T {
+        match self.regime {
+            Regime::Stick => {
+                let (sin, cos) = state[LAW].sin_cos();
+                sin.atan2(cos)
+            }
+            _ => self.slip[0].atan2(self.sin_theta),
+        }
     }
 }
 

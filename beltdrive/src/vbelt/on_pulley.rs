@@ -158,7 +158,7 @@ impl OnPulley<'_> {
                 profile
                     .displacement
                     .push(displacement * units.displacement(radius));
-                profile.sliding_angle.push(contact.sliding_angle());
+                profile.sliding_angle.push(contact.sliding_angle(y));
                 profile
                     .normal_force
                     .push(contact.pressure * units.line_load(radius));
