@@ -8,6 +8,10 @@ const SHORTEST_ZONE: f64 = 1e-4;
 /// A turn nearer than this share of the contact to an end of its zone is left to the mesh: with segments as short
 /// as 1e-4 Newton's method failed on 1 of 40 drives.
 const SHORTEST_TURN: f64 = 3e-3;
+/// A turn in less than this share of the contact from the entry is left to the mesh, too. The belt is lifted out
+/// of the groove at its end; where soft friction turns gradually, the middle of the turn may come to lie anywhere,
+/// and end with the load.
+const EARLIEST_TURN: f64 = 0.7;
 
 /// A zone of one kind between two places on a pulley, in scaled arc length from the entry.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,6 +50,7 @@ pub(super) fn cut_at_turn(zones: Vec<Zone>, samples: &[Sample], length: f64) -> 
     let place = crossing(before.place, before.turn, after.place, after.turn);
     let margin = SHORTEST_TURN * length;
     let halves = |zone: Zone| match zone.regime != Regime::Stick
+        && EARLIEST_TURN * length < place
         && zone.from + margin < place
         && place < zone.to - margin
     {
