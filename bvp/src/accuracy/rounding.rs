@@ -51,7 +51,7 @@ const HARMLESS_PIVOT: f64 = 1e-6;
 const SMALL_STATE: f64 = 0.01;
 
 /// Whether a solution within the tolerance by all other measures may be nothing but rounding, by the rounding
-/// measured, a sample of one set of signs, and by the amplification a of rounding anywhere. The product of a
+/// measured, a sample of one set of signs, and by the amplification a. The product of a
 /// with the unit roundoff counts where what was measured is not far less: in thin layers slopes are amplified
 /// that nothing depends on. A rounding error that is not a number exceeds everything.
 ///

@@ -224,11 +224,10 @@ impl Acceptance {
         a: f64,
     ) -> Result<(), Error> {
         let rounding = problem.collocation.rounding(&solution.x);
-        let in_all = problem.collocation.amplification_in_all(a, &solution.x);
-        if !exceeds(rounding, in_all, problem.options.tolerance) {
+        if !exceeds(rounding, a, problem.options.tolerance) {
             return Ok(());
         }
-        let rounding = rounding.max(in_all * UNIT_ROUNDOFF);
+        let rounding = rounding.max(a * UNIT_ROUNDOFF);
         let direction = problem.amplified(&solution.x);
         self.refused = true;
         Err(problem.undetermined(Some(rounding), direction, solution.clone()))
