@@ -88,25 +88,23 @@ impl<T: Real> Contact<T> {
         let slip_norm = norm.sqrt();
 
         let transverse = penetration * groove.radial_stiffness;
-        let (pressure, traction) = match groove.law {
+        let half_load = transverse * 0.5;
+        let traction = match groove.law {
             Law::Bristle { .. } => {
                 let mu = groove.friction_coefficient;
-                let slipping = groove.pressure(transverse * 0.5, state[LAW + 1]);
+                let slipping = groove.pressure(half_load, state[LAW + 1]);
                 let carrying = match groove.elastic() {
                     Some(_) => groove.friction(regime, state, slipping * mu) / mu,
                     None => slipping,
                 };
-                let traction = [state[LAW] * carrying, state[LAW + 1] * carrying];
-                let axial = transverse * 0.5 - traction[1] * groove.sin_beta;
-                (axial / groove.cos_beta, traction)
+                [state[LAW] * carrying, state[LAW + 1] * carrying]
             }
             _ if regime == Regime::Stick => {
                 // The outward load n is F/r, which keeps the inclination.
                 let tan_beta = groove.sin_beta / groove.cos_beta;
                 let held = tractive / (one - penetration);
                 let up = (transverse * tan_beta - held) * (0.5 * groove.cos_beta);
-                let axial = transverse * 0.5 - up * groove.sin_beta;
-                (axial / groove.cos_beta, [T::from_f64(0.0), up])
+                [T::from_f64(0.0), up]
             }
             Law::Normalised { .. } | Law::Sliding { .. } => {
                 let direction = match groove.law {
@@ -114,13 +112,12 @@ impl<T: Real> Contact<T> {
                     _ => [slip_t / slip_norm, slip_w / slip_norm],
                 };
                 let mu = groove.friction_coefficient;
-                let limit = groove.pressure(transverse * 0.5, direction[1] * mu) * mu;
+                let limit = groove.pressure(half_load, direction[1] * mu) * mu;
                 let friction = groove.friction(regime, state, limit);
-                let traction = direction.map(|d| d * friction);
-                let axial = transverse * 0.5 - traction[1] * groove.sin_beta;
-                (axial / groove.cos_beta, traction)
+                direction.map(|d| d * friction)
             }
         };
+        let pressure = (half_load - traction[1] * groove.sin_beta) / groove.cos_beta;
         Self {
             regime,
             tractive,
@@ -190,7 +187,7 @@ impl<T: Real> Contact<T> {
     }
 
     /// Slip along the direction of the traction.
-    pub(super) fn alignment(&self, state: &[T]) -> T {
+    fn alignment(&self, state: &[T]) -> T {
         let (sin, cos) = state[LAW].sin_cos();
         self.slip[0] * sin + self.slip[1] * cos
     }
