@@ -1,7 +1,7 @@
 //! Whether a solution is good enough: what was found of it must hold at the solution itself.
 
+use crate::accuracy::amplification::{is_amplified, is_high, is_open, is_steady, vanishes};
 use crate::accuracy::further_places::FurtherPlaces;
-use crate::accuracy::isolation::{is_amplified, is_high, is_open, is_steady, vanishes};
 use crate::accuracy::rounding::{UNIT_ROUNDOFF, exceeds};
 use crate::discretisation::mesh::{Mesh, halved};
 use crate::result::error::Error;

@@ -1,8 +1,8 @@
 //! The problem on one mesh after the other: Newton's method on it, the solution, and what its linearisation
 //! tells of that.
 
+use crate::accuracy::amplification::is_open;
 use crate::accuracy::defect::defects;
-use crate::accuracy::isolation::is_open;
 use crate::accuracy::rounding::NO_DIGIT;
 use crate::discretisation::iterate::{Iterate, NonFinite};
 use crate::discretisation::mesh::{Mesh, intervals};
