@@ -780,3 +780,63 @@ fn random_loops_are_solved_or_refused_for_a_reason() {
 
 /// Number of random loops.
 const LOOPS: usize = 60;
+
+/// Three to five pulleys as in [`random_loop`], with a law.
+fn random_loop_with(law: FrictionLaw, random: &mut Random) -> BeltLoop {
+    let mut belt_loop = random_loop(random);
+    belt_loop.law = law;
+    if choice_of_two(random) {
+        let mut pump = pulley("pump", [0.02, 0.45], 0.04, Side::Inside, Duty::Torque(2.0));
+        pump.friction_coefficient = random.between(0.2, 0.7);
+        belt_loop.pulleys.insert(2, pump);
+    }
+    belt_loop
+}
+
+/// Solves random loops, prints the score and returns how many were neither solved nor refused for a reason.
+fn survey(name: &str, count: usize, law: impl Fn(&mut Random) -> FrictionLaw) -> usize {
+    let mut random = Random(0x2545_f491_4f6c_dd1d);
+    let (mut refused, mut failed, mut seconds) = (0, 0, Vec::new());
+    for index in 0..count {
+        let law = law(&mut random);
+        let belt_loop = random_loop_with(law, &mut random);
+        let start = std::time::Instant::now();
+        let outcome = solve(&belt_loop);
+        let took = start.elapsed().as_secs_f64();
+        match outcome {
+            Ok(_) => seconds.push(took),
+            Err(error @ (LoopError::NotConverged { .. } | LoopError::Violated(_))) => {
+                failed += 1;
+                println!("{index}, {took:.2} s: {error}\n{belt_loop:?}");
+            }
+            Err(error) => {
+                refused += 1;
+                println!("{index}, {took:.2} s: {error}");
+            }
+        }
+    }
+    seconds.sort_by(f64::total_cmp);
+    let [median, most, slowest] =
+        [50, 90, 100].map(|share| seconds[(seconds.len() - 1) * share / 100]);
+    println!(
+        "{name}: {} solved, {refused} refused, {failed} failed; median {median:.2} s, 90 % {most:.2} s, \
+         slowest {slowest:.2} s",
+        seconds.len(),
+    );
+    failed
+}
+
+#[test]
+#[ignore = "minutes: the score of sharper friction, run by hand"]
+fn random_loops_with_coulomb_friction() {
+    assert_eq!(survey("coulomb", 60, |_| FrictionLaw::Coulomb), 0);
+}
+
+#[test]
+#[ignore = "minutes: the score of sharper friction, run by hand"]
+fn random_loops_with_epp_friction() {
+    let law = |random: &mut Random| FrictionLaw::Epp {
+        stiffness: random.between(5e6_f64.ln(), 5e8_f64.ln()).exp(),
+    };
+    assert_eq!(survey("epp", 60, law), 0);
+}

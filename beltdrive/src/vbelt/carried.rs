@@ -1,30 +1,36 @@
 //! A solution as the guess of a neighbouring problem.
 
 use super::path::Solved;
-use super::{DRIVER, LAW, Law, MAX_STATES};
+use super::{BeltProblem, DriveProblem, Law, MAX_STATES};
 
 /// A solution as the guess of a problem with another parameter, of another law (states that the law
-/// does not have are left out, those that it adds begin at zero) or with the tight tension unknown.
-pub(super) struct Carried<'a>(pub(super) &'a Solved);
+/// does not have are left out, those that it adds begin at zero) or with a parameter more.
+pub(super) struct Carried<'a, P = DriveProblem>(pub(super) &'a Solved<P>);
 
-impl bvp::Guess for Carried<'_> {
+impl<P: BeltProblem> bvp::Guess for Carried<'_, P> {
     fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
-        let solution = &self.0.solution;
+        let Solved { problem, solution } = self.0;
         let known = solution.segments()[segment].states;
         let mut states = [0.0; MAX_STATES];
         solution.state(segment, s, &mut states[..known]);
-        let is_bristle = matches!(self.0.problem.groove(DRIVER).law, Law::Bristle { .. });
-        if is_bristle && y.len() < known {
-            states[LAW..].fill(0.0);
+        let law = problem.law_states(segment);
+        // The states behind those of the law stay the last ones.
+        let behind = known - law.end;
+        let end = y.len() - behind;
+        y[end..].copy_from_slice(&states[law.end..known]);
+        if matches!(problem.law(), Law::Bristle { .. }) && end < law.end {
+            states[law.start..].fill(0.0);
         }
-        y.copy_from_slice(&states[..y.len()]);
+        states[law.end..].fill(0.0);
+        y[..end].copy_from_slice(&states[..end]);
     }
 
     fn parameters(&self, p: &mut [f64]) {
-        let known = self.0.solution.parameters();
+        let Solved { problem, solution } = self.0;
+        let known = solution.parameters();
         let common = known.len().min(p.len());
         p[..common].copy_from_slice(&known[..common]);
-        p[common..].fill(self.0.tight_tension());
+        p[common..].fill(problem.behind_lengths(solution));
     }
 
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {

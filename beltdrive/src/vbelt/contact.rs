@@ -287,7 +287,14 @@ mod tests {
     use super::*;
     use crate::vbelt::groove::Elastic;
 
-    fn groove(law: Law, epsilon: f64) -> Groove {
+    fn groove(law: Law, normalisation: f64) -> Groove {
+        let law = match law {
+            Law::Normalised { elastic, .. } => Law::Normalised {
+                epsilon: normalisation,
+                elastic,
+            },
+            law => law,
+        };
         let (sin_beta, cos_beta) = 18_f64.to_radians().sin_cos();
         Groove {
             strand: Strand {
@@ -299,7 +306,6 @@ mod tests {
             friction_coefficient: 0.4,
             radial_stiffness: 80.0,
             law,
-            epsilon,
         }
     }
 
@@ -309,10 +315,16 @@ mod tests {
             unstretched: 0.15,
             weight,
         });
-        Law::Normalised { elastic }
+        Law::Normalised {
+            epsilon: 0.0,
+            elastic,
+        }
     }
 
-    const COULOMB: Law = Law::Normalised { elastic: None };
+    const COULOMB: Law = Law::Normalised {
+        epsilon: 0.0,
+        elastic: None,
+    };
 
     /// F, θ, x, φ, then the state of EPP, with ω and G.
     const STATE: [f64; 5] = [0.7, 0.12, 0.03, 1.1, 0.3];

@@ -6,7 +6,7 @@
 //! only set the direction of a branch, never the place of a point on it.
 
 use super::groove::Groove;
-use super::{DRIVEN, DRIVER, DriveProblem, Regime, Scales, Solved};
+use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, Regime, Scales, Solved};
 use crate::Drive;
 use crate::input::Key;
 use bvp::{Ends, Equations, Problem, Segment, Shape};
@@ -32,7 +32,7 @@ pub(super) struct DriveFamily {
     entries: Vec<Entry>,
     force: f64,
     smoothing: f64,
-    regimes: [Vec<Regime>; 2],
+    regimes: Vec<Vec<Regime>>,
     has_direction: bool,
     segments: Vec<Segment>,
     /// Number of parameters of a member.
@@ -60,7 +60,7 @@ impl DriveFamily {
             entries,
             force: problem.scales().units.force,
             smoothing: problem.smoothing(),
-            regimes: problem.regimes().map(<[Regime]>::to_vec),
+            regimes: problem.regimes(),
             has_direction: problem.has_direction(),
             segments: Problem::segments(problem).to_vec(),
             constants: Problem::parameters(problem),
@@ -100,11 +100,10 @@ impl DriveFamily {
     /// Its problem.
     pub(super) fn member(&self, values: &[f64]) -> DriveProblem {
         let drive = self.drive(values);
-        let [driven, driver] = &self.regimes;
         let scales = Scales::with_force(&drive, self.force);
         DriveProblem::new(&drive, scales, self.smoothing)
             .with_direction(self.has_direction)
-            .with_zones([driven, driver])
+            .with_zones(&self.regimes)
     }
 
     /// Works with the members at the values of the entries among the parameters `p`.

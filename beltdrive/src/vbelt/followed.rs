@@ -17,7 +17,7 @@ use super::path::{Path, Solved};
 use super::piece::{FINER, discretisation, steps};
 use super::state::describe;
 use super::zones::Cut;
-use super::{DRIVER, DriveProblem, INCLINATION};
+use super::{BeltProblem, DRIVER, DriveProblem, INCLINATION};
 use crate::{LimitCurvePoint, LimitReason, StateSummary};
 use bvp::{Family, Solution};
 use continuation::{Branch, Direction, Kind, LimitPointCurve, Point, Stop, System, TwoParameter};

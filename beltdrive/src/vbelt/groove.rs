@@ -23,7 +23,8 @@
 //! until it breaks loose in a direction of its own, at a place that the other end of the contact decides: every
 //! solution behind a place at rest leaves it, and none comes to it but where `q_w` = −f.
 
-use super::Strand;
+use super::{Strand, Units};
+use crate::FrictionLaw;
 use bvp::Real;
 
 /// Index of the tractive tension F among the states.
@@ -37,8 +38,11 @@ pub(super) const ANGLE: usize = 3;
 /// Index of the first state of the friction law: γ, u, or `B_t` followed by `B_w`.
 pub(super) const LAW: usize = 4;
 
-/// The largest number of states of any law; in a loop the elongation of the belt follows them.
-pub(super) const MAX_STATES: usize = LAW + 3;
+/// The largest number of states: those of bristles with the displacement, and in a loop the elongation of the belt.
+pub(super) const MAX_STATES: usize = LAW + 4;
+
+/// Length τ/R over which the traction is led towards the direction of the slip.
+pub(super) const LEAD: f64 = 0.02;
 
 /// How the direction of friction follows from the slip, scaled. EPP friction has an [`Elastic`] part and its
 /// displacement u as the last state; without it friction is Coulomb's, or that of bristles.
@@ -46,6 +50,8 @@ pub(super) const MAX_STATES: usize = LAW + 3;
 pub(crate) enum Law {
     /// Along the slip, which is normalised by ε: states F, θ, x, φ (and u).
     Normalised {
+        /// Normalisation ε of the slip, per unit of belt speed.
+        epsilon: f64,
         /// What EPP friction has more than Coulomb friction.
         elastic: Option<Elastic>,
     },
@@ -68,13 +74,74 @@ pub(crate) enum Law {
 }
 
 impl Law {
+    /// A friction law on a pulley of a radius in m, with the direction of Coulomb and EPP friction as a state that
+    /// follows the slip over the length ℓ/R `lag`. EPP friction is not blended; `unstretched` is the scaled tension
+    /// at which its displacement does not grow.
+    pub(super) fn new(
+        law: FrictionLaw,
+        units: &Units,
+        radius: f64,
+        unstretched: f64,
+        lag: f64,
+    ) -> Self {
+        let elastic = match law {
+            FrictionLaw::Coulomb => None,
+            FrictionLaw::Epp { stiffness } => Some(Elastic {
+                stiffness: units.friction_stiffness(stiffness, radius),
+                unstretched,
+                weight: 1.0,
+            }),
+            FrictionLaw::Bristle { stiffness } => {
+                return Self::Bristle {
+                    stiffness: stiffness * radius,
+                    elastic: None,
+                };
+            }
+            _ => panic!("a law for V-belts was expected"),
+        };
+        Self::Sliding {
+            lag,
+            lead: LEAD,
+            elastic,
+        }
+    }
+
+    /// What EPP friction has more.
+    pub(super) fn elastic(&self) -> Option<Elastic> {
+        match self {
+            Self::Normalised { elastic, .. }
+            | Self::Sliding { elastic, .. }
+            | Self::Bristle { elastic, .. } => *elastic,
+        }
+    }
+
     /// What EPP friction has more.
     pub(super) fn elastic_mut(&mut self) -> Option<&mut Elastic> {
         match self {
-            Self::Normalised { elastic }
+            Self::Normalised { elastic, .. }
             | Self::Sliding { elastic, .. }
             | Self::Bristle { elastic, .. } => elastic.as_mut(),
         }
+    }
+
+    /// The length ℓ/R over which the direction follows the slip, or the normalisation ε of the slip; zero for
+    /// bristles.
+    pub(super) fn smoothing(self) -> f64 {
+        match self {
+            Self::Normalised { epsilon, .. } => epsilon,
+            Self::Sliding { lag, .. } => lag,
+            Self::Bristle { .. } => 0.0,
+        }
+    }
+
+    /// The same law with another ℓ/R or ε. Bristles stay as they are.
+    pub(super) fn with_smoothing(mut self, smoothing: f64) -> Self {
+        match &mut self {
+            Self::Normalised { epsilon, .. } => *epsilon = smoothing,
+            Self::Sliding { lag, .. } => *lag = smoothing,
+            Self::Bristle { .. } => {}
+        }
+        self
     }
 }
 
@@ -118,8 +185,6 @@ pub(crate) struct Groove {
     pub(crate) radial_stiffness: f64,
     /// Friction law.
     pub(crate) law: Law,
-    /// Normalisation ε of the slip direction, per unit of belt speed; bristles do not use it.
-    pub(crate) epsilon: f64,
 }
 
 impl Groove {
@@ -130,11 +195,7 @@ impl Groove {
 
     /// What EPP friction has more than Coulomb friction.
     pub(super) fn elastic(&self) -> Option<Elastic> {
-        match self.law {
-            Law::Normalised { elastic }
-            | Law::Sliding { elastic, .. }
-            | Law::Bristle { elastic, .. } => elastic,
-        }
+        self.law.elastic()
     }
 
     /// Index of the displacement u of EPP friction among the states.
@@ -162,7 +223,7 @@ impl Groove {
     pub(super) fn normalisation(&self) -> f64 {
         match self.law {
             Law::Bristle { .. } | Law::Sliding { .. } => 1e-20,
-            Law::Normalised { .. } => self.epsilon,
+            Law::Normalised { epsilon, .. } => epsilon,
         }
     }
 

@@ -14,7 +14,7 @@
 //! fail as a start at high loads, as do speeds without any loss.
 
 use super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
-use super::{DRIVEN, DRIVER, DriveProblem, EndAngles, Groove, Law};
+use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, EndAngles, Groove, Law};
 use crate::SpanTension;
 
 /// A first approximation to the solution of a [`DriveProblem`].
@@ -208,7 +208,7 @@ mod tests {
         let whole = DriveProblem::new(&drive, Scales::new(&drive), 1e-3);
         let zoned = whole
             .clone()
-            .with_zones([&[Regime::Elastic, Regime::Slip], &[Regime::Slip]]);
+            .with_zones(&[vec![Regime::Elastic, Regime::Slip], vec![Regime::Slip]]);
         let (mut left, mut right, mut middle) = ([0.0; 6], [0.0; 6], [0.0; 6]);
         Guess::new(&zoned).state(0, 1.0, &mut left);
         Guess::new(&zoned).state(1, 0.0, &mut right);

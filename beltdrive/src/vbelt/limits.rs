@@ -113,7 +113,8 @@ pub(super) fn first_state(
             let mut first = drive.clone();
             load.set(&mut first, drive.load.slack.value() * ratio.powf(share));
             let mut path = Path::new(&first, tolerance);
-            let Some(solved) = path.below_limit(first.load.tight.value() / path.scales.units.force)
+            let Some(solved) =
+                path.below_limit(first.load.tight.value() / path.scales().units.force)
             else {
                 continue;
             };
@@ -196,7 +197,7 @@ impl Traced<'_> {
 fn no_load(drive: &Drive, key: &Key, tolerance: f64) -> Result<Limit, SolveError> {
     let idle = idle(drive, key);
     let mut path = Path::new(&idle, tolerance);
-    let scaled = idle.load.tight.value() / path.scales.units.force;
+    let scaled = idle.load.tight.value() / path.scales().units.force;
     let solved = match path.at_load(scaled) {
         Ok(solved) => solved,
         // Stuck on the way to a smaller ε.

@@ -11,6 +11,7 @@
 //! P. R. Dahl, Aerospace Corp. TOR-0158 (1968) for the bristles.
 
 pub(crate) mod belt_loop;
+mod belt_problem;
 mod carried;
 mod chart;
 mod closure;
@@ -38,6 +39,7 @@ mod tracer;
 mod watched;
 mod zones;
 
+pub(crate) use belt_problem::BeltProblem;
 pub(crate) use closure::{EndAngles, Layout};
 pub(crate) use contact::{Contact, hold_excess, limit_excess};
 pub(crate) use drive_problem::{DriveProblem, Instead};

@@ -1,7 +1,8 @@
 //! A V-belt on one pulley of a solution: integrals, profile and friction zones.
 
 use super::groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
-use super::{Contact, EndAngles, Groove, Law, Regime, Units, limit_excess};
+use super::path::Solved;
+use super::{BeltProblem, Contact, EndAngles, Groove, Law, Regime, Units, limit_excess};
 use crate::{Profile, Zone, ZoneKind};
 use bvp::Solution;
 
@@ -42,6 +43,35 @@ pub(super) struct Stretch {
     pub(super) regime: Regime,
     /// Its scaled arc length.
     pub(super) length: f64,
+}
+
+impl<P: BeltProblem> Solved<P> {
+    /// The belt on a pulley, if it lies in a groove there.
+    pub(super) fn in_groove(&self, pulley: usize) -> Option<OnPulley<'_>> {
+        let (problem, p) = (&self.problem, self.solution.parameters());
+        let stretches = problem.zones(pulley).map(|segment| Stretch {
+            segment,
+            regime: problem.regime(segment),
+            length: problem.length(segment, p),
+        });
+        Some(OnPulley {
+            solution: &self.solution,
+            groove: problem.in_groove(pulley)?,
+            stretches: stretches.collect(),
+            omega: problem.omega(pulley, p),
+            flow: problem.flow(p),
+            radius: problem.pitch_radius(pulley),
+            units: problem.units(),
+        })
+    }
+}
+
+impl Solved {
+    /// The belt on a pulley of a drive.
+    pub(super) fn on_pulley(&self, pulley: usize) -> OnPulley<'_> {
+        let on = self.in_groove(pulley);
+        on.expect("both pulleys of a drive have grooves")
+    }
 }
 
 /// The belt in the groove of one pulley.

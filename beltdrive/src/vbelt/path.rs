@@ -3,7 +3,7 @@
 
 use super::carried::Carried;
 use super::steps::Steps;
-use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, Guess, Law, Scales};
+use super::{BeltProblem, DRIVER, DriveProblem, Law};
 use crate::{Drive, FrictionLaw};
 use bvp::{Control, Options, Scheme, Solution, Stats};
 
@@ -71,8 +71,8 @@ impl Effort {
 
 /// A problem and its solution.
 #[derive(Clone, Debug)]
-pub(crate) struct Solved {
-    pub(super) problem: DriveProblem,
+pub(crate) struct Solved<P = DriveProblem> {
+    pub(super) problem: P,
     pub(super) solution: Solution,
 }
 
@@ -92,7 +92,9 @@ impl Solved {
         self.problem
             .contact_length(DRIVER, self.solution.parameters())
     }
+}
 
+impl<P: BeltProblem> Solved<P> {
     /// States where the belt enters a pulley.
     pub(super) fn entry(&self, pulley: usize) -> &[f64] {
         self.solution.start(self.problem.zones(pulley).start)
@@ -105,13 +107,13 @@ impl Solved {
 
     /// Whether it is solved to a tolerance with a law whose direction is smoothed.
     pub(super) fn is_resolved(&self, law: FrictionLaw, tolerance: f64) -> bool {
-        let groove = self.problem.groove(DRIVER);
-        let follows = match groove.law {
+        let here = self.problem.law();
+        let follows = match here {
             Law::Normalised { .. } => true,
             Law::Sliding { lead, .. } => lead > 0.0,
             Law::Bristle { .. } => false,
         };
-        let same = match (law, groove.elastic()) {
+        let same = match (law, here.elastic()) {
             (FrictionLaw::Coulomb, None) => follows,
             (FrictionLaw::Epp { .. }, Some(elastic)) => follows && elastic.weight == 1.0,
             _ => false,
@@ -119,31 +121,24 @@ impl Solved {
         same && self.solution.defect() <= tolerance
     }
 
-    /// The constants of the drive that an engineer reads: speed of the driven pulley, mass flow
-    /// and both wraps. Pure numbers of order one.
-    pub(super) fn constants(&self) -> [f64; 4] {
-        let p = self.solution.parameters();
-        [
-            p[DriveProblem::DRIVEN_SPEED],
-            p[DriveProblem::MASS_FLOW],
-            self.exit(DRIVEN)[ANGLE],
-            self.exit(DRIVER)[ANGLE],
-        ]
+    /// The constants that an engineer reads: pure numbers of order one.
+    pub(super) fn constants(&self) -> Vec<f64> {
+        self.problem.constants(&self.solution)
     }
 }
 
 /// The way was not found to its end.
 #[derive(Debug)]
-pub(super) struct Stuck {
+pub(super) struct Stuck<P = DriveProblem> {
     /// The last problem that was solved, if any.
-    pub(super) last: Option<Box<Solved>>,
+    pub(super) last: Option<Box<Solved<P>>>,
     /// Why the next one was not.
     pub(super) cause: bvp::Error,
 }
 
-impl Stuck {
+impl<P> Stuck<P> {
     /// Stuck on the way on from a solved problem.
-    pub(super) fn after(last: Solved, cause: bvp::Error) -> Self {
+    pub(super) fn after(last: Solved<P>, cause: bvp::Error) -> Self {
         Self {
             last: Some(Box::new(last)),
             cause,
@@ -157,10 +152,9 @@ fn intervals(guess: &dyn bvp::Guess) -> usize {
     mesh.iter().map(|nodes| nodes.len() - 1).sum()
 }
 
-/// The search for one steady state and what it has cost so far.
-pub(super) struct Path<'a> {
-    pub(super) drive: &'a Drive,
-    pub(super) scales: Scales,
+/// The search for one steady state of a drive or a loop, and what it has cost so far.
+pub(super) struct Path<'a, D = Drive> {
+    pub(super) drive: &'a D,
     pub(super) tolerance: f64,
     /// Cost of all problems solved or tried.
     pub(super) stats: Stats,
@@ -172,11 +166,10 @@ pub(super) struct Path<'a> {
     pub(super) smoothing_effect: f64,
 }
 
-impl<'a> Path<'a> {
-    pub(super) fn new(drive: &'a Drive, tolerance: f64) -> Self {
+impl<'a, D> Path<'a, D> {
+    pub(super) fn new(drive: &'a D, tolerance: f64) -> Self {
         Self {
             drive,
-            scales: Scales::new(drive),
             tolerance,
             stats: Stats::default(),
             problems: 0,
@@ -193,49 +186,40 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// The scaled tight tension of the drive.
-    pub(super) fn target(&self) -> f64 {
-        self.drive.load.tight.value() / self.scales.units.force
-    }
-
-    /// The drive with another friction law, at the scaled tight tension `tight`.
-    pub(super) fn problem(&self, law: FrictionLaw, smoothing: f64, tight: f64) -> DriveProblem {
-        let drive = Drive {
-            law,
-            ..self.drive.clone()
-        };
-        DriveProblem::new(&drive, self.scales, smoothing).with_tight_tension(tight)
-    }
-
-    /// Solves one problem from a guess.
-    pub(super) fn attempt(
-        &mut self,
-        problem: DriveProblem,
-        guess: &dyn bvp::Guess,
-        effort: Effort,
-    ) -> Result<Solved, bvp::Error> {
-        let mut options = effort.options(self.tolerance);
-        options.max_intervals = options.max_intervals.max(intervals(guess));
-        self.problems += 1;
-        let outcome = bvp::solve(&problem, guess, &options);
-        let cost = match &outcome {
+    /// Counts a problem that was solved or tried.
+    pub(super) fn count(&mut self, outcome: &Result<Solution, bvp::Error>) {
+        let cost = match outcome {
             Ok(solution) => Some(solution.stats()),
             Err(error) => error.best().map(Solution::stats),
         };
+        self.problems += 1;
         self.stats += cost.copied().unwrap_or_default();
+    }
+
+    /// Solves one problem from a guess.
+    pub(super) fn attempt<P: BeltProblem>(
+        &mut self,
+        problem: P,
+        guess: &dyn bvp::Guess,
+        effort: Effort,
+    ) -> Result<Solved<P>, bvp::Error> {
+        let mut options = effort.options(self.tolerance);
+        options.max_intervals = options.max_intervals.max(intervals(guess));
+        let outcome = bvp::solve(&problem, guess, &options);
+        self.count(&outcome);
         outcome.map(|solution| Solved { problem, solution })
     }
 
     /// Follows the family `member(t)` from its solved member at the beginning of a range of t to the one
     /// at its end.
-    pub(super) fn follow(
+    pub(super) fn follow<P: BeltProblem>(
         &mut self,
-        start: Solved,
+        start: Solved<P>,
         range: [f64; 2],
         first_step: f64,
         effort: Effort,
-        member: impl Fn(&DriveProblem, f64) -> DriveProblem,
-    ) -> Result<Solved, Stuck> {
+        member: impl Fn(&P, f64) -> P,
+    ) -> Result<Solved<P>, Stuck<P>> {
         let (mut here, mut steps) = (start, Steps::new(range, first_step));
         while let Some(next) = steps.next() {
             match self.attempt(member(&here.problem, next), &Carried(&here), effort) {
@@ -253,15 +237,12 @@ impl<'a> Path<'a> {
         Ok(here)
     }
 
-    /// Solves a problem from the frictionless guess.
-    pub(super) fn cold(&mut self, problem: DriveProblem, effort: Effort) -> Result<Solved, Stuck> {
-        let guess = Guess::new(&problem);
-        self.attempt(problem.clone(), &guess, effort)
-            .map_err(|cause| Stuck { last: None, cause })
-    }
-
     /// Solves the same problem again, with more effort.
-    pub(super) fn again(&mut self, solved: Solved, effort: Effort) -> Result<Solved, Stuck> {
+    pub(super) fn again<P: BeltProblem>(
+        &mut self,
+        solved: Solved<P>,
+        effort: Effort,
+    ) -> Result<Solved<P>, Stuck<P>> {
         self.attempt(solved.problem.clone(), &Carried(&solved), effort)
             .map_err(|cause| Stuck::after(solved, cause))
     }

@@ -1,6 +1,5 @@
 //! One piece of a branch: as long as the friction zones stay the same.
 
-use super::DriveProblem;
 use super::carried::{Carried, Member};
 use super::curve::Curve;
 use super::family::{DriveFamily, Entry};
@@ -9,6 +8,7 @@ use super::state::describe;
 use super::tracer::{Tracer, Until};
 use super::watched::{FIRST_ZONE, RATIO, RATIOS};
 use super::zones::Cut;
+use super::{BeltProblem, DriveProblem};
 use crate::results::difficulty;
 use crate::{BranchEnd, Drive, EventKind, FrictionLaw, Pulley};
 use bvp::{Control, Family, Scheme};

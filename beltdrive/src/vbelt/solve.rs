@@ -83,7 +83,7 @@ pub(super) fn is_crossed(drive: &Drive) -> bool {
 
 /// The state found, or the reason why the load is not carried or not reached.
 pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<Solved, SolveError> {
-    let (drive, scales) = (path.drive, path.scales);
+    let (drive, scales) = (path.drive, path.scales());
     let found = found.map_err(|Stuck { last, cause }| SolveError::NotConverged {
         tight: last.map(|last| last.tight_tension() * scales.units.force),
         cause: Box::new(cause),

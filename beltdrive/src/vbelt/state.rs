@@ -1,17 +1,14 @@
 //! From a solution to the steady state in SI units, with its checks.
 
-use super::on_pulley::{Integrals, OnPulley, Stretch, extend};
+use super::laws::{ALLOWED, power_gained, wrong_friction};
+use super::on_pulley::{Integrals, OnPulley, extend};
 use super::path::{Path, Solved};
-use super::{DRIVEN, DRIVER, DriveProblem, EndAngles, Regime};
+use super::{BeltProblem, DRIVEN, DRIVER, EndAngles, Regime};
 use crate::results::possible;
 use crate::results::steady_state::{Check, Convergence, PulleyState, SteadyState, Zone, ZoneKind};
 use crate::results::v_warnings;
 use std::sync::Arc;
 use web_time::Instant;
-
-/// What the checks of a state allow, in multiples of the tolerance: integrals of the continuous solution are as
-/// accurate as its defect.
-const ALLOWED: f64 = 10.0;
 
 /// The steady state of a solved drive.
 pub(super) fn steady_state(path: &Path<'_>, solved: Solved, start: Instant) -> SteadyState {
@@ -26,9 +23,9 @@ pub(super) fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
     let problem = &solved.problem;
     let scales = problem.scales();
     let p = solved.solution.parameters();
-    let flow = DriveProblem::flow(p);
+    let flow = problem.flow(p);
     let strand = problem.groove(DRIVER).strand;
-    let on = [DRIVEN, DRIVER].map(|pulley| on_pulley(solved, pulley));
+    let on = [DRIVEN, DRIVER].map(|pulley| solved.on_pulley(pulley));
     let integrals = on.each_ref().map(OnPulley::integrate);
     let ends = on.each_ref().map(OnPulley::ends);
     let spans = [DRIVEN, DRIVER].map(|from| problem.layout().span(from, ends));
@@ -38,8 +35,7 @@ pub(super) fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
         |length: f64, tractive: f64| length / (1.0 + strand.strain(strand.tension(tractive, flow)));
     let contact_length = |pulley: usize| integrals[pulley].unstretched * scales.radius[pulley];
 
-    let powers =
-        [DRIVEN, DRIVER].map(|pulley| integrals[pulley].torque * DriveProblem::speed(pulley, p));
+    let powers = [DRIVEN, DRIVER].map(|pulley| integrals[pulley].torque * problem.omega(pulley, p));
     let [taken, given] = [powers[DRIVEN], -powers[DRIVER]];
     let friction = integrals[DRIVEN].friction + integrals[DRIVER].friction;
 
@@ -94,26 +90,6 @@ pub(super) fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
     state
 }
 
-/// The belt on one pulley of a solved drive.
-fn on_pulley(solved: &Solved, pulley: usize) -> OnPulley<'_> {
-    let problem = &solved.problem;
-    let p = solved.solution.parameters();
-    let stretches = problem.zones(pulley).map(|segment| Stretch {
-        segment,
-        regime: problem.regime(segment),
-        length: p[DriveProblem::length_index(segment)],
-    });
-    OnPulley {
-        solution: &solved.solution,
-        groove: problem.groove(pulley),
-        stretches: stretches.collect(),
-        omega: DriveProblem::speed(pulley, p),
-        flow: DriveProblem::flow(p),
-        radius: problem.scales().radius[pulley],
-        units: problem.scales().units,
-    }
-}
-
 /// The invariants of a steady state that its equations imply, recomputed from the solution.
 ///
 /// ```text
@@ -126,11 +102,11 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
     let limit = ALLOWED * path.tolerance;
     let tight = solved.tight_tension().abs();
     let moment = |pulley: usize| {
-        let change = on_pulley(solved, pulley).change_of_moment();
+        let change = solved.on_pulley(pulley).change_of_moment();
         (integrals[pulley].torque - change).abs() / tight
     };
 
-    let on = [DRIVEN, DRIVER].map(|pulley| on_pulley(solved, pulley));
+    let on = [DRIVEN, DRIVER].map(|pulley| solved.on_pulley(pulley));
     let ends = on.each_ref().map(OnPulley::ends);
     let swept = [DRIVEN, DRIVER].map(|pulley| solved.exit(pulley)[super::ANGLE]);
     let misfit = problem.layout().plan(ends, swept).misfit(problem.layout());
@@ -167,59 +143,18 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
     checks
 }
 
-/// Whether friction is against the slip, and elastic or at its limit where it is taken to be.
-pub(super) fn obeys_friction(solved: &Solved, tolerance: f64) -> bool {
-    let limit = ALLOWED * tolerance;
-    let is_right = !solved.problem.has_zones() || wrong_friction(solved) <= limit;
-    is_right && power_gained(solved) <= limit
-}
-
-/// Power that the belt gains where the traction pulls with its slip, as a share of that which it spends
-/// elsewhere. A traction that has turned the wrong way round meets all equations but the sense of friction.
-pub(super) fn power_gained(solved: &Solved) -> f64 {
-    let on = [DRIVEN, DRIVER].map(|pulley| on_pulley(solved, pulley).integrate());
-    let gained: f64 = on.iter().map(|on| on.gained).sum();
-    let friction: f64 = on.iter().map(|on| on.friction).sum();
-    gained / (friction + gained)
-}
-
-/// By how much friction is above its limit in elastic zones, below it in slip zones, or more than holds a belt that
-/// sticks, or the pressure below zero, as a share of the largest pressure.
-fn wrong_friction(solved: &Solved) -> f64 {
-    let on = [DRIVEN, DRIVER].map(|pulley| on_pulley(solved, pulley));
-    let (mut highest, mut wrong) = (0.0f64, 0.0f64);
-    for on in &on {
-        on.for_each_point(|stretch, _, _, y| {
-            let pressure = on.contact(stretch.regime, y).pressure;
-            highest = highest.max(pressure);
-            wrong = wrong.max(-pressure);
-            let excess = super::limit_excess(on.groove, y, on.omega, on.flow);
-            wrong = wrong.max(match stretch.regime {
-                Regime::Elastic => excess,
-                Regime::Slip => -excess,
-                Regime::Stick => {
-                    let limit = on.contact(Regime::Either, y).friction();
-                    on.contact(Regime::Stick, y).friction() - limit
-                }
-                Regime::Either => 0.0,
-            });
-        });
-    }
-    wrong / highest
-}
-
 /// One pulley in SI units.
 fn pulley_state(solved: &Solved, pulley: usize, integrals: Integrals) -> PulleyState {
     let problem = &solved.problem;
     let (scales, p) = (problem.scales(), solved.solution.parameters());
     let radius = scales.radius[pulley];
-    let on = on_pulley(solved, pulley);
+    let on = solved.on_pulley(pulley);
     let EndAngles { entry, exit } = on.ends();
     let profile = on.profile();
     let sense = if pulley == DRIVEN { 1.0 } else { -1.0 };
     let deepest = profile.penetration.iter().copied().fold(0.0, f64::max);
     PulleyState {
-        angular_speed: DriveProblem::speed(pulley, p) * scales.units.angular_speed(radius),
+        angular_speed: problem.omega(pulley, p) * scales.units.angular_speed(radius),
         torque: sense * integrals.torque * scales.units.torque(radius),
         wrap_angle: solved.exit(pulley)[super::ANGLE],
         geometric_wrap_angle: problem.layout().wraps([EndAngles::default(); 2])[pulley],
@@ -235,7 +170,7 @@ fn pulley_state(solved: &Solved, pulley: usize, integrals: Integrals) -> PulleyS
 fn friction_zones(solved: &Solved, pulley: usize) -> Vec<Zone> {
     let problem = &solved.problem;
     if !problem.has_zones() || problem.is_split() {
-        return on_pulley(solved, pulley).friction_zones();
+        return solved.on_pulley(pulley).friction_zones();
     }
     let mut zones = Vec::new();
     for (regime, [from, to]) in super::zones::angles(solved, pulley) {

@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use super::path::Solved;
 use super::tracer::Tracer;
-use super::{DRIVEN, DRIVER, DriveProblem, INCLINATION, PENETRATION, Regime};
+use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, INCLINATION, PENETRATION, Regime};
 use crate::{EventKind, FrictionLaw, Pulley, ZoneKind};
 use continuation::{Branch, Kind, Point, System};
 use std::f64::consts::FRAC_PI_2;

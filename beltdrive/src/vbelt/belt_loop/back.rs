@@ -25,8 +25,6 @@ pub(super) struct Back {
     /// Coefficient of friction μ.
     pub(super) friction_coefficient: f64,
     pub(super) law: Law,
-    /// Normalisation ε of the slip; bristles do not use it.
-    pub(super) epsilon: f64,
 }
 
 /// All local quantities at one point of the contact, scaled.
@@ -48,8 +46,10 @@ impl Back {
     /// Number of states of the contact but for the elongation.
     pub(super) fn states(&self) -> usize {
         match self.law {
-            Law::Normalised { elastic: None } | Law::Sliding { elastic: None, .. } => LAW,
-            _ => LAW + 1,
+            Law::Bristle { .. } => LAW + 1,
+            Law::Normalised { elastic, .. } | Law::Sliding { elastic, .. } => {
+                LAW + usize::from(elastic.is_some())
+            }
         }
     }
 
@@ -62,12 +62,12 @@ impl Back {
         let epsilon = match self.law {
             // Only keeps the derivative of |e| finite where e = 0.
             Law::Bristle { .. } => 1e-20,
-            Law::Normalised { .. } | Law::Sliding { .. } => self.epsilon,
+            Law::Normalised { .. } | Law::Sliding { .. } => self.law.smoothing(),
         };
         let size = (slip * slip + epsilon.powi(2)).sqrt();
         let friction = match self.law {
             Law::Bristle { .. } => tractive * state[LAW],
-            Law::Normalised { elastic } | Law::Sliding { elastic, .. } => {
+            Law::Normalised { elastic, .. } | Law::Sliding { elastic, .. } => {
                 let limit = tractive * self.friction_coefficient;
                 let friction = elastic.map_or(limit, |elastic| {
                     let excess = state[LAW].abs() * elastic.stiffness - limit;
@@ -89,7 +89,7 @@ impl Back {
     pub(super) fn rates<T: Real>(&self, at: &Rubbing<T>, state: &[T], rates: &mut [T]) {
         rates[TENSION] = at.friction;
         match self.law {
-            Law::Normalised { elastic } | Law::Sliding { elastic, .. } => {
+            Law::Normalised { elastic, .. } | Law::Sliding { elastic, .. } => {
                 if let Some(elastic) = elastic {
                     rates[LAW] = at.tension - elastic.unstretched;
                 }

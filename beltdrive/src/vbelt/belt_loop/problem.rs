@@ -137,8 +137,8 @@ impl LoopProblem {
 
     /// The same loop with the slip direction normalised by another ε.
     pub(super) fn with_epsilon(mut self, epsilon: f64) -> Self {
-        for normalisation in self.seats.iter_mut().filter_map(Seat::epsilon_mut) {
-            *normalisation = epsilon;
+        for law in self.seats.iter_mut().filter_map(Seat::law_mut) {
+            *law = law.with_smoothing(epsilon);
         }
         self.epsilon = epsilon;
         self
@@ -148,7 +148,12 @@ impl LoopProblem {
     pub(super) fn with_bristles(mut self, stiffness: f64) -> Self {
         for (seat, spot) in self.seats.iter_mut().zip(&self.plane.spots) {
             if let Some(law) = seat.law_mut() {
-                *law = scaled_law(FrictionLaw::Bristle { stiffness }, self.units, spot.radius);
+                *law = scaled_law(
+                    FrictionLaw::Bristle { stiffness },
+                    self.units,
+                    spot.radius,
+                    0.0,
+                );
             }
         }
         self

@@ -28,13 +28,12 @@ impl Seat {
         epsilon: f64,
     ) -> Self {
         let friction_coefficient = pulley.friction_coefficient;
-        let law = scaled_law(law, units, pulley.radius);
+        let law = scaled_law(law, units, pulley.radius, epsilon);
         match (pulley.side, pulley.duty) {
             (Side::Inside, _) => Self::Groove(Groove {
                 strand: units.strand(),
                 friction_coefficient,
                 law,
-                epsilon,
                 ..frictionless(belt_loop, pulley, units)
             }),
             (Side::Outside, Duty::Torque(0.0) | Duty::Power(0.0)) => Self::Idle,
@@ -42,7 +41,6 @@ impl Seat {
                 strand: units.strand(),
                 friction_coefficient,
                 law,
-                epsilon,
             }),
         }
     }
@@ -64,15 +62,6 @@ impl Seat {
             Self::Idle => None,
         }
     }
-
-    /// The normalisation ε of the slip direction, where there is friction.
-    pub(super) fn epsilon_mut(&mut self) -> Option<&mut f64> {
-        match self {
-            Self::Groove(groove) => Some(&mut groove.epsilon),
-            Self::Back(back) => Some(&mut back.epsilon),
-            Self::Idle => None,
-        }
-    }
 }
 
 /// The groove of a pulley without friction, in a belt without inertia.
@@ -88,26 +77,32 @@ pub(super) fn frictionless(belt_loop: &BeltLoop, pulley: &LoopPulley, units: Uni
         cos_beta,
         friction_coefficient: 0.0,
         radial_stiffness: units.radial_stiffness(belt.radial_stiffness, pulley.radius),
-        law: Law::Normalised { elastic: None },
-        epsilon: 1.0,
+        law: Law::Normalised {
+            epsilon: 1.0,
+            elastic: None,
+        },
     }
 }
 
 /// A friction law on a pulley of a radius in m. The tension at which the displacement of EPP friction does
 /// not grow is a parameter of the loop and left out here.
-pub(super) fn scaled_law(law: FrictionLaw, units: Units, radius: f64) -> Law {
+pub(super) fn scaled_law(law: FrictionLaw, units: Units, radius: f64, epsilon: f64) -> Law {
     match law {
         FrictionLaw::Bristle { stiffness } => Law::Bristle {
             stiffness: stiffness * radius,
             elastic: None,
         },
         FrictionLaw::Epp { stiffness } => Law::Normalised {
+            epsilon,
             elastic: Some(Elastic {
                 stiffness: units.friction_stiffness(stiffness, radius),
                 unstretched: 0.0,
                 weight: 1.0,
             }),
         },
-        _ => Law::Normalised { elastic: None },
+        _ => Law::Normalised {
+            epsilon,
+            elastic: None,
+        },
     }
 }

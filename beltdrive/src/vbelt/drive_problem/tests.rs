@@ -1,6 +1,7 @@
 //! The statement is complete, free of units, and differentiated exactly.
 
 use super::*;
+use crate::vbelt::limit_excess;
 use crate::vbelt::scaling::tests::kim;
 use crate::{BeltKind, VBelt};
 use bvp::Equations;
@@ -19,18 +20,18 @@ fn problem(law: FrictionLaw) -> DriveProblem {
 
 #[test]
 fn every_condition_is_written_and_none_is_missing() {
-    let epp = problem(LAWS[1]).with_zones([
-        &[Regime::Elastic, Regime::Slip],
-        &[Regime::Slip, Regime::Elastic, Regime::Slip],
+    let epp = problem(LAWS[1]).with_zones(&[
+        vec![Regime::Elastic, Regime::Slip],
+        vec![Regime::Slip, Regime::Elastic, Regime::Slip],
     ]);
-    let sticking = problem(LAWS[1]).with_zones([
-        &[
+    let sticking = problem(LAWS[1]).with_zones(&[
+        vec![
             Regime::Elastic,
             Regime::Stick,
             Regime::Elastic,
             Regime::Slip,
         ],
-        &[Regime::Slip, Regime::Slip],
+        vec![Regime::Slip, Regime::Slip],
     ]);
     let normalised = epp.clone().with_direction(false);
     let fixed = epp
@@ -139,7 +140,7 @@ proptest! {
             let problem = problem(law);
             if matches!(law, FrictionLaw::Epp { .. }) {
                 // Keep away from the kinks at u = 0 and at the limit of the elastic friction.
-                let speed = DriveProblem::speed(segment, &p);
+                let speed = problem.omega(segment, &p);
                 let excess = limit_excess(problem.groove(segment), &y, speed, p[1]);
                 prop_assume!(y[5].abs() > 1e-4 && excess.abs() > 1e-2);
             }

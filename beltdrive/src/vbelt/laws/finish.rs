@@ -1,8 +1,7 @@
 //! The end of the way: zones of the right kind, the tolerance, and a smoothing without effect.
 
 use super::GREAT_STEP;
-use crate::FrictionLaw;
-use crate::vbelt::DriveProblem;
+use crate::vbelt::BeltProblem;
 use crate::vbelt::path::{Effort, Path, Solved, Stuck};
 use crate::vbelt::zones::Cut;
 
@@ -18,10 +17,14 @@ pub(in crate::vbelt) const EFFECT_SHARE: f64 = 0.3;
 /// Zones are found anew at most so often; if they still change, the check of the state says so.
 const MAX_CUTS: usize = 8;
 
-impl Path<'_> {
+impl<D> Path<'_, D> {
     /// A solution with its zones found anew, until every zone is of the kind it was taken for. Rough solutions
     /// keep zones that could not be changed: those of a shorter ℓ may be found again.
-    pub(super) fn split_zones(&mut self, solved: Solved, effort: Effort) -> Result<Solved, Stuck> {
+    pub(super) fn split_zones<P: BeltProblem>(
+        &mut self,
+        solved: Solved<P>,
+        effort: Effort,
+    ) -> Result<Solved<P>, Stuck<P>> {
         let mut here = solved;
         for _ in 0..MAX_CUTS {
             let cut = Cut::of(&here);
@@ -39,11 +42,11 @@ impl Path<'_> {
     }
 
     /// A solution with its zones found anew where they are segments.
-    pub(in crate::vbelt) fn keep_zones(
+    pub(in crate::vbelt) fn keep_zones<P: BeltProblem>(
         &mut self,
-        solved: Solved,
+        solved: Solved<P>,
         effort: Effort,
-    ) -> Result<Solved, Stuck> {
+    ) -> Result<Solved<P>, Stuck<P>> {
         if solved.problem.is_split() {
             self.split_zones(solved, effort)
         } else {
@@ -52,8 +55,11 @@ impl Path<'_> {
     }
 
     /// Solves to the tolerance, and smooths less until the effect of that is below that.
-    pub(in crate::vbelt) fn finish(&mut self, rough: Solved) -> Result<Solved, Stuck> {
-        if let FrictionLaw::Bristle { .. } = self.drive.law {
+    pub(in crate::vbelt) fn finish<P: BeltProblem>(
+        &mut self,
+        rough: Solved<P>,
+    ) -> Result<Solved<P>, Stuck<P>> {
+        if rough.problem.smoothing() == 0.0 {
             return self.again(rough, Effort::Final);
         }
         let solved = self.again(rough, Effort::Full)?;
@@ -86,7 +92,7 @@ impl Path<'_> {
 
     /// The solution with a slip zone at the exits that elastic friction reached, if there is one. Without it
     /// the normal force is negative at the exit, which the checks refuse.
-    fn slip_at_exits(&mut self, here: Solved) -> Solved {
+    fn slip_at_exits<P: BeltProblem>(&mut self, here: Solved<P>) -> Solved<P> {
         if !here.problem.is_split() {
             return here;
         }
@@ -102,7 +108,7 @@ impl Path<'_> {
     }
 
     /// A solution with an estimate of its global error.
-    fn with_estimate(&mut self, solved: Solved) -> Result<Solved, Stuck> {
+    fn with_estimate<P: BeltProblem>(&mut self, solved: Solved<P>) -> Result<Solved<P>, Stuck<P>> {
         match solved.solution.error_estimate() {
             Some(_) => Ok(solved),
             None => self.again(solved, Effort::Final),
@@ -110,12 +116,12 @@ impl Path<'_> {
     }
 
     /// Shortens ℓ or lowers ε; bristles stay as they are.
-    pub(in crate::vbelt) fn smooth_less(
+    pub(in crate::vbelt) fn smooth_less<P: BeltProblem>(
         &mut self,
-        start: Solved,
+        start: Solved<P>,
         smoothing: f64,
         effort: Effort,
-    ) -> Result<Solved, Stuck> {
+    ) -> Result<Solved<P>, Stuck<P>> {
         let from = start.problem.smoothing();
         if from == 0.0 || from == smoothing {
             return Ok(start);
@@ -126,6 +132,6 @@ impl Path<'_> {
 }
 
 /// The same problem with ℓ/R or ε of eᵗ.
-pub(super) fn with_smoothing(problem: &DriveProblem, t: f64) -> DriveProblem {
+pub(super) fn with_smoothing<P: BeltProblem>(problem: &P, t: f64) -> P {
     problem.clone().with_smoothing(t.exp())
 }

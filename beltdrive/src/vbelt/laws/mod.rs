@@ -15,16 +15,18 @@
 mod epp;
 mod finish;
 mod normalised;
+mod obeyed;
 mod sliding;
 
 use super::carried::Carried;
 use super::path::{Effort, Path, Solved, Stuck};
-use super::{DriveProblem, Scales};
-use crate::FrictionLaw;
+use super::{BeltProblem, DriveProblem, Guess, Scales};
+use crate::{Drive, FrictionLaw};
 use std::f64::consts::LN_10;
 
 pub(super) use finish::{EFFECT_SHARE, RESOLVED, SMALLEST};
 pub(super) use normalised::FIRST_EPSILONS;
+pub(super) use obeyed::{ALLOWED, power_gained, wrong_friction};
 
 /// Bristle stiffness of the start, κ R/μ: friction is fully developed after a thousandth of a
 /// radius of sliding, so that its layers are no finer than those of seating.
@@ -33,53 +35,143 @@ pub(super) const START_STIFFNESS: f64 = 1000.0;
 pub(super) const GREAT_STEP: f64 = LN_10;
 pub(super) const SMALL_STEP: f64 = 1.1;
 
-impl Path<'_> {
-    /// The steady state with the law of the drive at the scaled tight tension `tight`, from
-    /// nothing.
-    pub(super) fn at_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
-        if let FrictionLaw::Bristle { stiffness } = self.drive.law {
-            return self.bristles(stiffness, tight);
-        }
-        let soft = FrictionLaw::Bristle {
+/// A belt round pulleys whose steady state under a load is asked for.
+pub(super) trait Asked {
+    /// Its equations.
+    type Problem: BeltProblem;
+
+    /// The friction law.
+    fn law(&self) -> FrictionLaw;
+
+    /// The largest friction coefficient of a pulley over its radius, 1/m.
+    fn largest_curvature(&self) -> f64;
+
+    /// The problem with any law, its direction smoothed over the length ℓ/R `lag`.
+    fn problem(&self, law: FrictionLaw, lag: f64) -> Self::Problem;
+
+    /// A state nearly without friction.
+    fn guess<'p>(&self, problem: &'p Self::Problem) -> impl bvp::Guess + 'p;
+
+    /// The stiffness κ of the bristles of the start, 1/m.
+    fn soft(&self) -> f64 {
+        START_STIFFNESS * self.largest_curvature()
+    }
+
+    /// Those bristles.
+    fn softest(&self) -> FrictionLaw {
+        FrictionLaw::Bristle {
             stiffness: self.soft(),
+        }
+    }
+}
+
+/// A drive at a scaled tight tension.
+pub(super) struct AtLoad<'d> {
+    pub(super) drive: &'d Drive,
+    pub(super) tight: f64,
+}
+
+impl Asked for AtLoad<'_> {
+    type Problem = DriveProblem;
+
+    fn law(&self) -> FrictionLaw {
+        self.drive.law
+    }
+
+    fn largest_curvature(&self) -> f64 {
+        let radius = self.drive.driver_radius.min(self.drive.driven_radius);
+        self.drive.friction_coefficient / radius
+    }
+
+    fn problem(&self, law: FrictionLaw, lag: f64) -> DriveProblem {
+        let drive = Drive {
+            law,
+            ..self.drive.clone()
         };
-        let start = self.cold(self.problem(soft, 0.0, tight), Effort::Start)?;
-        let follows = match (self.has_direction, self.drive.law) {
-            (true, FrictionLaw::Coulomb) => self.coulomb(&start, tight),
-            (true, _) => self.epp(&start, tight),
+        DriveProblem::new(&drive, Scales::new(&drive), lag).with_tight_tension(self.tight)
+    }
+
+    fn guess<'p>(&self, problem: &'p DriveProblem) -> impl bvp::Guess + 'p {
+        Guess::new(problem)
+    }
+}
+
+impl<D> Path<'_, D> {
+    /// The steady state that is asked for, from nothing.
+    pub(super) fn seek<A: Asked>(
+        &mut self,
+        asked: &A,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        if let FrictionLaw::Bristle { stiffness } = asked.law() {
+            return self.bristles(asked, stiffness);
+        }
+        let start = self.cold(asked, asked.softest(), Effort::Start)?;
+        let follows = match (self.has_direction, asked.law()) {
+            (true, FrictionLaw::Coulomb) => self.coulomb(asked, &start),
+            (true, _) => self.epp(asked, &start),
             (false, _) => None,
         };
         match follows {
             Some(solved) => Ok(solved),
-            None => self.normalised(start, tight),
+            None => self.normalised(asked, start),
         }
     }
 
-    /// The stiffness κ of the bristles of the start, 1/m.
-    fn soft(&self) -> f64 {
-        let radius = self.drive.driver_radius.min(self.drive.driven_radius);
-        START_STIFFNESS * self.drive.friction_coefficient / radius
+    /// A problem from the frictionless guess.
+    fn cold<A: Asked>(
+        &mut self,
+        asked: &A,
+        law: FrictionLaw,
+        effort: Effort,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        let problem = asked.problem(law, 0.0);
+        let guess = asked.guess(&problem);
+        self.attempt(problem.clone(), &guess, effort)
+            .map_err(|cause| Stuck { last: None, cause })
     }
 
     /// Bristles of a stiffness in 1/m, from nothing or from softer ones.
-    fn bristles(&mut self, stiffness: f64, tight: f64) -> Result<Solved, Stuck> {
-        let problem = |path: &Self, stiffness| {
-            let law = FrictionLaw::Bristle { stiffness };
-            path.problem(law, 0.0, tight)
-        };
-        if let Ok(solved) = self.cold(problem(self, stiffness), Effort::Final) {
+    fn bristles<A: Asked>(
+        &mut self,
+        asked: &A,
+        stiffness: f64,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        if let Ok(solved) = self.cold(asked, asked.law(), Effort::Final) {
             return Ok(solved);
         }
-        let start = self.cold(problem(self, self.soft()), Effort::Start)?;
-        let stiffer = self.with_bristles(start, [self.soft(), stiffness])?;
+        let start = self.cold(asked, asked.softest(), Effort::Start)?;
+        let stiffer = self.with_bristles(start, [asked.soft(), stiffness])?;
         self.finish(stiffer)
     }
 
     /// A solution with bristles of one stiffness in 1/m made one with another.
-    fn with_bristles(&mut self, start: Solved, stiffness: [f64; 2]) -> Result<Solved, Stuck> {
-        let member = |problem: &DriveProblem, t: f64| problem.clone().with_bristles(t.exp());
+    fn with_bristles<P: BeltProblem>(
+        &mut self,
+        start: Solved<P>,
+        stiffness: [f64; 2],
+    ) -> Result<Solved<P>, Stuck<P>> {
+        let member = |problem: &P, t: f64| problem.clone().with_bristles(t.exp());
         let range = stiffness.map(f64::ln);
         self.follow(start, range, GREAT_STEP, Effort::Rough, member)
+    }
+}
+
+impl Path<'_> {
+    /// The units of the drive.
+    pub(super) fn scales(&self) -> Scales {
+        Scales::new(self.drive)
+    }
+
+    /// The scaled tight tension of the drive.
+    pub(super) fn target(&self) -> f64 {
+        self.drive.load.tight.value() / self.scales().units.force
+    }
+
+    /// The steady state with the law of the drive at the scaled tight tension `tight`, from
+    /// nothing.
+    pub(super) fn at_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
+        let drive = self.drive;
+        self.seek(&AtLoad { drive, tight })
     }
 
     /// The steady state as by [`Path::at_load`], but with the shortest ℓ or smallest ε that was reached where its
@@ -96,10 +188,10 @@ impl Path<'_> {
     /// The steady state of the drive from that of a neighbouring drive with a law of the same kind,
     /// at the same ℓ or ε and with the same zones.
     pub(super) fn neighbour(&mut self, solved: &Solved) -> Result<Solved, bvp::Error> {
-        self.scales = Scales::with_force(self.drive, solved.problem.scales().units.force);
-        let problem = DriveProblem::new(self.drive, self.scales, solved.problem.smoothing())
+        let scales = Scales::with_force(self.drive, solved.problem.scales().units.force);
+        let problem = DriveProblem::new(self.drive, scales, solved.problem.smoothing())
             .with_direction(solved.problem.has_direction())
-            .with_zones(solved.problem.regimes());
+            .with_zones(&solved.problem.regimes());
         self.attempt(problem, &Carried(solved), Effort::Final)
     }
 }

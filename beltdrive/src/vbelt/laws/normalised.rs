@@ -3,9 +3,9 @@
 //! its sense, and some of elastic friction. Branches are followed with it.
 
 use super::finish::with_smoothing;
-use super::{RESOLVED, SMALL_STEP};
+use super::{Asked, RESOLVED, SMALL_STEP};
 use crate::FrictionLaw;
-use crate::vbelt::DriveProblem;
+use crate::vbelt::BeltProblem;
 use crate::vbelt::carried::Carried;
 use crate::vbelt::path::{Effort, Path, Solved, Stuck};
 
@@ -13,82 +13,107 @@ use crate::vbelt::path::{Effort, Path, Solved, Stuck};
 /// works: of the order of the largest slip.
 pub(in crate::vbelt) const FIRST_EPSILONS: [f64; 3] = [1e-3, 1e-2, 1e-1];
 
-impl Path<'_> {
+impl<D> Path<'_, D> {
     /// The law of the drive with a normalised direction.
-    pub(super) fn normalised(&mut self, start: Solved, tight: f64) -> Result<Solved, Stuck> {
-        let entered = self.enter_normalised(start, |path, epsilon| {
-            let problem = path.problem(path.drive.law, epsilon, tight);
+    pub(super) fn normalised<A: Asked>(
+        &mut self,
+        asked: &A,
+        start: Solved<A::Problem>,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        let entered = self.enter_normalised(start, |epsilon| {
+            let problem = asked.problem(asked.law(), epsilon);
             // EPP friction without its share is Coulomb friction and adds only the displacement.
             problem.with_direction(false).with_epp_weight(0.0)
         })?;
-        if let FrictionLaw::Coulomb = self.drive.law {
+        if let FrictionLaw::Coulomb = asked.law() {
             let sharp = self.lower_epsilon(entered, RESOLVED)?;
             return self.finish(sharp);
         }
-        self.epp_by_zones(&entered, tight)
+        self.epp_by_zones(asked, &entered)
             .or_else(|stuck| {
-                let other = self.epp_at_last(&entered, tight);
-                self.farther(stuck, other)
+                let other = self.epp_at_last(asked, &entered);
+                self.farther(asked.law(), stuck, other)
             })
             .or_else(|stuck| {
-                let other = self.epp_as_a_whole(&entered, tight);
-                self.farther(stuck, other)
+                let other = self.epp_as_a_whole(asked, &entered);
+                self.farther(asked.law(), stuck, other)
             })
     }
 
     /// From bristles to friction with a normalised direction at the first large ε that works.
-    fn enter_normalised(
+    fn enter_normalised<P: BeltProblem>(
         &mut self,
-        start: Solved,
-        problem: impl Fn(&Self, f64) -> DriveProblem,
-    ) -> Result<Solved, Stuck> {
+        start: Solved<P>,
+        problem: impl Fn(f64) -> P,
+    ) -> Result<Solved<P>, Stuck<P>> {
         let [first, others @ ..] = FIRST_EPSILONS;
-        let mut outcome = self.attempt(problem(self, first), &Carried(&start), Effort::Rough);
+        let mut outcome = self.attempt(problem(first), &Carried(&start), Effort::Rough);
         for epsilon in others {
             if outcome.is_err() {
-                outcome = self.attempt(problem(self, epsilon), &Carried(&start), Effort::Rough);
+                outcome = self.attempt(problem(epsilon), &Carried(&start), Effort::Rough);
             }
         }
         outcome.map_err(|cause| Stuck::after(start, cause))
     }
 
     /// EPP friction entered at a large ε, its zones made segments there.
-    fn epp_by_zones(&mut self, unblended: &Solved, tight: f64) -> Result<Solved, Stuck> {
-        let blended = self.blend(unblended.clone(), tight)?;
+    fn epp_by_zones<A: Asked>(
+        &mut self,
+        asked: &A,
+        unblended: &Solved<A::Problem>,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        let blended = self.blend(asked, unblended.clone())?;
         let split = self.split_zones(blended, Effort::Rough)?;
         let sharp = self.lower_epsilon(split, RESOLVED)?;
         self.finish(sharp)
     }
 
     /// Coulomb friction sharpened first, then EPP friction and its zones.
-    fn epp_at_last(&mut self, unblended: &Solved, tight: f64) -> Result<Solved, Stuck> {
+    fn epp_at_last<A: Asked>(
+        &mut self,
+        asked: &A,
+        unblended: &Solved<A::Problem>,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
         let sharp = self.lower_epsilon(unblended.clone(), RESOLVED)?;
-        let blended = self.blend(sharp, tight)?;
+        let blended = self.blend(asked, sharp)?;
         let split = self.split_zones(blended, Effort::Rough)?;
         self.finish(split)
     }
 
     /// EPP friction across its kinks, which costs mesh intervals but needs no zones.
-    fn epp_as_a_whole(&mut self, unblended: &Solved, tight: f64) -> Result<Solved, Stuck> {
-        let blended = self.blend(unblended.clone(), tight)?;
+    fn epp_as_a_whole<A: Asked>(
+        &mut self,
+        asked: &A,
+        unblended: &Solved<A::Problem>,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        let blended = self.blend(asked, unblended.clone())?;
         let sharp = self.lower_epsilon(blended, RESOLVED)?;
         self.finish(sharp)
     }
 
     /// EPP friction at the same ε, by growing its share.
-    fn blend(&mut self, unblended: Solved, tight: f64) -> Result<Solved, Stuck> {
-        let epp = self
-            .problem(self.drive.law, unblended.problem.smoothing(), tight)
+    fn blend<A: Asked>(
+        &mut self,
+        asked: &A,
+        unblended: Solved<A::Problem>,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        let epp = asked
+            .problem(asked.law(), unblended.problem.smoothing())
             .with_direction(false);
-        let member = |_: &DriveProblem, share| epp.clone().with_epp_weight(share);
+        let member = |_: &A::Problem, share| epp.clone().with_epp_weight(share);
         self.follow(unblended, [0.0, 1.0], 1.0, Effort::Rough, member)
     }
 
     /// The outcome of another way, or the way that came farther: to a state that only lacks a smaller ε.
-    fn farther(&self, stuck: Stuck, other: Result<Solved, Stuck>) -> Result<Solved, Stuck> {
-        let resolved = |stuck: &Stuck| {
+    fn farther<P: BeltProblem>(
+        &self,
+        law: FrictionLaw,
+        stuck: Stuck<P>,
+        other: Result<Solved<P>, Stuck<P>>,
+    ) -> Result<Solved<P>, Stuck<P>> {
+        let resolved = |stuck: &Stuck<P>| {
             let last = stuck.last.as_ref();
-            last.is_some_and(|last| last.is_resolved(self.drive.law, self.tolerance))
+            last.is_some_and(|last| last.is_resolved(law, self.tolerance))
         };
         match other {
             Err(other) if resolved(&stuck) && !resolved(&other) => Err(stuck),
@@ -98,7 +123,11 @@ impl Path<'_> {
 
     /// Lowers ε roughly in great steps, or carefully in small ones where the slip is too small for
     /// that.
-    fn lower_epsilon(&mut self, start: Solved, epsilon: f64) -> Result<Solved, Stuck> {
+    fn lower_epsilon<P: BeltProblem>(
+        &mut self,
+        start: Solved<P>,
+        epsilon: f64,
+    ) -> Result<Solved<P>, Stuck<P>> {
         let range = [start.problem.smoothing().ln(), epsilon.ln()];
         let fallback = start.clone();
         self.smooth_less(start, epsilon, Effort::Rough)

@@ -3,11 +3,12 @@
 //! The direction follows the slip over a length ℓ, without a lead at first, which is what Newton's method
 //! likes, and with a lead from there on, which needs few mesh intervals however short ℓ is.
 
-use super::RESOLVED;
+use super::obeyed::{obeys_friction, power_gained};
+use super::{Asked, RESOLVED};
 use crate::FrictionLaw;
+use crate::vbelt::BeltProblem;
 use crate::vbelt::carried::Carried;
 use crate::vbelt::path::{Effort, Path, Solved};
-use crate::vbelt::state::{obeys_friction, power_gained};
 use crate::vbelt::zones::Cut;
 
 /// Lengths ℓ/R with which Coulomb friction is entered, the first that works.
@@ -19,20 +20,24 @@ const LED_LAGS: [f64; 3] = [1e-5, 1e-6, 1e-7];
 /// slip. Where the traction turns the wrong way round it is 0.03 and more, elsewhere less than 1e-6.
 const WRONG_WAY: f64 = 1e-4;
 
-impl Path<'_> {
+impl<D> Path<'_, D> {
     /// Coulomb friction by way of bristles, if it is found so and friction obeys its law.
-    pub(super) fn coulomb(&mut self, bristles: &Solved, tight: f64) -> Option<Solved> {
+    pub(super) fn coulomb<A: Asked>(
+        &mut self,
+        asked: &A,
+        bristles: &Solved<A::Problem>,
+    ) -> Option<Solved<A::Problem>> {
         let cut = Cut::of(bristles);
         let entered = FIRST_LAGS.into_iter().find_map(|lag| {
-            let problem = self.problem(FrictionLaw::Coulomb, lag, tight);
-            let problem = cut.apply(problem.without_lead());
+            let problem = asked.problem(FrictionLaw::Coulomb, lag);
+            let problem = cut.apply(problem.led(false));
             self.attempt(problem, &cut, Effort::Rough).ok()
         });
         self.sharpen(entered?)
     }
 
     /// ℓ shortened to its end, and the direction led as soon as that can be, if friction obeys its law then.
-    pub(super) fn sharpen(&mut self, entered: Solved) -> Option<Solved> {
+    pub(super) fn sharpen<P: BeltProblem>(&mut self, entered: Solved<P>) -> Option<Solved<P>> {
         let mut here = entered;
         let mut lags = LED_LAGS.into_iter();
         let sharp = loop {
@@ -56,8 +61,8 @@ impl Path<'_> {
     }
 
     /// A direction that is led, with a short ℓ, if the belt gains no power from friction then.
-    fn lead(&mut self, following: &Solved) -> Option<Solved> {
-        let led = following.problem.clone().with_lead();
+    fn lead<P: BeltProblem>(&mut self, following: &Solved<P>) -> Option<Solved<P>> {
+        let led = following.problem.clone().led(true);
         let led = self.attempt(led, &Carried(following), Effort::Rough).ok()?;
         let sharp = self.smooth_less(led, RESOLVED, Effort::Rough).ok()?;
         (power_gained(&sharp) <= WRONG_WAY).then_some(sharp)

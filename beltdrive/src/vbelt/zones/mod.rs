@@ -11,7 +11,7 @@ mod kinds;
 mod samples;
 
 use super::path::Solved;
-use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, LAW, Law, MAX_STATES, Regime};
+use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
 use kinds::{Zone, cut_at_turn, friction_zones, one_zone, without_kinks};
 use samples::{Sample, samples};
 
@@ -32,46 +32,34 @@ pub(super) enum Loose {
 }
 
 /// A solution cut anew into zones: the guess of the problem that has them as segments.
-pub(super) struct Cut<'a> {
-    solved: &'a Solved,
-    samples: [Vec<Sample>; 2],
-    pulleys: [Vec<Zone>; 2],
+pub(super) struct Cut<'a, P = DriveProblem> {
+    solved: &'a Solved<P>,
+    samples: Vec<Vec<Sample>>,
+    pulleys: Vec<Vec<Zone>>,
 }
 
-impl<'a> Cut<'a> {
+impl<'a, P: BeltProblem> Cut<'a, P> {
     /// The zones that a solution shows.
-    pub(super) fn of(solved: &'a Solved) -> Self {
-        Self::new(solved, false, [Loose::Seen; 2])
+    pub(super) fn of(solved: &'a Solved<P>) -> Self {
+        Self::new(solved, false, |_| Loose::Seen)
     }
 
     /// As [`Cut::of`], with a last slip zone where elastic friction reaches the exit. The belt presses no
     /// longer there, so that it slips at the very end, on a way that may lie between two samples.
-    pub(super) fn with_exits(solved: &'a Solved) -> Self {
-        Self::new(solved, true, [Loose::Seen; 2])
+    pub(super) fn with_exits(solved: &'a Solved<P>) -> Self {
+        Self::new(solved, true, |_| Loose::Seen)
     }
 
-    /// The zones that bristles show on the driven pulley and the driver, those of elastic and slipping friction
-    /// taken together.
-    pub(super) fn of_bristles(solved: &'a Solved, loose: [Loose; 2]) -> Self {
-        Self::new(solved, false, loose)
+    /// The zones that bristles show on every pulley, those of elastic and slipping friction taken together.
+    pub(super) fn of_bristles(solved: &'a Solved<P>, loose: &[Loose]) -> Self {
+        Self::new(solved, false, |pulley| loose[pulley])
     }
 
-    fn new(solved: &'a Solved, at_exit: bool, loose: [Loose; 2]) -> Self {
-        let samples =
-            [DRIVEN, DRIVER].map(|pulley| samples(solved, pulley, at_exit, loose[pulley]));
-        let p = solved.solution.parameters();
-        let pulleys = [DRIVEN, DRIVER].map(|pulley| {
-            let length = solved.problem.contact_length(pulley, p);
-            let zones = match (solved.problem.has_zones(), loose[pulley]) {
-                (true, Loose::Seen) => friction_zones(&samples[pulley], length),
-                (true, _) => without_kinks(friction_zones(&samples[pulley], length)),
-                (false, _) => one_zone(length),
-            };
-            match solved.problem.groove(pulley).law {
-                Law::Normalised { .. } => zones,
-                _ => cut_at_turn(zones, &samples[pulley], length),
-            }
-        });
+    fn new(solved: &'a Solved<P>, at_exit: bool, loose: impl Fn(usize) -> Loose) -> Self {
+        let pulleys = 0..solved.problem.pulleys();
+        let (samples, pulleys) = pulleys
+            .map(|pulley| cut(solved, pulley, at_exit, loose(pulley)))
+            .unzip();
         Self {
             solved,
             samples,
@@ -81,13 +69,11 @@ impl<'a> Cut<'a> {
 
     /// Whether they are the segments of the solution but for the place of the turn.
     pub(super) fn is_nearly_kept(&self) -> bool {
-        let kinds = |zones: &[Regime]| {
-            let mut kinds = zones.to_vec();
-            kinds.dedup();
-            kinds
+        let kinds = |mut pulleys: Vec<Vec<Regime>>| {
+            pulleys.iter_mut().for_each(Vec::dedup);
+            pulleys
         };
-        let seen = self.regimes().map(|zones| kinds(&zones));
-        seen == self.solved.problem.regimes().map(kinds)
+        kinds(self.regimes()) == kinds(self.solved.problem.regimes())
     }
 
     /// Whether they are the same zones at the same places.
@@ -95,11 +81,9 @@ impl<'a> Cut<'a> {
         self.pulleys == other.pulleys
     }
 
-    fn regimes(&self) -> [Vec<Regime>; 2] {
-        self.pulleys.each_ref().map(|zones| {
-            let zones = zones.iter();
-            zones.map(|zone| zone.regime).collect()
-        })
+    fn regimes(&self) -> Vec<Vec<Regime>> {
+        let regimes = |zones: &Vec<Zone>| zones.iter().map(|zone| zone.regime).collect();
+        self.pulleys.iter().map(regimes).collect()
     }
 
     /// Whether they are the segments of the solution.
@@ -108,18 +92,14 @@ impl<'a> Cut<'a> {
     }
 
     /// A problem with these zones as segments.
-    pub(super) fn apply(&self, problem: DriveProblem) -> DriveProblem {
-        let [driven, driver] = &self.regimes();
-        problem.with_zones([driven, driver])
+    pub(super) fn apply(&self, problem: P) -> P {
+        problem.with_zones(&self.regimes())
     }
 
-    /// The pulley of a zone, counted over both, and the zone.
-    fn zone(&self, segment: usize) -> (usize, Zone) {
-        let [driven, driver] = &self.pulleys;
-        match driven.get(segment) {
-            Some(zone) => (DRIVEN, *zone),
-            None => (DRIVER, driver[segment - driven.len()]),
-        }
+    /// All zones with their pulleys.
+    fn zones(&self) -> impl Iterator<Item = (usize, Zone)> {
+        let pulleys = self.pulleys.iter().enumerate();
+        pulleys.flat_map(|(pulley, zones)| zones.iter().map(move |zone| (pulley, *zone)))
     }
 
     /// The direction of the traction at a place.
@@ -139,12 +119,42 @@ impl<'a> Cut<'a> {
     }
 }
 
+/// What is seen of a solution along a pulley, and its zones.
+fn cut<P: BeltProblem>(
+    solved: &Solved<P>,
+    pulley: usize,
+    at_exit: bool,
+    loose: Loose,
+) -> (Vec<Sample>, Vec<Zone>) {
+    let problem = &solved.problem;
+    let length = problem.contact_length(pulley, solved.solution.parameters());
+    let Some(groove) = problem.in_groove(pulley) else {
+        let whole = problem.zones(pulley).map(|segment| Zone {
+            regime: problem.regime(segment),
+            from: 0.0,
+            to: length,
+        });
+        return (Vec::new(), whole.collect());
+    };
+    let samples = samples(solved, (pulley, groove), at_exit, loose);
+    let zones = match (problem.has_zones(), loose) {
+        (true, Loose::Seen) => friction_zones(&samples, length),
+        (true, _) => without_kinks(friction_zones(&samples, length)),
+        (false, _) => one_zone(length),
+    };
+    let zones = match groove.law {
+        Law::Normalised { .. } => zones,
+        _ => cut_at_turn(zones, &samples, length),
+    };
+    (samples, zones)
+}
+
 /// The segment of a solution with a place on a pulley (scaled arc length from the entry), and s
 /// there.
-fn locate(solved: &Solved, pulley: usize, place: f64) -> (usize, f64) {
-    let p = solved.solution.parameters();
-    let length = |segment| p[DriveProblem::length_index(segment)];
-    let segments = solved.problem.zones(pulley);
+fn locate<P: BeltProblem>(solved: &Solved<P>, pulley: usize, place: f64) -> (usize, f64) {
+    let (problem, p) = (&solved.problem, solved.solution.parameters());
+    let length = |segment| problem.length(segment, p);
+    let segments = problem.zones(pulley);
     let (mut segment, mut before) = (segments.start, 0.0);
     while segment + 1 < segments.end && place > before + length(segment) {
         before += length(segment);
@@ -164,53 +174,66 @@ pub(super) fn angles(solved: &Solved, pulley: usize) -> Vec<(Regime, [f64; 2])> 
     };
     let p = solved.solution.parameters();
     let length = solved.problem.contact_length(pulley, p);
-    friction_zones(&samples(solved, pulley, false, Loose::Seen), length)
-        .into_iter()
-        .map(|zone| (zone.regime, [zone.from, zone.to].map(angle)))
-        .collect()
+    let groove = solved.problem.groove(pulley);
+    friction_zones(
+        &samples(solved, (pulley, groove), false, Loose::Seen),
+        length,
+    )
+    .into_iter()
+    .map(|zone| (zone.regime, [zone.from, zone.to].map(angle)))
+    .collect()
 }
 
-impl bvp::Guess for Cut<'_> {
+impl<P: BeltProblem> bvp::Guess for Cut<'_, P> {
     /// The states of the solution; from bristles the direction of their traction.
     fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
-        let (pulley, Zone { from, to, .. }) = self.zone(segment);
+        let zone = self.zones().nth(segment);
+        let (pulley, Zone { from, to, .. }) = zone.expect("a segment for every zone");
         let place = from + s * (to - from);
+        let Solved { problem, solution } = self.solved;
         let (known, s) = locate(self.solved, pulley, place);
         let mut states = [0.0; MAX_STATES];
-        let count = self.solved.solution.segments()[known].states;
-        self.solved.solution.state(known, s, &mut states[..count]);
-        if let Law::Bristle { .. } = self.solved.problem.groove(pulley).law {
-            states[LAW] = self.direction(pulley, place);
-            states[LAW + 1] = states[LAW + 2];
+        let count = solution.segments()[known].states;
+        solution.state(known, s, &mut states[..count]);
+        let law = problem.law_states(known).start;
+        match (problem.law(), problem.in_groove(pulley)) {
+            // In place of both states of bristles there is one of the direction; on the back there is none.
+            (Law::Bristle { .. }, Some(_)) => {
+                states.copy_within(law + 2..count, law + 1);
+                states[law] = self.direction(pulley, place);
+            }
+            (Law::Bristle { .. }, None) => states.copy_within(law + 1..count, law),
+            _ => {}
         }
         y.copy_from_slice(&states[..y.len()]);
     }
 
     fn parameters(&self, p: &mut [f64]) {
-        let first = DriveProblem::length_index(0);
-        p[..first].copy_from_slice(&self.solved.solution.parameters()[..first]);
-        let zones = self.pulleys.concat();
-        for (segment, zone) in zones.iter().enumerate() {
-            p[DriveProblem::length_index(segment)] = zone.to - zone.from;
+        let Solved { problem, solution } = self.solved;
+        let (first, count) = (problem.first_length(), self.zones().count());
+        p[..first].copy_from_slice(&solution.parameters()[..first]);
+        for (length, (_, zone)) in p[first..].iter_mut().zip(self.zones()) {
+            *length = zone.to - zone.from;
         }
-        p[DriveProblem::length_index(zones.len())..].fill(self.solved.tight_tension());
+        p[first + count..].fill(problem.behind_lengths(solution));
     }
 
     /// The nodes of the solution, cut at the zones.
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {
-        let p = self.solved.solution.parameters();
-        let places = [DRIVEN, DRIVER].map(|pulley| {
+        let Solved { problem, solution } = self.solved;
+        let p = solution.parameters();
+        let places = |pulley: usize| {
             let (mut places, mut before) = (Vec::new(), 0.0);
-            for segment in self.solved.problem.zones(pulley) {
-                let length = p[DriveProblem::length_index(segment)];
-                let nodes = self.solved.solution.mesh(segment);
+            for segment in problem.zones(pulley) {
+                let length = problem.length(segment, p);
+                let nodes = solution.mesh(segment);
                 places.extend(nodes.iter().map(|s| before + s * length));
                 before += length;
             }
             places
-        });
-        let nodes = |segment: usize| {
-            let (pulley, zone) = self.zone(segment);
+        };
+        let places: Vec<_> = (0..problem.pulleys()).map(places).collect();
+        let nodes = |(pulley, zone): (usize, Zone)| {
             let within = places[pulley]
                 .iter()
                 .map(|place| (place - zone.from) / (zone.to - zone.from))
@@ -219,7 +242,6 @@ impl bvp::Guess for Cut<'_> {
             nodes.dedup_by(|b, a| *b - *a < NODE_MARGIN);
             nodes
         };
-        let count = self.pulleys[DRIVEN].len() + self.pulleys[DRIVER].len();
-        Some((0..count).map(nodes).collect())
+        Some(self.zones().map(nodes).collect())
     }
 }

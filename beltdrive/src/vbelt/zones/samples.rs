@@ -2,7 +2,7 @@
 
 use super::Loose;
 use crate::vbelt::path::Solved;
-use crate::vbelt::{Contact, DriveProblem, LAW, Law, MAX_STATES, Regime, limit_excess};
+use crate::vbelt::{BeltProblem, Contact, Groove, LAW, Law, MAX_STATES, Regime, limit_excess};
 use std::f64::consts::TAU;
 
 /// Samples per mesh interval in search of crossings.
@@ -34,15 +34,19 @@ pub(super) struct Sample {
 }
 
 /// Looks at a solution along one pulley, at the exit too if asked for.
-pub(super) fn samples(solved: &Solved, pulley: usize, at_exit: bool, loose: Loose) -> Vec<Sample> {
+pub(super) fn samples<P: BeltProblem>(
+    solved: &Solved<P>,
+    (pulley, groove): (usize, &Groove),
+    at_exit: bool,
+    loose: Loose,
+) -> Vec<Sample> {
     let (problem, solution) = (&solved.problem, &solved.solution);
     let p = solution.parameters();
-    let groove = problem.groove(pulley);
-    let (speed, flow) = (DriveProblem::speed(pulley, p), DriveProblem::flow(p));
+    let (omega, flow) = (problem.omega(pulley, p), problem.flow(p));
     let mut samples: Vec<Sample> = Vec::new();
     let mut before = 0.0;
     for segment in problem.zones(pulley) {
-        let length = p[DriveProblem::length_index(segment)];
+        let length = problem.length(segment, p);
         // The belt sticks nowhere any more.
         if problem.regime(segment) == Regime::Stick && length <= 0.0 {
             continue;
@@ -56,7 +60,7 @@ pub(super) fn samples(solved: &Solved, pulley: usize, at_exit: bool, loose: Loos
         let is_last = segment + 1 == problem.zones(pulley).end;
         for s in inside.chain((at_exit && is_last).then_some(1.0)) {
             solution.state(segment, s, y);
-            let contact = problem.contact(segment, y, p);
+            let contact = Contact::new(groove, problem.regime(segment), y, omega, flow);
             let direction = direction(groove.law, y, &contact);
             let share = match groove.law {
                 Law::Bristle { .. } => y[LAW].hypot(y[LAW + 1]) / groove.friction_coefficient,
@@ -64,7 +68,7 @@ pub(super) fn samples(solved: &Solved, pulley: usize, at_exit: bool, loose: Loos
             };
             samples.push(Sample {
                 place: before + s * length,
-                limit: limit_excess(groove, y, speed, flow),
+                limit: limit_excess(groove, y, omega, flow),
                 turn: contact.turn_excess(groove),
                 direction: samples.last().map_or(direction, |last| {
                     let turns = (last.direction - direction) / TAU;

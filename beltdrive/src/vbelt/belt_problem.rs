@@ -1,0 +1,272 @@
+//! What the way to a steady state knows of a belt round pulleys.
+
+use super::groove::{ANGLE, INCLINATION, LAW, LEAD, PENETRATION};
+use super::{Contact, Groove, Law, Regime, Units, hold_excess, limit_excess};
+use bvp::{Ends, Problem, Real, Solution};
+use std::ops::Range;
+
+/// Which segments of a problem are the zones of which pulley.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Zoning {
+    regimes: Vec<Regime>,
+    /// Pulley of each segment.
+    pulley_of: Vec<usize>,
+    /// First segment of each pulley, and the number of segments.
+    first: Vec<usize>,
+}
+
+impl Zoning {
+    /// With these zones on every pulley.
+    pub(super) fn new(zones: &[Vec<Regime>]) -> Self {
+        let mut zoning = Self::default();
+        for (pulley, zones) in zones.iter().enumerate() {
+            zoning.first.push(zoning.regimes.len());
+            zoning.pulley_of.extend(zones.iter().map(|_| pulley));
+            zoning.regimes.extend(zones);
+        }
+        zoning.first.push(zoning.regimes.len());
+        zoning
+    }
+
+    /// Number of segments.
+    pub(super) fn count(&self) -> usize {
+        self.regimes.len()
+    }
+}
+
+/// A belt round pulleys as a boundary value problem: every zone of friction on a pulley is a segment. Among the
+/// parameters are the scaled lengths of all segments, one behind the other.
+pub(crate) trait BeltProblem: Problem + Clone {
+    /// The zones of all pulleys.
+    fn zoning(&self) -> &Zoning;
+
+    /// The constants of the belt on a pulley; `None` unless it lies in a groove with friction.
+    fn in_groove(&self, pulley: usize) -> Option<&Groove>;
+
+    /// The states of the law of friction on a segment.
+    fn law_states(&self, segment: usize) -> Range<usize> {
+        let groove = self.in_groove(self.pulley(segment));
+        LAW..groove.map_or(LAW, Groove::states)
+    }
+
+    /// Scaled angular speed of a pulley.
+    fn omega<T: Real>(&self, pulley: usize, p: &[T]) -> T;
+
+    /// Scaled mass flow.
+    fn flow<T: Real>(&self, p: &[T]) -> T;
+
+    /// Index of the length of the first segment among the parameters.
+    fn first_length(&self) -> usize;
+
+    /// A parameter that stands behind the lengths, from a solution of the problem with or without it.
+    fn behind_lengths(&self, solution: &Solution) -> f64;
+
+    /// The constants that an engineer reads: speeds, mass flow, wraps. Pure numbers of order one.
+    fn constants(&self, solution: &Solution) -> Vec<f64>;
+
+    /// Pitch radius of a pulley, m.
+    fn pitch_radius(&self, pulley: usize) -> f64;
+
+    /// The units that all pulleys share.
+    fn units(&self) -> Units;
+
+    /// The same belt with other zones on every pulley.
+    fn with_zones(self, zones: &[Vec<Regime>]) -> Self;
+
+    /// The same belt, and the same zones, with other laws of friction, from the law on a pulley and its radius, m.
+    fn with_laws(self, change: impl Fn(Law, f64) -> Law) -> Self;
+
+    /// Number of pulleys.
+    fn pulleys(&self) -> usize {
+        self.zoning().first.len() - 1
+    }
+
+    /// The segments of a pulley, from its entry to its exit.
+    fn zones(&self, pulley: usize) -> Range<usize> {
+        let first = &self.zoning().first;
+        first[pulley]..first[pulley + 1]
+    }
+
+    /// The pulley of a segment.
+    fn pulley(&self, segment: usize) -> usize {
+        self.zoning().pulley_of[segment]
+    }
+
+    /// The friction regime of a segment.
+    fn regime(&self, segment: usize) -> Regime {
+        self.zoning().regimes[segment]
+    }
+
+    /// The friction regimes along every pulley.
+    fn regimes(&self) -> Vec<Vec<Regime>> {
+        let zones = (0..self.pulleys()).map(|pulley| self.zones(pulley));
+        zones
+            .map(|zones| self.zoning().regimes[zones].to_vec())
+            .collect()
+    }
+
+    /// Scaled length of a segment.
+    fn length<T: Real>(&self, segment: usize, p: &[T]) -> T {
+        p[self.first_length() + segment]
+    }
+
+    /// Scaled length of the contact with a pulley.
+    fn contact_length<T: Real>(&self, pulley: usize, p: &[T]) -> T {
+        let zones = self.zones(pulley);
+        zones.map(|segment| self.length(segment, p)).sum()
+    }
+
+    /// The law in the grooves.
+    fn law(&self) -> Law {
+        let mut grooves = (0..self.pulleys()).filter_map(|pulley| self.in_groove(pulley));
+        let groove = grooves.next();
+        groove
+            .expect("a belt that turns once has a pulley inside")
+            .law
+    }
+
+    /// The length ℓ/R over which the direction follows the slip, or the normalisation ε; zero for bristles.
+    fn smoothing(&self) -> f64 {
+        self.law().smoothing()
+    }
+
+    /// Whether the direction of the traction is a state.
+    fn has_direction(&self) -> bool {
+        matches!(self.law(), Law::Sliding { .. })
+    }
+
+    /// Whether the law of friction has elastic and slip zones.
+    fn has_zones(&self) -> bool {
+        self.law().elastic().is_some()
+    }
+
+    /// Whether those zones are segments.
+    fn is_split(&self) -> bool {
+        let mut grooves = (0..self.pulleys()).filter(|&pulley| self.in_groove(pulley).is_some());
+        let blurred = |segment| self.regime(segment) == Regime::Either;
+        self.has_zones() && !grooves.any(|pulley| self.zones(pulley).any(blurred))
+    }
+
+    /// The same belt with another ℓ/R or ε. Bristles stay as they are.
+    fn with_smoothing(self, smoothing: f64) -> Self {
+        self.with_laws(|law, _| law.with_smoothing(smoothing))
+    }
+
+    /// The same belt with friction whose direction is a state, or that of the slip normalised by ε. Other laws
+    /// stay as they are.
+    fn with_direction(self, is_state: bool) -> Self {
+        self.with_laws(|law, _| match law {
+            Law::Sliding { lag, elastic, .. } if !is_state => Law::Normalised {
+                epsilon: lag,
+                elastic,
+            },
+            law => law,
+        })
+    }
+
+    /// The same belt with EPP friction blended into Coulomb friction by `share` in \[0, 1\]. Coulomb and bristle
+    /// friction stay as they are.
+    fn with_epp_weight(self, share: f64) -> Self {
+        self.with_laws(|mut law, _| {
+            if let Some(elastic) = law.elastic_mut() {
+                elastic.weight = share;
+            }
+            law
+        })
+    }
+
+    /// The same belt with the traction following the slip, with a lead or without.
+    fn led(self, is_led: bool) -> Self {
+        self.with_laws(|mut law, _| {
+            if let Law::Sliding { lead, .. } = &mut law {
+                *lead = if is_led { LEAD } else { 0.0 };
+            }
+            law
+        })
+    }
+
+    /// The same belt with bristles of the stiffness κ, 1/m.
+    fn with_bristles(self, stiffness: f64) -> Self {
+        self.with_laws(|law, radius| Law::Bristle {
+            stiffness: stiffness * radius,
+            elastic: law.elastic(),
+        })
+    }
+}
+
+/// The conditions on the belt in a groove that do not depend on what is around the pulley, each given to `zero`.
+///
+/// ```text
+/// conditions with z zones and n states                                          number
+///   x = 0                                        at entry and exit              2
+///   φ = 0, γ along the slip, u = 0 or B = 0, …   at entry                       n − 3
+///   every state continuous, and the junction     at each junction of zones    (z − 1)(n + 1)
+/// ```
+///
+/// A junction is where `k_f` |u| = μ p if elastic and slipping friction meet there. Where the belt begins to
+/// stick it has no slip, and friction straight up the groove just holds it; it breaks loose in a direction of its
+/// own. Else the junction lies in the middle of the turn of the traction that lifts the belt (see
+/// `Contact::turn_excess`).
+pub(super) fn in_groove<T: Real>(
+    problem: &impl BeltProblem,
+    (pulley, groove): (usize, &Groove),
+    at: &Ends<'_, T>,
+    p: &[T],
+    mut zero: impl FnMut(T),
+) {
+    let (omega, flow) = (problem.omega(pulley, p), problem.flow(p));
+    let contact = |segment, y: &[T]| {
+        let regime = problem.regime(segment);
+        Contact::new(groove, regime, y, omega, flow)
+    };
+    let zones = problem.zones(pulley);
+    let (entry, exit) = (at.start(zones.start), at.end(zones.end - 1));
+    zero(entry[PENETRATION]);
+    zero(exit[PENETRATION]);
+    zero(entry[ANGLE]);
+    let law = match groove.law {
+        Law::Sliding { .. } => {
+            zero(contact(zones.start, entry).misalignment(entry));
+            &entry[LAW + 1..]
+        }
+        _ => &entry[LAW..],
+    };
+    for &state in law {
+        zero(state);
+    }
+    for next in zones.start + 1..zones.end {
+        let (y, after) = (at.end(next - 1), at.start(next));
+        let [before, behind] = [next - 1, next].map(|segment| problem.regime(segment));
+        for (index, (&y, &after)) in y.iter().zip(after).enumerate() {
+            if before != Regime::Stick || index != LAW {
+                zero(after - y);
+            }
+        }
+        if behind == Regime::Stick {
+            let [along, across] = contact(next, after).slip;
+            zero(along);
+            zero(across);
+        }
+        match (before, behind) {
+            (Regime::Stick, _) => {}
+            (before, Regime::Stick) => zero(hold_excess(groove, before, y, omega, flow)),
+            (before, behind) if before == behind => {
+                zero(contact(next, y).turn_excess(groove));
+            }
+            _ => zero(limit_excess(groove, y, omega, flow)),
+        }
+    }
+}
+
+/// Inclinations at the ends of a contact in a groove.
+pub(super) fn end_angles<T: Real>(
+    problem: &impl BeltProblem,
+    pulley: usize,
+    at: &Ends<'_, T>,
+) -> super::EndAngles<T> {
+    let zones = problem.zones(pulley);
+    super::EndAngles {
+        entry: at.start(zones.start)[INCLINATION],
+        exit: at.end(zones.end - 1)[INCLINATION],
+    }
+}

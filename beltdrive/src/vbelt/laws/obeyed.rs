@@ -1,0 +1,57 @@
+//! Whether friction in a solution obeys its law.
+
+use crate::vbelt::on_pulley::OnPulley;
+use crate::vbelt::path::Solved;
+use crate::vbelt::{BeltProblem, Regime, limit_excess};
+
+/// What the checks of a state allow, in multiples of the tolerance: integrals of the continuous solution are as
+/// accurate as its defect.
+pub(in crate::vbelt) const ALLOWED: f64 = 10.0;
+
+/// The contacts in grooves.
+fn grooves<P: BeltProblem>(solved: &Solved<P>) -> impl Iterator<Item = OnPulley<'_>> {
+    (0..solved.problem.pulleys()).filter_map(|pulley| solved.in_groove(pulley))
+}
+
+/// Whether friction is against the slip, and elastic or at its limit where it is taken to be.
+pub(super) fn obeys_friction<P: BeltProblem>(solved: &Solved<P>, tolerance: f64) -> bool {
+    let limit = ALLOWED * tolerance;
+    let is_right = !solved.problem.has_zones() || wrong_friction(solved) <= limit;
+    is_right && power_gained(solved) <= limit
+}
+
+/// Power that the belt gains where the traction pulls with its slip, as a share of that which it spends
+/// elsewhere. A traction that has turned the wrong way round meets all equations but the sense of friction.
+pub(in crate::vbelt) fn power_gained<P: BeltProblem>(solved: &Solved<P>) -> f64 {
+    let (mut gained, mut friction) = (0.0, 0.0);
+    for on in grooves(solved) {
+        let sum = on.integrate();
+        gained += sum.gained;
+        friction += sum.friction;
+    }
+    gained / (friction + gained)
+}
+
+/// By how much friction is above its limit in elastic zones, below it in slip zones, or more than holds a belt that
+/// sticks, or the pressure below zero, as a share of the largest pressure.
+pub(in crate::vbelt) fn wrong_friction<P: BeltProblem>(solved: &Solved<P>) -> f64 {
+    let (mut highest, mut wrong) = (0.0f64, 0.0f64);
+    for on in grooves(solved) {
+        on.for_each_point(|stretch, _, _, y| {
+            let pressure = on.contact(stretch.regime, y).pressure;
+            highest = highest.max(pressure);
+            wrong = wrong.max(-pressure);
+            let excess = limit_excess(on.groove, y, on.omega, on.flow);
+            wrong = wrong.max(match stretch.regime {
+                Regime::Elastic => excess,
+                Regime::Slip => -excess,
+                Regime::Stick => {
+                    let limit = on.contact(Regime::Either, y).friction();
+                    on.contact(Regime::Stick, y).friction() - limit
+                }
+                Regime::Either => 0.0,
+            });
+        });
+    }
+    wrong / highest
+}
