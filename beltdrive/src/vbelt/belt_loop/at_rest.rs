@@ -3,7 +3,7 @@
 use super::guess::groove_compliances;
 use super::rest::{Known, Rest, RestProblem};
 use super::rest_guess::RestGuess;
-use super::solve::Search;
+use super::solve::{Search, lost};
 use crate::drive::layout::Layout;
 use crate::mechanics::tensioner::{Towards, equilibrium, length_derivatives};
 use crate::results::loop_error::LoopError;
@@ -15,7 +15,7 @@ pub(super) fn rest_near(
     start: f64,
     layout: &Layout,
 ) -> Result<(RestProblem, Rest), LoopError> {
-    let belt_loop = search.belt_loop;
+    let belt_loop = search.drive;
     let axial = belt_loop.belt.axial_stiffness;
     let (coordinate, tension) = match known {
         Known::Length(length) => {
@@ -64,8 +64,8 @@ pub(super) fn rest_near(
         largest,
     };
     let guess = RestGuess::new(&problem, tension, coordinate).map_err(pressed)?;
-    let outcome = problem.solve(&guess, search.tolerance, &mut search.cost);
-    let rest = outcome.map_err(|cause| search.lost(0.0, &cause))?;
+    let outcome = problem.solve(&guess, search);
+    let rest = outcome.map_err(|cause| lost(0.0, &cause))?;
     match rest.tension > 0.0 {
         true => Ok((problem, rest)),
         false => Err(LoopError::Slack {

@@ -2,10 +2,10 @@
 //!
 //! The back presses with p = F/R per length and slips by e = 1 − ω R/V along the rim, per unit of its own
 //! speed. Friction q against that slip changes the tension, dF/ds = q, with the laws of the grooves in one
-//! direction:
+//! direction, which is that of the slip, or that of bristles:
 //!
 //! ```text
-//! Coulomb   q = μ p e/|e|,  |e| = sqrt(e² + ε²)
+//! Coulomb   q = μ p e/|e|,  |e| = sqrt(e² + ε²), where ℓ/R takes the part of ε if there is one
 //! EPP       q = min(k_f |u|, μ p) e/|e|,  du/ds = (T − T_o)/EA
 //! bristle   q = p B,        dB/ds = κ (e − |e| B/μ)
 //! ```
@@ -16,7 +16,7 @@ use bvp::Real;
 
 /// Index of the tractive tension F among the states; that of the friction law follows it, if there is one.
 pub(super) const TENSION: usize = 0;
-const LAW: usize = 1;
+pub(super) const LAW: usize = 1;
 
 /// The back of the belt on one pulley: constants of the local mechanics, scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,12 +45,12 @@ pub(super) struct Rubbing<T> {
 impl Back {
     /// Number of states of the contact but for the elongation.
     pub(super) fn states(&self) -> usize {
-        match self.law {
-            Law::Bristle { .. } => LAW + 1,
-            Law::Normalised { elastic, .. } | Law::Sliding { elastic, .. } => {
-                LAW + usize::from(elastic.is_some())
-            }
-        }
+        self.displacement() + usize::from(self.law.elastic().is_some())
+    }
+
+    /// Index of the displacement u of EPP friction among the states.
+    fn displacement(&self) -> usize {
+        LAW + usize::from(matches!(self.law, Law::Bristle { .. }))
     }
 
     /// The contact in `state`, on a pulley of speed `omega`, with the mass flow `flow`.
@@ -65,22 +65,20 @@ impl Back {
             Law::Normalised { .. } | Law::Sliding { .. } => self.law.smoothing(),
         };
         let size = (slip * slip + epsilon.powi(2)).sqrt();
-        let friction = match self.law {
-            Law::Bristle { .. } => tractive * state[LAW],
-            Law::Normalised { elastic, .. } | Law::Sliding { elastic, .. } => {
-                let limit = tractive * self.friction_coefficient;
-                let friction = elastic.map_or(limit, |elastic| {
-                    let excess = state[LAW].abs() * elastic.stiffness - limit;
-                    limit.min(limit + excess * elastic.weight)
-                });
-                friction * (slip / size)
-            }
+        let limit = tractive * self.friction_coefficient;
+        let friction = self.law.elastic().map_or(limit, |elastic| {
+            let excess = state[self.displacement()].abs() * elastic.stiffness - limit;
+            limit.min(limit + excess * elastic.weight)
+        });
+        let direction = match self.law {
+            Law::Bristle { .. } => state[LAW] / self.friction_coefficient,
+            Law::Normalised { .. } | Law::Sliding { .. } => slip / size,
         };
         Rubbing {
             tension,
             speed,
             slip,
-            friction,
+            friction: friction * direction,
             size,
         }
     }
@@ -88,16 +86,12 @@ impl Back {
     /// Derivatives of the states with respect to the arc length.
     pub(super) fn rates<T: Real>(&self, at: &Rubbing<T>, state: &[T], rates: &mut [T]) {
         rates[TENSION] = at.friction;
-        match self.law {
-            Law::Normalised { elastic, .. } | Law::Sliding { elastic, .. } => {
-                if let Some(elastic) = elastic {
-                    rates[LAW] = at.tension - elastic.unstretched;
-                }
-            }
-            Law::Bristle { stiffness, .. } => {
-                let saturation = at.size / self.friction_coefficient;
-                rates[LAW] = (at.slip - saturation * state[LAW]) * stiffness;
-            }
+        if let Law::Bristle { stiffness, .. } = self.law {
+            let saturation = at.size / self.friction_coefficient;
+            rates[LAW] = (at.slip - saturation * state[LAW]) * stiffness;
+        }
+        if let Some(elastic) = self.law.elastic() {
+            rates[self.displacement()] = at.tension - elastic.unstretched;
         }
     }
 }

@@ -14,12 +14,12 @@
 //! the law: it carries R F (exp(μ φ) − 1).
 
 use super::super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
-use super::super::{Contact, Groove, Regime};
+use super::super::path::Solved;
+use super::super::{BeltProblem, Contact, Groove, Regime};
 use super::climb::{followed, on_the_way};
 use super::levelling::Levelling;
-use super::problem::FLOW;
+use super::problem::{FLOW, LoopProblem};
 use super::seat::Seat;
-use super::solve::Solved;
 use bvp::{Ends, Family, Problem, Real, Segment};
 use continuation::{Branch, Direction, Kind};
 
@@ -92,44 +92,48 @@ impl Problem for OneGroove {
     }
 }
 
-/// The contact of the state, as it is with λ = 1.
+/// The contact of a state that has one zone on every pulley, as it is with λ = 1.
 struct OfState<'s> {
-    solved: &'s Solved,
-    segment: usize,
+    solved: &'s Solved<LoopProblem>,
+    pulley: usize,
 }
 
 impl bvp::Guess for OfState<'_> {
     fn state(&self, _segment: usize, s: f64, y: &mut [f64]) {
         let mut states = [0.0; super::super::MAX_STATES];
-        let known = self.solved.solution.segments()[self.segment].states;
-        self.solved
-            .solution
-            .state(self.segment, s, &mut states[..known]);
+        let Solved { problem, solution } = self.solved;
+        let segment = problem.zones(self.pulley).start;
+        let known = solution.segments()[segment].states;
+        solution.state(segment, s, &mut states[..known]);
         y.copy_from_slice(&states[..y.len()]);
     }
 
     fn parameters(&self, p: &mut [f64]) {
         let (problem, known) = (&self.solved.problem, self.solved.solution.parameters());
-        p[SPEED] = problem.omega(self.segment, known);
-        p[LENGTH] = known[problem.length_index(self.segment)];
+        p[SPEED] = problem.omega(self.pulley, known);
+        p[LENGTH] = problem.contact_length(self.pulley, known);
         p[GROWTH] = 0.0;
     }
 
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {
-        Some(vec![self.solved.solution.mesh(self.segment).to_vec()])
+        let Solved { problem, solution } = self.solved;
+        let segment = problem.zones(self.pulley).start;
+        Some(vec![solution.mesh(segment).to_vec()])
     }
 }
 
-impl Solved {
+impl Solved<LoopProblem> {
     /// The largest torque of a pulley over that of the state; `None` if it has none or the largest was not found.
     /// It is sought from the rough state of the same loop.
     pub(super) fn torque_margin(&self, pulley: usize, rough: &Self, tolerance: f64) -> Option<f64> {
         let problem = &self.problem;
-        let segment = problem.segment(pulley)?;
+        if problem.is_idle(pulley) {
+            return None;
+        }
         let p = self.solution.parameters();
         let coordinate = problem.coordinate(p);
         let ends = self.with_ends(|at, _| problem.end_angles(at));
-        let [entry, exit] = [self.solution.start(segment), self.solution.end(segment)];
+        let [entry, exit] = [self.entry(pulley), self.exit(pulley)];
         let change =
             exit[TENSION] * ends[pulley].exit.cos() - entry[TENSION] * ends[pulley].entry.cos();
         if change == 0.0 {
@@ -155,7 +159,7 @@ impl Solved {
         let options = on_the_way(tolerance);
         let guess = OfState {
             solved: rough,
-            segment,
+            pulley,
         };
         let (mut family, z) = Family::new(&one, GROWTH, &[], &guess, &options).ok()?;
         let within = followed([-1.0, to.ln()], &options);

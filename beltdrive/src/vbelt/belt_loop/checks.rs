@@ -9,19 +9,21 @@
 //! waves     the belt is slower than its longitudinal waves
 //! ```
 
+use super::super::BeltProblem;
 use super::super::EndAngles;
+use super::super::laws::{ALLOWED, power_gained, wrong_friction};
 use super::super::on_pulley::{Integrals, OnPulley};
+use super::super::path::Solved;
 use super::contacts::Touching;
 use super::plane::{Laid, Plane};
-use super::problem::FLOW;
-use super::solve::Solved;
+use super::problem::{FLOW, LoopProblem};
 use crate::Check;
 use crate::drive::belt_loop::Mount;
 use std::f64::consts::FRAC_PI_2;
 
 /// What the checks look at.
 pub(super) struct Checked<'a> {
-    pub(super) solved: &'a Solved,
+    pub(super) solved: &'a Solved<LoopProblem>,
     pub(super) laid: &'a Laid<f64>,
     pub(super) ends: &'a [EndAngles<f64>],
     pub(super) touching: &'a [Touching<'a>],
@@ -39,7 +41,7 @@ impl Checked<'_> {
     /// All of them.
     pub(super) fn all(&self) -> Vec<Check> {
         // Integrals of the continuous solution are as accurate as its defect.
-        let limit = 10.0 * self.tolerance;
+        let limit = ALLOWED * self.tolerance;
         let largest = self.tractive.iter().copied().fold(0.0, f64::max);
         let friction: f64 = self.integrals.iter().map(|sum| sum.friction).sum();
         let power = self.integrals.iter().zip(self.omegas);
@@ -56,7 +58,7 @@ impl Checked<'_> {
             deviation,
             limit,
         };
-        vec![
+        let mut checks = vec![
             check(
                 "moment balance on every pulley",
                 self.moments() / largest,
@@ -93,7 +95,20 @@ impl Checked<'_> {
                     / largest,
                 0.0,
             ),
-        ]
+        ];
+        let solved = self.solved;
+        if solved.problem.has_direction() {
+            checks.push(check(
+                "friction against the slip",
+                power_gained(solved),
+                limit,
+            ));
+        }
+        if solved.problem.has_zones() {
+            let wrong = wrong_friction(solved);
+            checks.push(check("friction zones of their kind", wrong, limit));
+        }
+        checks
     }
 
     /// Largest difference of a torque and the moment of the forces along the contact, scaled.

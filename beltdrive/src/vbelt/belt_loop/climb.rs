@@ -1,10 +1,11 @@
 //! The states of a loop as its load rises, followed by continuation in the factor on all torques, to a load
 //! that is asked for or to where no state carries more.
 
-use super::super::path::Effort;
+use super::super::BeltProblem;
+use super::super::path::{Effort, Solved};
 use super::levelling::Levelling;
-use super::problem::FLOW;
-use super::solve::{Search, Solved};
+use super::problem::{FLOW, LoopProblem};
+use super::solve::Search;
 use crate::results::difficulty;
 use crate::results::loop_error::LoopError;
 use crate::results::loop_state::LoadLimit;
@@ -26,7 +27,7 @@ const LARGEST_FACTOR: f64 = 1e9;
 /// Where a climb ends.
 pub(super) enum Climbed {
     /// At the load that was asked for.
-    Reached(Box<Solved>),
+    Reached(Box<Solved<LoopProblem>>),
     /// At the largest load.
     Limit(Top),
     /// It was not followed farther than to this factor.
@@ -47,8 +48,11 @@ pub(super) struct Top {
 impl Search<'_> {
     /// How far all torques can be raised from a state, found by raising them; `None` if that is not at all, or
     /// farther than anything that was tried.
-    pub(super) fn load_limit(&mut self, from: Solved) -> Result<Option<LoadLimit>, LoopError> {
-        let mut pulleys = self.belt_loop.pulleys.iter();
+    pub(super) fn load_limit(
+        &mut self,
+        from: Solved<LoopProblem>,
+    ) -> Result<Option<LoadLimit>, LoopError> {
+        let mut pulleys = self.drive.pulleys.iter();
         if pulleys.all(|pulley| pulley.duty.torque_at(1.0) == 0.0) {
             return Ok(None);
         }
@@ -69,7 +73,7 @@ impl Search<'_> {
     }
 
     /// Raises the load from a state to a factor on all torques, above that of the state.
-    pub(super) fn climb(&mut self, from: &Solved, to: f64) -> Climbed {
+    pub(super) fn climb(&mut self, from: &Solved<LoopProblem>, to: f64) -> Climbed {
         let p = from.solution.parameters();
         let begin = from.problem.factor(p);
         let free = from.problem.clone().with_unknown_factor();
@@ -90,9 +94,8 @@ impl Search<'_> {
             Ok(branch) => branch,
             Err(error) => return lost(begin, difficulty::of_branch(&error)),
         };
-        let segments = free.pulley_of.len();
-        let moving: Vec<_> = (0..segments)
-            .filter_map(|segment| Some((segment, free.speed_index(segment)?)))
+        let moving: Vec<_> = (0..free.pulleys())
+            .filter_map(|pulley| Some((pulley, free.speed_index(pulley)?)))
             .collect();
         for &(_, index) in &moving {
             branch = branch.event(move |_, point| point.z[point.z.len() - 1 - unknown + index]);
@@ -110,13 +113,13 @@ impl Search<'_> {
                 Kind::Event(index) => {
                     return Climbed::Limit(Top {
                         factor,
-                        pulley: free.pulley_of[moving[index].0],
+                        pulley: moving[index].0,
                         overhangs: false,
                     });
                 }
                 Kind::Bound if factor == to => {
                     let solution = solution();
-                    self.cost.newton_steps += solution.stats().newton_steps;
+                    self.stats.newton_steps += solution.stats().newton_steps;
                     let problem = free.clone().with_factor(to);
                     let guess = WithFactor {
                         solution: &solution,
@@ -162,20 +165,17 @@ pub(super) fn followed([low, high]: [f64; 2], options: &Options) -> continuation
 
 /// What ends the load at a limit point: the belt overhangs, or the pulley slips whose speed falls most against that
 /// of the belt.
-fn top(solved: &Solved, point: &Point, factor: f64) -> Top {
+fn top(solved: &Solved<LoopProblem>, point: &Point, factor: f64) -> Top {
     let problem = &solved.problem;
     let p = solved.solution.parameters();
     let moved = &point.tangent[point.tangent.len() - p.len()..];
     let of_belt = moved[FLOW] / p[FLOW];
-    let slowed = problem
-        .pulley_of
-        .iter()
-        .enumerate()
-        .map(|(segment, &pulley)| {
-            let of_pulley = problem.speed_index(segment).map(|index| moved[index]);
-            let of_pulley = of_pulley.unwrap_or(0.0) / problem.omega(segment, p);
-            ((of_pulley - of_belt).abs(), pulley)
-        });
+    let touched = (0..problem.pulleys()).filter(|&pulley| !problem.is_idle(pulley));
+    let slowed = touched.map(|pulley| {
+        let of_pulley = problem.speed_index(pulley).map(|index| moved[index]);
+        let of_pulley = of_pulley.unwrap_or(0.0) / problem.omega(pulley, p);
+        ((of_pulley - of_belt).abs(), pulley)
+    });
     let (_, slips) = slowed.fold(
         (0.0, 0),
         |most, next| if next.0 > most.0 { next } else { most },

@@ -1,11 +1,11 @@
 //! The contacts of a solved loop, one by one: integrals, profiles and friction zones.
 
-use super::super::Regime;
-use super::super::on_pulley::{Integrals, OnPulley, Stretch, points};
+use super::super::BeltProblem;
+use super::super::on_pulley::{Integrals, OnPulley, points};
+use super::super::path::Solved;
 use super::back::Back;
 use super::problem::{FLOW, LoopProblem};
 use super::seat::Seat;
-use super::solve::Solved;
 use crate::{Profile, Zone, ZoneKind};
 use std::f64::consts::FRAC_PI_2;
 
@@ -25,35 +25,21 @@ pub(super) enum Touching<'a> {
 
 /// The back of the belt on a flat pulley under a torque.
 pub(super) struct OnBack<'a> {
-    solved: &'a Solved,
+    solved: &'a Solved<LoopProblem>,
     back: &'a Back,
     segment: usize,
     pulley: usize,
 }
 
-impl Solved {
+impl Solved<LoopProblem> {
     /// The belt on a pulley; `turned` is how far it turns there, rad.
     pub(super) fn touching(&self, pulley: usize, turned: f64) -> Touching<'_> {
-        let problem = &self.problem;
-        let p = self.solution.parameters();
-        match (&problem.seats[pulley], problem.segment(pulley)) {
-            (Seat::Groove(groove), Some(segment)) => Touching::Groove(OnPulley {
-                solution: &self.solution,
-                groove,
-                stretches: vec![Stretch {
-                    segment,
-                    regime: Regime::Either,
-                    length: p[problem.length_index(segment)],
-                }],
-                omega: problem.omega(segment, p),
-                flow: p[FLOW],
-                radius: problem.plane.spots[pulley].radius,
-                units: problem.units,
-            }),
-            (Seat::Back(back), Some(segment)) => Touching::Back(OnBack {
+        match (&self.problem.seats[pulley], self.in_groove(pulley)) {
+            (_, Some(on)) => Touching::Groove(on),
+            (Seat::Back(back), None) => Touching::Back(OnBack {
                 solved: self,
                 back,
-                segment,
+                segment: self.problem.zones(pulley).start,
                 pulley,
             }),
             _ => Touching::Idle(turned),
@@ -68,12 +54,13 @@ impl OnBack<'_> {
 
     /// Scaled contact length, which is the wrap in rad.
     pub(super) fn wrap(&self) -> f64 {
-        self.solved.solution.parameters()[self.problem().length_index(self.segment)]
+        let p = self.solved.solution.parameters();
+        self.problem().length(self.segment, p)
     }
 
     fn at(&self, y: &[f64]) -> super::back::Rubbing<f64> {
         let p = self.solved.solution.parameters();
-        let omega = self.problem().omega(self.segment, p);
+        let omega = self.problem().omega(self.pulley, p);
         self.back.at(y, omega, p[FLOW])
     }
 

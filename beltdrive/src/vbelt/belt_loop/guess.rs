@@ -9,8 +9,10 @@
 //! Σ ∫ T/EA ds + Σ ∫ F/(k R tan β) dφ      is about what it is at rest.
 //! ```
 
+use super::super::BeltProblem;
 use super::super::guess::Contacting;
-use super::problem::{FLOW, LoopProblem, Target};
+use super::closing::Target;
+use super::problem::{FLOW, LoopProblem};
 use super::rest::Rest;
 use super::seat::Seat;
 use crate::drive::belt_loop::BeltLoop;
@@ -130,7 +132,7 @@ impl<'a> LoopGuess<'a> {
 
 impl bvp::Guess for LoopGuess<'_> {
     fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
-        let pulley = self.problem.pulley_of[segment];
+        let pulley = self.problem.pulley(segment);
         let contacting = self.contacting(pulley);
         let [entry, exit] = contacting.tension;
         let last = y.len() - 1;
@@ -156,15 +158,15 @@ impl bvp::Guess for LoopGuess<'_> {
     fn parameters(&self, p: &mut [f64]) {
         let problem = self.problem;
         let strand = problem.units.strand();
-        let driver = problem.driver();
+        let driver = problem.driver;
         let [entering, _] = self.tension(driver);
         let speed = 1.0 / (1.0 + 0.5 * self.depth(driver));
         p[FLOW] = speed / strand.speed(strand.tension(entering, 1.0), 1.0);
         if let Some(index) = problem.coordinate_index() {
             p[index] = self.coordinate;
         }
-        for (segment, &pulley) in problem.pulley_of.iter().enumerate() {
-            if let Some(index) = problem.speed_index(segment) {
+        for pulley in 0..problem.pulleys() {
+            if let Some(index) = problem.speed_index(pulley) {
                 let [entry, exit] = self.tension(pulley);
                 // The belt slows down by its mean depth where it is driven, and a driven pulley loses as
                 // much again; an idler does not.
@@ -173,7 +175,9 @@ impl bvp::Guess for LoopGuess<'_> {
                     false => speed * (1.0 + 0.5 * self.depth(pulley)),
                 };
             }
-            p[problem.length_index(segment)] = self.contacting(pulley).swept;
+            for segment in problem.zones(pulley) {
+                p[problem.first_length() + segment] = self.contacting(pulley).swept;
+            }
         }
     }
 }

@@ -9,9 +9,9 @@ mod back;
 mod capacity;
 mod checks;
 mod climb;
+mod closing;
 mod contacts;
 mod guess;
-mod laws;
 mod levelling;
 mod plane;
 mod problem;
@@ -21,6 +21,7 @@ mod running;
 mod seat;
 mod seating;
 mod solve;
+mod start;
 mod state;
 mod tensioner;
 

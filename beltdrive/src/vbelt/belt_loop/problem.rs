@@ -1,36 +1,39 @@
 //! The steady state of a V-belt round n pulleys as a boundary value problem.
 //!
-//! Segments are the contacts in belt order, with the scaled arc length L s, 0 ≤ s ≤ 1; an idler on the back
-//! of the belt needs none, since the tension passes it unchanged. The last state of every segment is the
-//! elongation e of the belt from the entry, de/ds = (T/EA)/(1 + T/EA). Unknown parameters are G, the
-//! coordinate q of the tensioner, the speeds of all pulleys with a segment but the driver, and the length L
+//! Segments are the friction zones of the pulleys in belt order, with the scaled arc length L s, 0 ≤ s ≤ 1; on its
+//! back the belt has one for a pulley, and none for an idler, since the tension passes it unchanged. The last state
+//! of every segment is the elongation e of the belt from the entry, de/ds = (T/EA)/(1 + T/EA). Unknown parameters are
+//! G, the coordinate q of the tensioner, the speeds of all pulleys with a segment but the driver, and the length L
 //! of every segment; with EPP friction also the tension `T_o` at which the displacement does not grow.
 //!
 //! ```text
-//! conditions of a segment with n states                                           number
+//! conditions of a contact with z zones and n states                               number
 //!   the tension with which the belt has left the pulley before                    1
-//!   x = 0 at entry and exit, φ = 0 at entry (in grooves)                          3
-//!   B = 0, e = 0 at entry                                                         n − 4 or n − 1
+//!   in grooves (see `in_groove`)                                                  (z − 1)(n + 1) + n − 1
+//!   on the back u = 0 or B = 0, e = 0 at entry                                    n − 1
 //!   the belt turns by as much as between the spans (see `plane`)                  1
 //! R (F_out cos θ_out − F_in cos θ_in) = M on every pulley but the driver          speeds
-//! closure                                                                         1
+//! closure (see `closing`)                                                         1
 //! tensioner   Q(q) + H·dC/dq = 0 with the hub load H                              0 or 1
 //! T_o of EPP friction is the tension of the slackest span                         0 or 1
 //! ```
 //!
-//! A groove has two conditions more than states, the back of the belt one more: together as many as there
-//! are parameters.
+//! A contact has as many conditions more than states as it has segments: together as many as there are parameters.
 
-use super::super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
-use super::super::{Contact, EndAngles, Regime, Units};
+use super::super::belt_problem::{BeltProblem, Zoning, end_angles, in_groove};
+use super::super::groove::{ANGLE, LAW, TENSION};
+use super::super::path::Solved;
+use super::super::{Contact, EndAngles, Groove, Law, Regime, Units};
 use super::back;
-use super::plane::{Laid, Plane};
-use super::seat::{Seat, scaled_law};
+use super::closing::Target;
+use super::plane::Plane;
+use super::seat::Seat;
 use super::tensioner::{coordinate_unit, unbalanced};
 use crate::FrictionLaw;
 use crate::drive::belt_loop::{BeltLoop, Duty, Tensioner};
 use crate::drive::layout::Layout;
-use bvp::{Ends, Problem, Real, Segment};
+use bvp::{Ends, Problem, Real, Segment, Solution};
+use std::ops::Range;
 
 /// Index of G among the parameters.
 pub(super) const FLOW: usize = 0;
@@ -43,20 +46,9 @@ enum Load {
     Power(f64),
 }
 
-/// What the closure asks of the running belt.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Target {
-    /// Length of the unstretched belt, m.
-    Length(f64),
-    /// Belt tension of a span, N.
-    Tension { span: usize, tension: f64 },
-    /// Tractive tension of a span, N.
-    Tractive { span: usize, tension: f64 },
-}
-
 /// A belt loop in steady motion, scaled.
 #[derive(Clone, Debug)]
-pub(super) struct LoopProblem {
+pub(crate) struct LoopProblem {
     pub(super) plane: Plane,
     pub(super) units: Units,
     pub(super) seats: Vec<Seat>,
@@ -65,62 +57,68 @@ pub(super) struct LoopProblem {
     /// Factor on all torques and powers; unknown where there is none.
     factor: Option<f64>,
     tensioner: Option<(usize, Tensioner)>,
-    /// Segment of each pulley, if it has one.
-    segment_of: Vec<Option<usize>>,
-    /// Pulley of each segment.
-    pub(super) pulley_of: Vec<usize>,
-    driver: usize,
+    /// Index of the speed of each pulley among the parameters, if it is unknown.
+    speed_index: Vec<Option<usize>>,
+    /// Index of the length of the first segment among the parameters.
+    first_length: usize,
+    /// Index of the driver.
+    pub(super) driver: usize,
+    zoning: Zoning,
     segments: Vec<Segment>,
-    epsilon: f64,
     /// Whether friction is elastic/perfectly-plastic.
     has_reference: bool,
 }
 
 impl LoopProblem {
-    /// The problem of a loop whose pitch line is laid out in `layout`, in units of `units`; the slip
-    /// direction is normalised by `epsilon`, which bristles do not use.
+    /// The problem of a loop whose pitch line is laid out in `layout`, in units of `units`, with one segment on
+    /// each pulley and the direction of Coulomb and EPP friction smoothed over the length ℓ/R `lag`.
     pub(super) fn new(
         belt_loop: &BeltLoop,
         layout: &Layout,
         units: Units,
         target: Target,
         law: FrictionLaw,
-        epsilon: f64,
+        lag: f64,
     ) -> Self {
         let pulleys = belt_loop.pulleys.iter();
-        let seats = pulleys.map(|pulley| Seat::new(belt_loop, pulley, units, law, epsilon));
+        let seats = pulleys.map(|pulley| Seat::new(belt_loop, pulley, units, law, lag));
         let seats: Vec<_> = seats.collect();
         let loads = belt_loop.pulleys.iter().map(|pulley| match pulley.duty {
             Duty::Driver(_) => Load::Driver,
             Duty::Torque(torque) => Load::Torque(torque / units.torque(pulley.radius)),
             Duty::Power(power) => Load::Power(power / units.power()),
         });
-        let mut segment_of = Vec::with_capacity(seats.len());
-        let (mut pulley_of, mut segments) = (vec![], vec![]);
-        for (pulley, seat) in seats.iter().enumerate() {
-            segment_of.push(seat.states().map(|states| {
-                pulley_of.push(pulley);
-                segments.push(Segment::new(states));
-                segments.len() - 1
-            }));
-        }
-        Self {
+        let (tensioner, driver) = (belt_loop.tensioner(), belt_loop.driver());
+        let mut first_length = FLOW + 1 + usize::from(tensioner.is_some());
+        let speed_index = seats.iter().enumerate().map(|(pulley, seat)| {
+            let is_unknown = pulley != driver && !matches!(seat, Seat::Idle);
+            first_length += usize::from(is_unknown);
+            is_unknown.then_some(first_length - 1)
+        });
+        let speed_index = speed_index.collect();
+        let has_reference = matches!(law, FrictionLaw::Epp { .. });
+        let zones = seats.iter().map(|seat| match seat {
+            Seat::Groove(_) if !has_reference => vec![Regime::Slip],
+            Seat::Groove(_) | Seat::Back(_) => vec![Regime::Either],
+            Seat::Idle => vec![],
+        });
+        let zones: Vec<_> = zones.collect();
+        let problem = Self {
             plane: Plane::new(belt_loop, layout),
             units,
             loads: loads.collect(),
             factor: Some(1.0),
             target,
-            tensioner: belt_loop
-                .tensioner()
-                .map(|(pulley, tensioner)| (pulley, *tensioner)),
-            segment_of,
-            pulley_of,
-            driver: belt_loop.driver(),
-            segments,
+            tensioner: tensioner.map(|(pulley, tensioner)| (pulley, *tensioner)),
+            speed_index,
+            first_length,
+            driver,
+            zoning: Zoning::default(),
+            segments: Vec::new(),
             seats,
-            epsilon,
-            has_reference: matches!(law, FrictionLaw::Epp { .. }),
-        }
+            has_reference,
+        };
+        problem.with_zones(&zones)
     }
 
     /// The same loop with all torques and powers multiplied by a factor.
@@ -135,49 +133,10 @@ impl LoopProblem {
         self
     }
 
-    /// The same loop with the slip direction normalised by another ε.
-    pub(super) fn with_epsilon(mut self, epsilon: f64) -> Self {
-        for law in self.seats.iter_mut().filter_map(Seat::law_mut) {
-            *law = law.with_smoothing(epsilon);
-        }
-        self.epsilon = epsilon;
-        self
-    }
-
-    /// The same loop with bristles of the stiffness κ, 1/m.
-    pub(super) fn with_bristles(mut self, stiffness: f64) -> Self {
-        for (seat, spot) in self.seats.iter_mut().zip(&self.plane.spots) {
-            if let Some(law) = seat.law_mut() {
-                *law = scaled_law(
-                    FrictionLaw::Bristle { stiffness },
-                    self.units,
-                    spot.radius,
-                    0.0,
-                );
-            }
-        }
-        self
-    }
-
-    /// The same loop with EPP friction blended into Coulomb friction by `share` in \[0, 1\].
-    pub(super) fn with_epp_weight(mut self, share: f64) -> Self {
-        for law in self.seats.iter_mut().filter_map(Seat::law_mut) {
-            if let Some(elastic) = law.elastic_mut() {
-                elastic.weight = share;
-            }
-        }
-        self
-    }
-
-    /// The normalisation ε of the slip direction.
-    pub(super) fn epsilon(&self) -> f64 {
-        self.epsilon
-    }
-
     /// Index of the tension at which the displacement of EPP friction does not grow, among the parameters.
     fn reference_index(&self) -> Option<usize> {
-        self.has_reference
-            .then(|| self.length_index(self.segments.len()))
+        let index = self.first_length + self.segments.len();
+        self.has_reference.then_some(index)
     }
 
     /// That tension, scaled; 0 with other laws.
@@ -186,41 +145,19 @@ impl LoopProblem {
     }
 
     /// Number of parameters but for the factor.
-    fn constants(&self) -> usize {
-        self.length_index(self.segments.len()) + usize::from(self.has_reference)
-    }
-
-    /// The tension of the slackest span, scaled: the tractive one where the closure gives such a tension.
-    pub(super) fn slackest<T: Real>(&self, at: &Ends<'_, T>, p: &[T]) -> T {
-        let spans = (0..self.seats.len()).map(|span| self.leaving(span, at));
-        let slackest = spans.fold(T::from_f64(f64::INFINITY), Real::min);
-        match self.target {
-            Target::Tractive { .. } => slackest,
-            _ => self.units.strand().tension(slackest, p[FLOW]),
-        }
+    fn known_parameters(&self) -> usize {
+        self.first_length + self.segments.len() + usize::from(self.has_reference)
     }
 
     /// The factor on all torques and powers.
     pub(super) fn factor<T: Real>(&self, p: &[T]) -> T {
-        self.factor.map_or_else(|| p[self.constants()], T::from_f64)
+        self.factor
+            .map_or_else(|| p[self.known_parameters()], T::from_f64)
     }
 
-    /// The index of the driver.
-    pub(super) fn driver(&self) -> usize {
-        self.driver
-    }
-
-    /// Number of states of a segment before those of the friction law.
-    pub(super) fn mechanical_states(&self, segment: usize) -> usize {
-        match self.seats[self.pulley_of[segment]] {
-            Seat::Groove(_) => LAW,
-            Seat::Back(_) | Seat::Idle => back::TENSION + 1,
-        }
-    }
-
-    /// The segment of a pulley.
-    pub(super) fn segment(&self, pulley: usize) -> Option<usize> {
-        self.segment_of[pulley]
+    /// Whether a pulley is an idler on the back of the belt.
+    pub(super) fn is_idle(&self, pulley: usize) -> bool {
+        self.zones(pulley).is_empty()
     }
 
     /// Index of the coordinate of the tensioner among the parameters.
@@ -241,30 +178,17 @@ impl LoopProblem {
         index.map_or(T::ZERO, |index| p[index] * self.coordinate_unit())
     }
 
-    /// Index of the speed of the pulley of a segment among the parameters; `None` for the driver.
-    pub(super) fn speed_index(&self, segment: usize) -> Option<usize> {
-        let first = FLOW + 1 + usize::from(self.tensioner.is_some());
-        let driver = self.segment_of[self.driver].unwrap_or(usize::MAX);
-        (segment != driver).then(|| first + segment - usize::from(segment > driver))
-    }
-
-    /// Index of the length of a segment among the parameters.
-    pub(super) fn length_index(&self, segment: usize) -> usize {
-        let first = FLOW + usize::from(self.tensioner.is_some());
-        first + self.segments.len() + segment
-    }
-
-    /// Scaled angular speed of the pulley of a segment.
-    pub(super) fn omega<T: Real>(&self, segment: usize, p: &[T]) -> T {
-        self.speed_index(segment).map_or(T::ONE, |index| p[index])
+    /// Index of the speed of a pulley among the parameters, if it is unknown.
+    pub(super) fn speed_index(&self, pulley: usize) -> Option<usize> {
+        self.speed_index[pulley]
     }
 
     /// Tractive tension with which the belt leaves a pulley, scaled.
     pub(super) fn leaving<T: Real>(&self, pulley: usize, at: &Ends<'_, T>) -> T {
         let mut pulley = pulley;
         for _ in &self.seats {
-            if let Some(segment) = self.segment_of[pulley] {
-                return at.end(segment)[TENSION];
+            if let Some(last) = self.zones(pulley).last() {
+                return at.end(last)[TENSION];
             }
             pulley = self.plane.arriving(pulley);
         }
@@ -273,13 +197,10 @@ impl LoopProblem {
 
     /// Inclinations at both ends of every contact.
     pub(super) fn end_angles<T: Real>(&self, at: &Ends<'_, T>) -> Vec<EndAngles<T>> {
-        let pulleys = self.seats.iter().zip(&self.segment_of);
-        let ends = pulleys.map(|(seat, segment)| match (seat, segment) {
-            (Seat::Groove(_), Some(segment)) => EndAngles {
-                entry: at.start(*segment)[INCLINATION],
-                exit: at.end(*segment)[INCLINATION],
-            },
-            _ => EndAngles {
+        let pulleys = self.seats.iter().enumerate();
+        let ends = pulleys.map(|(pulley, seat)| match seat {
+            Seat::Groove(_) => end_angles(self, pulley, at),
+            Seat::Back(_) | Seat::Idle => EndAngles {
                 entry: T::ZERO,
                 exit: T::ZERO,
             },
@@ -287,54 +208,101 @@ impl LoopProblem {
         ends.collect()
     }
 
-    /// Length of the belt less that of the unstretched belt, and that of the stretched one, m.
-    fn elongation<T: Real>(&self, at: &Ends<'_, T>, p: &[T], laid: &Laid<T>) -> [T; 2] {
-        let strand = self.units.strand();
-        let (mut elongation, mut length) = (T::ZERO, T::ZERO);
-        for (pulley, &span) in laid.lengths.iter().enumerate() {
-            let tension = strand.tension(self.leaving(pulley, at), p[FLOW]);
-            let strain = strand.strain(tension);
-            length += span;
-            elongation += span * (strain / (strain + 1.0));
-            let radius = self.plane.spots[pulley].radius;
-            match self.segment_of[pulley] {
-                Some(segment) => {
-                    let end = at.end(segment);
-                    length += p[self.length_index(segment)] * radius;
-                    elongation += end[end.len() - 1] * radius;
-                }
-                None => {
-                    let arc = laid.turned[pulley] * radius;
-                    length += arc;
-                    elongation += arc * (strain / (strain + 1.0));
-                }
-            }
-        }
-        [elongation, length]
+    /// Calls `view` with the states at both ends of all segments of a solution.
+    fn with_ends<R>(&self, solution: &Solution, view: impl FnOnce(&Ends<'_, f64>) -> R) -> R {
+        let segments = 0..self.segments.len();
+        let values = segments.flat_map(|i| [solution.start(i), solution.end(i)]);
+        let values: Vec<f64> = values.flatten().copied().collect();
+        view(&Ends::new(&self.segments, &values))
     }
 
-    /// Length of the unstretched belt, and of the running one, m.
-    pub(super) fn lengths(&self, at: &Ends<'_, f64>, p: &[f64]) -> [f64; 2] {
-        let laid = self.plane.lay(self.coordinate(p), &self.end_angles(at));
-        let [elongation, length] = self.elongation(at, p, &laid);
-        [length - elongation, length]
+    /// The number of states of every segment, as the laws ask for.
+    fn laid_out(mut self) -> Self {
+        let seats = (0..self.zoning.count()).map(|segment| &self.seats[self.pulley(segment)]);
+        self.segments = seats.map(|seat| Segment::new(seat.states())).collect();
+        self
+    }
+}
+
+impl Solved<LoopProblem> {
+    /// Calls `view` with the states at both ends of all segments, and the parameters.
+    pub(super) fn with_ends<R>(&self, view: impl FnOnce(&Ends<'_, f64>, &[f64]) -> R) -> R {
+        let p = self.solution.parameters();
+        self.problem.with_ends(&self.solution, |at| view(at, p))
+    }
+}
+
+impl BeltProblem for LoopProblem {
+    fn zoning(&self) -> &Zoning {
+        &self.zoning
     }
 
-    /// The residual of the closure.
-    fn closing<T: Real>(&self, at: &Ends<'_, T>, p: &[T], laid: &Laid<T>) -> T {
-        match self.target {
-            Target::Length(unstretched) => {
-                let [elongation, length] = self.elongation(at, p, laid);
-                (length - unstretched - elongation) / (unstretched * self.units.strand().compliance)
-            }
-            Target::Tension { span, tension } => {
-                let tractive = self.leaving(span, at);
-                self.units.strand().tension(tractive, p[FLOW]) - tension / self.units.force
-            }
-            Target::Tractive { span, tension } => {
-                self.leaving(span, at) - tension / self.units.force
+    fn in_groove(&self, pulley: usize) -> Option<&Groove> {
+        match &self.seats[pulley] {
+            Seat::Groove(groove) => Some(groove),
+            Seat::Back(_) | Seat::Idle => None,
+        }
+    }
+
+    fn law_states(&self, segment: usize) -> Range<usize> {
+        let seat = &self.seats[self.pulley(segment)];
+        let first = match seat {
+            Seat::Groove(_) => LAW,
+            Seat::Back(_) | Seat::Idle => back::LAW,
+        };
+        first..seat.states() - 1
+    }
+
+    fn omega<T: Real>(&self, pulley: usize, p: &[T]) -> T {
+        self.speed_index[pulley].map_or(T::ONE, |index| p[index])
+    }
+
+    fn flow<T: Real>(&self, p: &[T]) -> T {
+        p[FLOW]
+    }
+
+    fn first_length(&self) -> usize {
+        self.first_length
+    }
+
+    fn behind_lengths(&self, solution: &Solution) -> f64 {
+        self.with_ends(solution, |at| self.slackest(at, solution.parameters()))
+    }
+
+    /// With the coordinate of the tensioner and the tension `T_o`.
+    fn constants(&self, solution: &Solution) -> Vec<f64> {
+        let p = solution.parameters();
+        let wraps = (0..self.seats.len()).filter_map(|pulley| {
+            let last = self.zones(pulley).last()?;
+            Some(match self.seats[pulley] {
+                Seat::Groove(_) => solution.end(last)[ANGLE],
+                Seat::Back(_) | Seat::Idle => self.length(last, p),
+            })
+        });
+        let constants = p[..self.first_length].iter().copied();
+        constants.chain([self.reference(p)]).chain(wraps).collect()
+    }
+
+    fn pitch_radius(&self, pulley: usize) -> f64 {
+        self.plane.spots[pulley].radius
+    }
+
+    fn units(&self) -> Units {
+        self.units
+    }
+
+    fn with_zones(mut self, zones: &[Vec<Regime>]) -> Self {
+        self.zoning = Zoning::new(zones);
+        self.laid_out()
+    }
+
+    fn with_laws(mut self, change: impl Fn(Law, f64) -> Law) -> Self {
+        for (seat, spot) in self.seats.iter_mut().zip(&self.plane.spots) {
+            if let Some(law) = seat.law_mut() {
+                *law = change(*law, spot.radius);
             }
         }
+        self.laid_out()
     }
 }
 
@@ -344,19 +312,20 @@ impl Problem for LoopProblem {
     }
 
     fn parameters(&self) -> usize {
-        self.constants() + usize::from(self.factor.is_none())
+        self.known_parameters() + usize::from(self.factor.is_none())
     }
 
     fn condition_count(&self) -> usize {
         let states: usize = self.segments.iter().map(|segment| segment.states).sum();
-        states + self.constants()
+        states + self.known_parameters()
     }
 
     fn rhs<T: Real>(&self, segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
-        let (omega, flow) = (self.omega(segment, p), p[FLOW]);
-        let tension = match &self.seats[self.pulley_of[segment]] {
+        let pulley = self.pulley(segment);
+        let (omega, flow) = (self.omega(pulley, p), self.flow(p));
+        let tension = match &self.seats[pulley] {
             Seat::Groove(groove) => {
-                let contact = Contact::new(groove, Regime::Either, y, omega, flow);
+                let contact = Contact::new(groove, self.regime(segment), y, omega, flow);
                 contact.rates(groove, y, dy);
                 contact.tension
             }
@@ -372,7 +341,7 @@ impl Problem for LoopProblem {
             dy[y.len() - 2] -= p[index];
         }
         dy[y.len() - 1] = strain / (strain + 1.0);
-        let length = p[self.length_index(segment)];
+        let length = self.length(segment, p);
         for rate in dy {
             *rate *= length;
         }
@@ -388,24 +357,23 @@ impl Problem for LoopProblem {
         let ends = self.end_angles(&at);
         let (coordinate, factor) = (self.coordinate(p), self.factor(p));
         let laid = self.plane.lay(coordinate, &ends);
-        for (segment, &pulley) in self.pulley_of.iter().enumerate() {
-            let (entry, exit) = (at.start(segment), at.end(segment));
+        for (pulley, seat) in self.seats.iter().enumerate() {
+            let zones = self.zones(pulley);
+            let Some(last) = zones.clone().last() else {
+                continue;
+            };
+            let (entry, exit) = (at.start(zones.start), at.end(last));
             zero(entry[TENSION] - self.leaving(self.plane.arriving(pulley), &at));
-            let turned = match &self.seats[pulley] {
-                Seat::Groove(_) => {
-                    zero(entry[PENETRATION]);
-                    zero(exit[PENETRATION]);
-                    zero(entry[ANGLE]);
-                    for &state in &entry[LAW..] {
-                        zero(state);
-                    }
+            let turned = match seat {
+                Seat::Groove(groove) => {
+                    in_groove(self, (pulley, groove), &at, p, &mut zero);
                     exit[ANGLE] - (ends[pulley].exit - ends[pulley].entry)
                 }
                 Seat::Back(_) | Seat::Idle => {
-                    for &state in &entry[back::TENSION + 1..] {
+                    for &state in &entry[back::LAW..] {
                         zero(state);
                     }
-                    p[self.length_index(segment)]
+                    self.length(last, p)
                 }
             };
             zero(turned - laid.turned[pulley]);
@@ -417,7 +385,7 @@ impl Problem for LoopProblem {
                 Load::Driver => {}
                 Load::Torque(torque) => zero(before - behind - factor * torque),
                 Load::Power(power) => {
-                    zero((before - behind) * self.omega(segment, p) - factor * power);
+                    zero((before - behind) * self.omega(pulley, p) - factor * power);
                 }
             }
         }

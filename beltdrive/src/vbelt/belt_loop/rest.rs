@@ -10,10 +10,11 @@ use super::super::path::Effort;
 use super::super::{Contact, EndAngles, Groove, Regime, Units};
 use super::plane::{Laid, Plane, Spot};
 use super::seat::frictionless;
+use super::solve::Search;
 use super::tensioner::{coordinate_unit, unbalanced};
 use crate::drive::belt_loop::{BeltLoop, Mount, Tensioner};
 use crate::drive::layout::{Layout, Side};
-use bvp::{Control, Ends, Options, Problem, Real, Segment, Solution, Stats};
+use bvp::{Control, Ends, Options, Problem, Real, Segment, Solution};
 
 /// What is known of the belt at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -164,9 +165,9 @@ impl RestProblem {
     pub(super) fn solve(
         &self,
         guess: &dyn bvp::Guess,
-        tolerance: f64,
-        cost: &mut Cost,
+        search: &mut Search<'_>,
     ) -> Result<Rest, bvp::Error> {
+        let tolerance = search.tolerance;
         let options = Options {
             // The elongation is a difference of lengths of which it is this share.
             tolerance: (tolerance * self.units.strand().compliance).max(SMALLEST_TOLERANCE),
@@ -176,7 +177,7 @@ impl RestProblem {
             ..Effort::Full.options(tolerance)
         };
         let outcome = bvp::solve(self, guess, &options);
-        cost.count(&outcome);
+        search.count(&outcome);
         Ok(self.seen(outcome?))
     }
 
@@ -225,25 +226,6 @@ pub(super) struct Rest {
     pub(super) exits: Vec<f64>,
     pub(super) laid: Laid<f64>,
     pub(super) solution: Solution,
-}
-
-/// What a search has cost so far.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Cost {
-    pub(super) newton_steps: usize,
-    pub(super) problems: usize,
-}
-
-impl Cost {
-    /// Counts a problem that was solved or tried.
-    pub(super) fn count(&mut self, outcome: &Result<Solution, bvp::Error>) {
-        let stats = match outcome {
-            Ok(solution) => Some(solution.stats()),
-            Err(error) => error.best().map(Solution::stats),
-        };
-        self.problems += 1;
-        self.newton_steps += stats.map_or(0, |stats: &Stats| stats.newton_steps);
-    }
 }
 
 impl Problem for RestProblem {

@@ -1,73 +1,98 @@
 //! The search for the running loop under its whole load.
 
+use super::super::BeltProblem;
+use super::super::groove::TENSION;
+use super::super::path::Solved;
 use super::climb::{Climbed, Top};
+use super::closing::Target;
 use super::guess::tractive_tensions;
-use super::laws::Start;
-use super::problem::Target;
+use super::problem::{FLOW, LoopProblem};
 use super::rest::Rest;
-use super::solve::{Search, Solved};
+use super::solve::{Search, lost};
+use super::start::Start;
 use crate::drive::layout::Layout;
 use crate::results::loop_error::LoopError;
 
-/// Shares of the load that are tried in turn from nothing; from all but the first the load is then raised.
-const SHARES: [f64; 7] = [1.0, 0.5, 0.2, 0.05, 0.01, 1e-3, 0.0];
+/// Shares of the load that are tried in turn where the whole fails; from them the load is raised.
+const SHARES: [f64; 6] = [0.5, 0.2, 0.05, 0.01, 1e-3, 0.0];
 /// Where the belt leaves a pulley more steeply than this, or a pulley loses more than this share of its
 /// speed, a state may lie beyond the largest load.
 const STEEP: f64 = 1.3;
 const SLOW: f64 = 0.5;
 
 /// A running loop.
-pub(super) struct Running {
+pub(super) struct Running<'l> {
     /// To the tolerance.
-    pub(super) solved: Solved,
-    /// Roughly, to raise the load from. Coulomb friction has a large ε there, which matters little where the belt
-    /// slips (margins change by 1e-6) and makes the way there easy: with a small one neither the driver of three
-    /// grooves had a margin nor their loop a load limit.
-    pub(super) rough: Solved,
+    pub(super) solved: Solved<LoopProblem>,
+    /// How it was stated.
+    start: Start<'l>,
+    /// Roughly, if the load was raised to it.
+    raised: Option<Solved<LoopProblem>>,
+}
+
+impl Running<'_> {
+    /// The loop roughly, with one zone on every pulley, so that curves of states can be followed from it.
+    pub(super) fn roughly(
+        &self,
+        search: &mut Search<'_>,
+    ) -> Result<Solved<LoopProblem>, bvp::Error> {
+        match &self.raised {
+            Some(raised) => Ok(raised.clone()),
+            None => search.enter(&self.start).map_err(|stuck| stuck.cause),
+        }
+    }
 }
 
 /// The running loop under its whole load: at once where Newton's method finds it and it cannot lie
 /// beyond the largest load, else by raising a share of the load.
-pub(super) fn running(
-    search: &mut Search<'_>,
+pub(super) fn running<'l>(
+    search: &mut Search<'l>,
     target: Target,
     rest: Option<&Rest>,
     coordinate: f64,
-) -> Result<Running, LoopError> {
-    let layout = search.belt_loop.layout(coordinate)?;
+) -> Result<Running<'l>, LoopError> {
+    let belt_loop = search.drive;
+    let layout = belt_loop.layout(coordinate)?;
     presses(search, target, &layout)?;
-    let start = |factor: f64| {
-        let tractive = tractive_tensions(search.belt_loop, &layout, target, rest, factor);
-        Start {
-            layout: &layout,
-            target,
-            tractive,
-            coordinate,
-            factor,
-        }
+    let start = |factor: f64| Start {
+        belt_loop,
+        tractive: tractive_tensions(belt_loop, &layout, target, rest, factor),
+        layout: layout.clone(),
+        target,
+        coordinate,
+        factor,
     };
-    let [whole, shares @ ..] = SHARES.map(start);
+    let whole = start(1.0);
     let direct = match whole.is_taut() {
-        true => search
-            .rough(&whole)
-            .and_then(|rough| sharpened(search, rough))
-            .map_err(Some),
+        true => search.seek(&whole).map_err(|stuck| Some(stuck.cause)),
         false => Err(None),
     };
-    let is_safe = |solved: &Solved| is_drive(solved) && !may_be_beyond(solved);
+    let is_safe = |solved: &Solved<LoopProblem>| is_drive(solved) && !may_be_beyond(solved);
+    let found = |start, solved, raised| Running {
+        solved,
+        start,
+        raised,
+    };
     let direct = match direct {
-        Ok(running) if is_safe(&running.solved) => return Ok(running),
+        Ok(solved) if is_safe(&solved) => return Ok(found(whole, solved, None)),
         other => other,
     };
-    for share in shares.iter().filter(|share| share.is_taut()) {
-        match search.rough(share) {
-            Ok(rough) if is_safe(&rough) => return raise(search, &rough),
+    for share in SHARES.map(start).iter().filter(|share| share.is_taut()) {
+        match search.enter(share) {
+            Ok(rough) if is_safe(&rough) => {
+                let raised = raise(search, &rough)?;
+                let solved = search.seek_from(&whole, &raised);
+                return match solved {
+                    Ok(solved) => Ok(found(whole, solved, Some(raised))),
+                    Err(stuck) => Err(lost(1.0, &stuck.cause)),
+                };
+            }
             _ => {}
         }
     }
     match direct {
-        Ok(running) if is_drive(&running.solved) => Ok(running),
-        Err(Some(cause)) => Err(search.lost(0.0, &cause)),
+        Ok(solved) if is_drive(&solved) => Ok(found(whole, solved, None)),
+        Err(Some(cause)) => Err(lost(0.0, &cause)),
         _ => Err(LoopError::NotConverged {
             reached: 0.0,
             cause: "the belt would have to push in a span even under hardly any load",
@@ -78,10 +103,10 @@ pub(super) fn running(
 /// Whether a belt between fixed centres presses on its pulleys without torques. Where it hardly presses
 /// it does not sink either: the tension of its pitch line decides.
 fn presses(search: &Search<'_>, target: Target, layout: &Layout) -> Result<(), LoopError> {
-    let (Target::Length(length), None) = (target, search.belt_loop.tensioner()) else {
+    let (Target::Length(length), None) = (target, search.drive.tensioner()) else {
         return Ok(());
     };
-    let (belt, rim) = (search.belt_loop.belt, search.belt_loop.rim_speed());
+    let (belt, rim) = (search.drive.belt, search.drive.rim_speed());
     let strain = (layout.length() - length) / length;
     let flow = belt.mass_per_length * rim / (1.0 + strain);
     let tractive_tension = belt.axial_stiffness * strain - flow * rim;
@@ -96,18 +121,18 @@ fn presses(search: &Search<'_>, target: Target, layout: &Layout) -> Result<(), L
 }
 
 /// Raises the load of a state to the whole.
-fn raise(search: &mut Search<'_>, from: &Solved) -> Result<Running, LoopError> {
+fn raise(
+    search: &mut Search<'_>,
+    from: &Solved<LoopProblem>,
+) -> Result<Solved<LoopProblem>, LoopError> {
     match search.climb(from, 1.0) {
-        Climbed::Reached(rough) => {
-            let outcome = sharpened(search, *rough);
-            outcome.map_err(|cause| search.lost(1.0, &cause))
-        }
+        Climbed::Reached(raised) => Ok(*raised),
         Climbed::Limit(Top {
             factor,
             pulley,
             overhangs,
         }) => Err(LoopError::Overloaded {
-            pulley: search.belt_loop.pulleys[pulley].name.clone(),
+            pulley: search.drive.pulleys[pulley].name.clone(),
             load_factor: factor,
             overhangs,
         }),
@@ -115,29 +140,21 @@ fn raise(search: &mut Search<'_>, from: &Solved) -> Result<Running, LoopError> {
     }
 }
 
-/// The running loop to the tolerance, from a rough one with a large ε.
-fn sharpened(search: &mut Search<'_>, rough: Solved) -> Result<Running, bvp::Error> {
-    let solved = search.sharpen(rough.clone())?;
-    Ok(Running { solved, rough })
-}
-
 /// Whether the state may lie beyond the largest load.
-fn may_be_beyond(solved: &Solved) -> bool {
+fn may_be_beyond(solved: &Solved<LoopProblem>) -> bool {
     let p = solved.solution.parameters();
     let ends = solved.with_ends(|at, _| solved.problem.end_angles(at));
-    let mut segments = 0..solved.problem.pulley_of.len();
+    let mut pulleys = 0..solved.problem.pulleys();
     ends.iter().any(|ends| ends.exit > STEEP)
-        || segments.any(|segment| solved.problem.omega(segment, p) < SLOW)
+        || pulleys.any(|pulley| solved.problem.omega(pulley, p) < SLOW)
 }
 
 /// Whether the belt pulls in all spans, turns every pulley forwards and touches it.
-fn is_drive(solved: &Solved) -> bool {
+fn is_drive(solved: &Solved<LoopProblem>) -> bool {
     let p = solved.solution.parameters();
-    let segments = solved.problem.pulley_of.len();
-    p[0] > 0.0
-        && (0..segments).all(|segment| {
-            p[solved.problem.length_index(segment)] > 0.0
-                && solved.problem.omega(segment, p) > 0.0
-                && solved.solution.end(segment)[0] > 0.0
-        })
+    let Solved { problem, solution } = solved;
+    p[FLOW] > 0.0
+        && (0..problem.pulleys()).all(|pulley| problem.omega(pulley, p) > 0.0)
+        && (0..problem.zoning().count())
+            .all(|segment| problem.length(segment, p) > 0.0 && solution.end(segment)[TENSION] > 0.0)
 }

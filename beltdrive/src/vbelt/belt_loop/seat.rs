@@ -1,6 +1,5 @@
 //! How the belt touches a pulley, scaled.
 
-use super::super::groove::Elastic;
 use super::super::{Groove, Law, Strand, Units};
 use super::back::Back;
 use crate::FrictionLaw;
@@ -19,16 +18,17 @@ pub(super) enum Seat {
 }
 
 impl Seat {
-    /// That of a pulley, with a friction law and the slip direction normalised by `epsilon`.
+    /// That of a pulley, with a friction law whose direction is smoothed over the length ℓ/R `lag`. The tension at
+    /// which the displacement of EPP friction does not grow is a parameter of the loop and left out here.
     pub(super) fn new(
         belt_loop: &BeltLoop,
         pulley: &LoopPulley,
         units: Units,
         law: FrictionLaw,
-        epsilon: f64,
+        lag: f64,
     ) -> Self {
         let friction_coefficient = pulley.friction_coefficient;
-        let law = scaled_law(law, units, pulley.radius, epsilon);
+        let law = Law::new(law, &units, pulley.radius, 0.0, lag);
         match (pulley.side, pulley.duty) {
             (Side::Inside, _) => Self::Groove(Groove {
                 strand: units.strand(),
@@ -45,12 +45,12 @@ impl Seat {
         }
     }
 
-    /// Number of states of its segment, the elongation among them; `None` without one.
-    pub(super) fn states(&self) -> Option<usize> {
-        match self {
-            Self::Groove(groove) => Some(groove.states() + 1),
-            Self::Back(back) => Some(back.states() + 1),
-            Self::Idle => None,
+    /// Number of states of its segments, the elongation among them.
+    pub(super) fn states(&self) -> usize {
+        1 + match self {
+            Self::Groove(groove) => groove.states(),
+            Self::Back(back) => back.states(),
+            Self::Idle => 1,
         }
     }
 
@@ -79,29 +79,6 @@ pub(super) fn frictionless(belt_loop: &BeltLoop, pulley: &LoopPulley, units: Uni
         radial_stiffness: units.radial_stiffness(belt.radial_stiffness, pulley.radius),
         law: Law::Normalised {
             epsilon: 1.0,
-            elastic: None,
-        },
-    }
-}
-
-/// A friction law on a pulley of a radius in m. The tension at which the displacement of EPP friction does
-/// not grow is a parameter of the loop and left out here.
-pub(super) fn scaled_law(law: FrictionLaw, units: Units, radius: f64, epsilon: f64) -> Law {
-    match law {
-        FrictionLaw::Bristle { stiffness } => Law::Bristle {
-            stiffness: stiffness * radius,
-            elastic: None,
-        },
-        FrictionLaw::Epp { stiffness } => Law::Normalised {
-            epsilon,
-            elastic: Some(Elastic {
-                stiffness: units.friction_stiffness(stiffness, radius),
-                unstretched: 0.0,
-                weight: 1.0,
-            }),
-        },
-        _ => Law::Normalised {
-            epsilon,
             elastic: None,
         },
     }

@@ -1,9 +1,9 @@
 //! From a loop to its steady state: rest, then the running loop, cold or by raising the load.
 
-use super::super::path::Effort;
+use super::super::path::{Path, Solved};
 use super::at_rest::rest_near;
-use super::problem::{LoopProblem, Target};
-use super::rest::{Cost, Known, Rest, RestProblem};
+use super::closing::Target;
+use super::rest::{Known, Rest, RestProblem};
 use super::running::{Running, running};
 use super::state::state;
 use crate::drive::belt_loop::{BeltLoop, Closure};
@@ -11,45 +11,20 @@ use crate::mechanics::tensioner::within_travel;
 use crate::results::difficulty;
 use crate::results::loop_error::LoopError;
 use crate::results::loop_state::LoopState;
-use bvp::{Ends, Problem, Solution};
 
-/// A problem and its solution.
-#[derive(Clone, Debug)]
-pub(super) struct Solved {
-    pub(super) problem: LoopProblem,
-    pub(super) solution: Solution,
-}
-
-impl Solved {
-    /// Calls `view` with the states at both ends of all segments, and the parameters.
-    pub(super) fn with_ends<R>(&self, view: impl FnOnce(&Ends<'_, f64>, &[f64]) -> R) -> R {
-        let segments = self.problem.segments();
-        let values =
-            (0..segments.len()).flat_map(|i| [self.solution.start(i), self.solution.end(i)]);
-        let values: Vec<f64> = values.flatten().copied().collect();
-        view(&Ends::new(&segments, &values), self.solution.parameters())
-    }
-}
-
-/// The search for one steady state.
-pub(super) struct Search<'l> {
-    pub(super) belt_loop: &'l BeltLoop,
-    pub(super) tolerance: f64,
-    pub(super) cost: Cost,
-    /// Relative effect of the last ε on the parameters.
-    pub(super) epsilon_effect: f64,
-}
+/// The search for the steady state of a loop.
+pub(super) type Search<'l> = Path<'l, BeltLoop>;
 
 /// A loop at rest and running.
-struct Found {
+struct Found<'l> {
     at_rest: RestProblem,
     rest: Rest,
-    running: Running,
+    running: Running<'l>,
 }
 
 /// The steady state of a loop with a V-belt.
 pub(crate) fn solve(belt_loop: &BeltLoop, tolerance: f64) -> Result<LoopState, LoopError> {
-    let mut search = Search::new(belt_loop, tolerance);
+    let mut search = Search::new(belt_loop, tolerance).with_direction();
     let Found {
         at_rest,
         rest,
@@ -63,13 +38,17 @@ pub(crate) fn solve_with_margins(
     belt_loop: &BeltLoop,
     tolerance: f64,
 ) -> Result<LoopState, LoopError> {
-    let mut search = Search::new(belt_loop, tolerance);
+    let mut search = Search::new(belt_loop, tolerance).with_direction();
     let Found {
         at_rest,
         rest,
-        running: Running { solved, rough },
+        running,
     } = search.find()?;
-    let mut found = state(&mut search, &rest, &at_rest, &solved)?;
+    let solved = &running.solved;
+    let mut found = state(&mut search, &rest, &at_rest, solved)?;
+    let Ok(rough) = running.roughly(&mut search) else {
+        return Ok(found);
+    };
     for (index, pulley) in found.pulleys.iter_mut().enumerate() {
         pulley.torque_margin = solved.torque_margin(index, &rough, tolerance);
         pulley.torque_capacity = pulley
@@ -81,18 +60,9 @@ pub(crate) fn solve_with_margins(
 }
 
 impl<'l> Search<'l> {
-    fn new(belt_loop: &'l BeltLoop, tolerance: f64) -> Self {
-        Self {
-            belt_loop,
-            tolerance,
-            cost: Cost::default(),
-            epsilon_effect: 0.0,
-        }
-    }
-
     /// The loop at rest and running, in the order in which the closure gives them.
-    fn find(&mut self) -> Result<Found, LoopError> {
-        let belt_loop = self.belt_loop;
+    fn find(&mut self) -> Result<Found<'l>, LoopError> {
+        let belt_loop = self.drive;
         let start = match (belt_loop.closure, belt_loop.tensioner()) {
             (Closure::RestCoordinate(coordinate), _) => coordinate,
             (_, Some((_, tensioner))) => tensioner.start_coordinate,
@@ -133,12 +103,12 @@ impl<'l> Search<'l> {
         &self,
         at_rest: RestProblem,
         rest: Rest,
-        running: Running,
-    ) -> Result<Found, LoopError> {
+        running: Running<'l>,
+    ) -> Result<Found<'l>, LoopError> {
         let Solved { problem, solution } = &running.solved;
         let coordinate = problem.coordinate(solution.parameters());
         for coordinate in [rest.coordinate, coordinate] {
-            within_travel(self.belt_loop, coordinate)?;
+            within_travel(self.drive, coordinate)?;
         }
         Ok(Found {
             at_rest,
@@ -146,23 +116,12 @@ impl<'l> Search<'l> {
             running,
         })
     }
+}
 
-    pub(super) fn lost(&self, reached: f64, cause: &bvp::Error) -> LoopError {
-        LoopError::NotConverged {
-            reached,
-            cause: difficulty::of_solver(cause),
-        }
-    }
-
-    /// Solves one problem from a guess.
-    pub(super) fn attempt(
-        &mut self,
-        problem: LoopProblem,
-        guess: &dyn bvp::Guess,
-        effort: Effort,
-    ) -> Result<Solved, bvp::Error> {
-        let outcome = bvp::solve(&problem, guess, &effort.options(self.tolerance));
-        self.cost.count(&outcome);
-        outcome.map(|solution| Solved { problem, solution })
+/// The error of a search that came to a share of the load.
+pub(super) fn lost(reached: f64, cause: &bvp::Error) -> LoopError {
+    LoopError::NotConverged {
+        reached,
+        cause: difficulty::of_solver(cause),
     }
 }

@@ -1,14 +1,15 @@
 //! From a solved loop to its steady state in SI units.
 
-use super::super::EndAngles;
 use super::super::on_pulley::Integrals;
+use super::super::path::Solved;
+use super::super::{BeltProblem, EndAngles};
 use super::checks::{Checked, polar, rim};
 use super::contacts::{Touching, idle_profile};
 use super::plane::Laid;
-use super::problem::FLOW;
+use super::problem::{FLOW, LoopProblem};
 use super::rest::{Known, Rest, RestProblem};
 use super::rest_guess::RestNear;
-use super::solve::{Search, Solved};
+use super::solve::Search;
 use super::tensioner::{held, length_derivatives};
 use crate::drive::belt_loop::{Duty, Mount};
 use crate::mechanics::span::{DEFLECTION, first_frequency, rest_frequency};
@@ -16,11 +17,11 @@ use crate::results::loop_error::LoopError;
 use crate::results::loop_state::{
     Contacts, GrooveState, LoopConvergence, LoopState, PulleyState, SpanState, TensionerState,
 };
-use crate::{FrictionLaw, Profile, Zone, ZoneKind};
+use crate::{Profile, Zone, ZoneKind};
 
 /// A solved loop with what follows from its solution at once.
 struct Seen<'a> {
-    solved: &'a Solved,
+    solved: &'a Solved<LoopProblem>,
     rest: &'a Rest,
     laid: Laid<f64>,
     ends: Vec<EndAngles<f64>>,
@@ -37,7 +38,7 @@ struct Seen<'a> {
 }
 
 impl<'a> Seen<'a> {
-    fn new(solved: &'a Solved, rest: &'a Rest) -> Self {
+    fn new(solved: &'a Solved<LoopProblem>, rest: &'a Rest) -> Self {
         let problem = &solved.problem;
         let p = solved.solution.parameters();
         let count = problem.seats.len();
@@ -56,9 +57,9 @@ impl<'a> Seen<'a> {
             Touching::Idle(_) => Integrals::default(),
         });
         let strand = problem.units.strand();
-        let omegas = (0..count).map(|pulley| match problem.segment(pulley) {
-            Some(segment) => problem.omega(segment, p),
-            None => strand.speed(strand.tension(tractive[pulley], p[FLOW]), p[FLOW]),
+        let omegas = (0..count).map(|pulley| match problem.is_idle(pulley) {
+            false => problem.omega(pulley, p),
+            true => strand.speed(strand.tension(tractive[pulley], p[FLOW]), p[FLOW]),
         });
         let wraps = touching.iter().map(|touching| match touching {
             Touching::Groove(on) => on.exit()[super::super::ANGLE],
@@ -93,7 +94,7 @@ impl<'a> Seen<'a> {
     }
 
     fn pulley(&self, search: &Search<'_>, pulley: usize) -> PulleyState {
-        let stated = &search.belt_loop.pulleys[pulley];
+        let stated = &search.drive.pulleys[pulley];
         let problem = &self.solved.problem;
         let units = problem.units;
         let angular_speed = match stated.duty {
@@ -147,7 +148,7 @@ impl<'a> Seen<'a> {
     }
 
     fn centre(&self, search: &Search<'_>, pulley: usize, coordinate: f64) -> [f64; 2] {
-        match &search.belt_loop.pulleys[pulley].mount {
+        match &search.drive.pulleys[pulley].mount {
             Mount::Fixed(centre) => *centre,
             Mount::Tensioner(tensioner) => tensioner.guide.centre(coordinate)[0],
         }
@@ -198,7 +199,7 @@ impl<'a> Seen<'a> {
 
     fn span(&self, search: &mut Search<'_>, at_rest: &RestProblem, span: usize) -> SpanState {
         let units = self.solved.problem.units;
-        let belt = search.belt_loop.belt;
+        let belt = search.drive.belt;
         let tension = self.tension(span) * units.force;
         let tractive = self.tractive[span] * units.force;
         let speed = units.strand().speed(self.tension(span), self.flow) * units.speed;
@@ -237,11 +238,8 @@ impl<'a> Seen<'a> {
             spot.radius,
             polar(direction, spot.turns, rest.exits[span]),
         );
-        let [along, inward] = [
-            0.0,
-            0.5 * std::f64::consts::PI * search.belt_loop.sense.sign(),
-        ]
-        .map(|turned| direction + turned);
+        let [along, inward] = [0.0, 0.5 * std::f64::consts::PI * search.drive.sense.sign()]
+            .map(|turned| direction + turned);
         let middle = rim(begin, 0.5 * rest.laid.lengths[span], along);
         let point = rim(middle, deflection, inward);
         let problem = at_rest.clone().with(Known::Length(rest.unstretched));
@@ -251,9 +249,7 @@ impl<'a> Seen<'a> {
             rest,
             first_length: at_rest.first_length(),
         };
-        let found = problem
-            .solve(&guess, search.tolerance, &mut search.cost)
-            .ok()?;
+        let found = problem.solve(&guess, search).ok()?;
         if found.wraps.iter().any(|&wrap| wrap <= 0.0) {
             return None;
         }
@@ -269,7 +265,7 @@ impl<'a> Seen<'a> {
         search: &mut Search<'_>,
         at_rest: &RestProblem,
     ) -> Result<Option<TensionerState>, LoopError> {
-        let Some((pulley, tensioner)) = search.belt_loop.tensioner() else {
+        let Some((pulley, tensioner)) = search.drive.tensioner() else {
             return Ok(None);
         };
         let plane = &self.solved.problem.plane;
@@ -292,7 +288,7 @@ impl<'a> Seen<'a> {
         for (held, which) in [(&running, "under load"), (&at_rest, "at rest")] {
             if held.stiffness.is_nan() || held.stiffness <= 0.0 {
                 return Err(LoopError::NoEquilibrium {
-                    pulley: search.belt_loop.pulleys[pulley].name.clone(),
+                    pulley: search.drive.pulleys[pulley].name.clone(),
                     which,
                 });
             }
@@ -316,10 +312,10 @@ pub(super) fn state(
     search: &mut Search<'_>,
     rest: &Rest,
     at_rest: &RestProblem,
-    solved: &Solved,
+    solved: &Solved<LoopProblem>,
 ) -> Result<LoopState, LoopError> {
     let seen = Seen::new(solved, rest);
-    let belt_loop = search.belt_loop;
+    let belt_loop = search.drive;
     let checks = Checked {
         solved,
         laid: &seen.laid,
@@ -349,7 +345,7 @@ pub(super) fn state(
     let tensioner = seen.tensioner(search, at_rest)?;
     let length = solved.with_ends(|at, p| solved.problem.lengths(at, p))[1];
     let units = solved.problem.units;
-    let meshes = 0..solved.problem.pulley_of.len();
+    let meshes = 0..solved.problem.zoning().count();
     Ok(LoopState {
         layout: belt_loop.layout(seen.coordinate)?,
         rest_layout: belt_loop.layout(rest.coordinate)?,
@@ -373,13 +369,10 @@ pub(super) fn state(
             mesh_intervals: meshes
                 .map(|segment| solved.solution.mesh(segment).len() - 1)
                 .sum(),
-            newton_steps: search.cost.newton_steps,
-            problems: search.cost.problems,
-            slip_normalisation: match belt_loop.law {
-                FrictionLaw::Bristle { .. } => 0.0,
-                _ => solved.problem.epsilon(),
-            },
-            slip_normalisation_effect: search.epsilon_effect,
+            newton_steps: search.stats.newton_steps,
+            problems: search.problems,
+            slip_normalisation: solved.problem.smoothing(),
+            slip_normalisation_effect: search.smoothing_effect,
         }),
         checks,
         contacts: Contacts::V((0..count).map(|pulley| seen.profile(pulley)).collect()),

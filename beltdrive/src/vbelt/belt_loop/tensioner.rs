@@ -71,12 +71,12 @@ impl Search<'_> {
                 rest,
                 first_length: problem.first_length(),
             };
-            let solved = near.solve(&guess, self.tolerance, &mut self.cost);
+            let solved = near.solve(&guess, self);
             solved.ok().map(|solved| solved.unstretched)
         });
         let [slacker, tighter] = lengths;
         let per_tension = (slacker? - tighter?) / (2.0 * DIFFERENCE * rest.tension);
-        let axial = self.belt_loop.belt.axial_stiffness;
+        let axial = self.drive.belt.axial_stiffness;
         Some(1.0 / (per_tension * (1.0 + rest.tension / axial)))
     }
 }

@@ -60,7 +60,7 @@ impl<D> Path<'_, D> {
     }
 
     /// From bristles to those with the limit of EPP friction.
-    fn elastic_bristles<A: Asked>(
+    pub(super) fn elastic_bristles<A: Asked>(
         &mut self,
         asked: &A,
         start: &Solved<A::Problem>,

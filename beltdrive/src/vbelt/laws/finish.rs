@@ -6,14 +6,14 @@ use crate::vbelt::path::{Effort, Path, Solved, Stuck};
 use crate::vbelt::zones::Cut;
 
 /// ℓ/R or ε at which the profile is first resolved to the tolerance.
-pub(in crate::vbelt) const RESOLVED: f64 = 1e-7;
+pub(super) const RESOLVED: f64 = 1e-7;
 /// ε below which slip velocities drown in the rounding of the speeds they are differences of; no effect of ℓ
 /// was seen to need one as short.
-pub(in crate::vbelt) const SMALLEST: f64 = 1e-12;
+const SMALLEST: f64 = 1e-12;
 /// The effect of ℓ may be this share of the tolerance.
 const LAG_SHARE: f64 = 0.1;
 /// The effect of ε may be this share of the tolerance.
-pub(in crate::vbelt) const EFFECT_SHARE: f64 = 0.3;
+const EFFECT_SHARE: f64 = 0.3;
 /// Zones are found anew at most so often; if they still change, the check of the state says so.
 const MAX_CUTS: usize = 8;
 
@@ -108,7 +108,10 @@ impl<D> Path<'_, D> {
     }
 
     /// A solution with an estimate of its global error.
-    fn with_estimate<P: BeltProblem>(&mut self, solved: Solved<P>) -> Result<Solved<P>, Stuck<P>> {
+    pub(super) fn with_estimate<P: BeltProblem>(
+        &mut self,
+        solved: Solved<P>,
+    ) -> Result<Solved<P>, Stuck<P>> {
         match solved.solution.error_estimate() {
             Some(_) => Ok(solved),
             None => self.again(solved, Effort::Final),

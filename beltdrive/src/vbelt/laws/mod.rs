@@ -24,21 +24,23 @@ use super::{BeltProblem, DriveProblem, Guess, Scales};
 use crate::{Drive, FrictionLaw};
 use std::f64::consts::LN_10;
 
-pub(super) use finish::{EFFECT_SHARE, RESOLVED, SMALLEST};
-pub(super) use normalised::FIRST_EPSILONS;
+use finish::RESOLVED;
 pub(super) use obeyed::{ALLOWED, power_gained, wrong_friction};
 
 /// Bristle stiffness of the start, κ R/μ: friction is fully developed after a thousandth of a
 /// radius of sliding, so that its layers are no finer than those of seating.
-pub(super) const START_STIFFNESS: f64 = 1000.0;
+const START_STIFFNESS: f64 = 1000.0;
 /// First steps of a homotopy in ln ℓ, ln ε or ln κ: a factor of 10, or of 3 where that failed.
-pub(super) const GREAT_STEP: f64 = LN_10;
-pub(super) const SMALL_STEP: f64 = 1.1;
+const GREAT_STEP: f64 = LN_10;
+const SMALL_STEP: f64 = 1.1;
 
 /// A belt round pulleys whose steady state under a load is asked for.
 pub(super) trait Asked {
     /// Its equations.
     type Problem: BeltProblem;
+
+    /// How accurately bristles are solved from nothing.
+    const FIRST: Effort;
 
     /// The friction law.
     fn law(&self) -> FrictionLaw;
@@ -74,6 +76,8 @@ pub(super) struct AtLoad<'d> {
 impl Asked for AtLoad<'_> {
     type Problem = DriveProblem;
 
+    const FIRST: Effort = Effort::Final;
+
     fn law(&self) -> FrictionLaw {
         self.drive.law
     }
@@ -103,9 +107,55 @@ impl<D> Path<'_, D> {
         asked: &A,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
         if let FrictionLaw::Bristle { stiffness } = asked.law() {
+            let rough = self.bristles(asked, stiffness)?;
+            return self.with_estimate(rough);
+        }
+        let start = self.cold(asked, asked.softest(), Effort::Start)?;
+        self.sharper(asked, start)
+    }
+
+    /// As [`Path::seek`], from a state with a law that is smooth without zones.
+    pub(super) fn seek_from<A: Asked>(
+        &mut self,
+        asked: &A,
+        near: &Solved<A::Problem>,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        let law = match asked.law() {
+            law @ FrictionLaw::Bristle { .. } => law,
+            _ => asked.softest(),
+        };
+        let bristles = asked.problem(law, 0.0);
+        let start = self
+            .attempt(bristles, &Carried(near), Effort::Start)
+            .map_err(|cause| Stuck::after(near.clone(), cause))?;
+        match asked.law() {
+            FrictionLaw::Bristle { .. } => self.with_estimate(start),
+            _ => self.sharper(asked, start),
+        }
+    }
+
+    /// A state with the law that is asked for or, if that has zones, with one near it that is smooth without
+    /// them: roughly, to follow curves of states from it.
+    pub(super) fn enter<A: Asked>(
+        &mut self,
+        asked: &A,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        if let FrictionLaw::Bristle { stiffness } = asked.law() {
             return self.bristles(asked, stiffness);
         }
         let start = self.cold(asked, asked.softest(), Effort::Start)?;
+        match asked.law() {
+            FrictionLaw::Coulomb => self.enter_normalised(asked, start),
+            _ => self.elastic_bristles(asked, &start),
+        }
+    }
+
+    /// From bristles to Coulomb or EPP friction.
+    fn sharper<A: Asked>(
+        &mut self,
+        asked: &A,
+        start: Solved<A::Problem>,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
         let follows = match (self.has_direction, asked.law()) {
             (true, FrictionLaw::Coulomb) => self.coulomb(asked, &start),
             (true, _) => self.epp(asked, &start),
@@ -136,12 +186,11 @@ impl<D> Path<'_, D> {
         asked: &A,
         stiffness: f64,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        if let Ok(solved) = self.cold(asked, asked.law(), Effort::Final) {
+        if let Ok(solved) = self.cold(asked, asked.law(), A::FIRST) {
             return Ok(solved);
         }
         let start = self.cold(asked, asked.softest(), Effort::Start)?;
-        let stiffer = self.with_bristles(start, [asked.soft(), stiffness])?;
-        self.finish(stiffer)
+        self.with_bristles(start, [asked.soft(), stiffness])
     }
 
     /// A solution with bristles of one stiffness in 1/m made one with another.

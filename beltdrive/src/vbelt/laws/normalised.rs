@@ -11,7 +11,7 @@ use crate::vbelt::path::{Effort, Path, Solved, Stuck};
 
 /// Normalisations ε of the slip direction with which friction is entered, the first that
 /// works: of the order of the largest slip.
-pub(in crate::vbelt) const FIRST_EPSILONS: [f64; 3] = [1e-3, 1e-2, 1e-1];
+const FIRST_EPSILONS: [f64; 3] = [1e-3, 1e-2, 1e-1];
 
 impl<D> Path<'_, D> {
     /// The law of the drive with a normalised direction.
@@ -20,11 +20,7 @@ impl<D> Path<'_, D> {
         asked: &A,
         start: Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        let entered = self.enter_normalised(start, |epsilon| {
-            let problem = asked.problem(asked.law(), epsilon);
-            // EPP friction without its share is Coulomb friction and adds only the displacement.
-            problem.with_direction(false).with_epp_weight(0.0)
-        })?;
+        let entered = self.enter_normalised(asked, start)?;
         if let FrictionLaw::Coulomb = asked.law() {
             let sharp = self.lower_epsilon(entered, RESOLVED)?;
             return self.finish(sharp);
@@ -41,11 +37,16 @@ impl<D> Path<'_, D> {
     }
 
     /// From bristles to friction with a normalised direction at the first large ε that works.
-    fn enter_normalised<P: BeltProblem>(
+    pub(super) fn enter_normalised<A: Asked>(
         &mut self,
-        start: Solved<P>,
-        problem: impl Fn(f64) -> P,
-    ) -> Result<Solved<P>, Stuck<P>> {
+        asked: &A,
+        start: Solved<A::Problem>,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        let problem = |epsilon| {
+            let problem = asked.problem(asked.law(), epsilon);
+            // EPP friction without its share is Coulomb friction and adds only the displacement.
+            problem.with_direction(false).with_epp_weight(0.0)
+        };
         let [first, others @ ..] = FIRST_EPSILONS;
         let mut outcome = self.attempt(problem(first), &Carried(&start), Effort::Rough);
         for epsilon in others {
