@@ -50,7 +50,8 @@ pub(crate) fn defects(
             (m + 1) * n * (2 * m + n),
             ((&mut relative[..], &mut local[..]), &mut samples[..]),
             &mut vec![0.0; 3 * n],
-            &|run, written, buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => along.defects(n, run, written, buffers)),
+            &|run, written, buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                along.defects([m, n], run, written, buffers))),
         )?;
         all.relative.push(relative);
         all.local.push(local);
@@ -73,16 +74,16 @@ struct Along<'a> {
 }
 
 impl Along<'_> {
-    /// The defects of a run of intervals with n states, relative and local.
+    /// The defects of a run of intervals with m stages and n states, relative and local.
     #[inline(always)]
     fn defects(
         &self,
-        n: usize,
+        [m, n]: [usize; 2],
         run: Range<usize>,
         ((relative, local), samples): ((&mut [f64], &mut [f64]), &mut [f64]),
         buffers: &mut [f64],
     ) -> Result<(), NonFinite> {
-        let (t, m, x) = (self.tableau, self.tableau.stages, self.x);
+        let (t, x) = (self.tableau, self.x);
         let (y, buffers) = buffers.split_at_mut(n);
         let (f, slope) = buffers.split_at_mut(n);
         let (y, f, slope) = (&mut y[..n], &mut f[..n], &mut slope[..n]);

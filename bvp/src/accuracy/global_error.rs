@@ -151,32 +151,36 @@ impl Collocation<'_> {
         let t = &*self.tableau;
         let mut largest = Largest::new(n);
         let middle = middle(m);
-        let values = &t.a[middle.start * m..middle.end * m];
-        let integrals = &t.defect_to_stage[middle.start * (m + 1)..middle.end * (m + 1)];
+        let places = [
+            (
+                &t.a[middle.start * m..middle.end * m],
+                &t.defect_to_stage[middle.start * (m + 1)..middle.end * (m + 1)],
+            ),
+            (&t.defect_value[..], &t.defect_to_defect[..]),
+        ];
         let mut buffers = vec![0.0; 2 * n];
         let (y, e) = buffers.split_at_mut(n);
+        let (y, e) = (&mut y[..n], &mut e[..n]);
         let intervals = samples
             .chunks_exact((m + 1) * n)
             .zip(local)
             .zip(self.mesh[index].windows(2));
         for (i, ((samples, local), ends)) in intervals.enumerate() {
             let [x, w] = [x, w].map(|x| Interval::new(&x.segments[index], n, t, i, ends));
-            let mut look_at = |values: &[f64], integrals: &[f64]| {
-                let mut shown = largest.see(x.y, w.y);
+            for (values, integrals) in places {
+                let mut shown = largest.see(n, x.y, w.y);
                 let points = values.chunks_exact(m).zip(integrals.chunks_exact(m + 1));
                 for (weights, integral) in points {
                     x.state(weights, y);
                     w.state(weights, e);
                     subtract_sum(e, x.h, integral, samples);
-                    shown = max_or_nan(shown, largest.see(y, e));
+                    shown = max_or_nan(shown, largest.see(n, y, e));
                 }
-                shown
-            };
-            let shown = look_at(values, integrals);
-            if *local > (2 * m) as f64 * shown {
-                look_at(&t.defect_value, &t.defect_to_defect);
+                if *local <= (2 * m) as f64 * shown {
+                    break;
+                }
             }
-            largest.see(x.next, w.next);
+            largest.see(n, x.next, w.next);
         }
         largest.errors
     }
@@ -198,13 +202,13 @@ impl Largest {
         }
     }
 
-    /// Compares the errors `e` of states `y`; returns the largest of them. Where a state has changed its
+    /// Compares the errors `e` of n states `y`; returns the largest of them. Where a state has changed its
     /// sign since the last place, its error counts as it is in between where the state vanishes.
     #[inline(always)]
-    fn see(&mut self, y: &[f64], e: &[f64]) -> f64 {
+    fn see(&mut self, n: usize, y: &[f64], e: &[f64]) -> f64 {
         let mut largest = 0.0;
-        let states = self.errors.iter_mut().zip(&mut self.last);
-        for ((all, last), (&y, &e)) in states.zip(y.iter().zip(e)) {
+        let states = self.errors[..n].iter_mut().zip(&mut self.last[..n]);
+        for ((all, last), (&y, &e)) in states.zip(y[..n].iter().zip(&e[..n])) {
             let mut error = relative(y, e);
             let [before, error_before] = std::mem::replace(last, [y, e]);
             if before * y < 0.0 {
