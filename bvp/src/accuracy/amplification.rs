@@ -91,7 +91,7 @@ impl Collocation<'_> {
         let y = &mut buffer[..n];
         let intervals = self.mesh[index].windows(2).zip(sizes.chunks_exact_mut(n));
         for (i, (ends, sizes)) in intervals.enumerate() {
-            let interval = Interval::new(&x.segments[index], n, t, i, ends);
+            let interval = Interval::new(&x.segments[index], [m, n], i, ends);
             enlarge(sizes, interval.y);
             enlarge(sizes, interval.next);
             for j in middle(m) {
@@ -199,7 +199,7 @@ impl Collocation<'_> {
         let change = &mut buffer[..n];
         let intervals = self.mesh[index].windows(2).zip(sizes.chunks_exact(n));
         for (i, (ends, sizes)) in intervals.enumerate() {
-            let interval = Interval::new(correction, n, t, i, ends);
+            let interval = Interval::new(correction, [m, n], i, ends);
             for j in middle(m) {
                 interval.state(&t.a[j * m..][..m], change);
                 largest = larger(largest, change, sizes);

@@ -50,8 +50,10 @@ pub(crate) fn defects(
             (m + 1) * n * (2 * m + n),
             ((&mut relative[..], &mut local[..]), &mut samples[..]),
             &mut vec![0.0; 3 * n],
-            &|run, written, buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
-                along.defects([m, n], run, written, buffers))),
+            &|run, written, buffers| {
+                specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                along.defects([m, n], run, written, buffers)))
+            },
         )?;
         all.relative.push(relative);
         all.local.push(local);
@@ -91,7 +93,7 @@ impl Along<'_> {
         let written = relative.iter_mut().zip(local).zip(samples);
         for (i, ((relative, local), samples)) in run.zip(written) {
             let ends = &self.nodes[i..i + 2];
-            let interval = Interval::new(&x.segments[self.index], n, t, i, ends);
+            let interval = Interval::new(&x.segments[self.index], [m, n], i, ends);
             let (mut square, mut local_square) = (0.0, 0.0);
             for (q, sample) in samples.chunks_exact_mut(n).enumerate() {
                 let weight = t.defect_rule.weights[q];

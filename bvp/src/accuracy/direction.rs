@@ -110,7 +110,8 @@ impl Collocation<'_> {
             let intervals = intervals.zip(defects.chunks_exact((m + 1) * n));
             let places = self.mesh[index].windows(2).enumerate();
             for ((i, ends), (samples, defects)) in places.zip(intervals) {
-                let [x, w, z] = [x, w, z].map(|x| Interval::new(&x.segments[index], n, t, i, ends));
+                let [x, w, z] =
+                    [x, w, z].map(|x| Interval::new(&x.segments[index], [m, n], i, ends));
                 // z is not quite a null vector: it has the forcing r / a, which is that of its first and its
                 // last stage and linear in between.
                 for (j, forcing) in [0, m - 1].into_iter().zip(&mut forcing) {

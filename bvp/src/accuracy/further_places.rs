@@ -262,7 +262,7 @@ impl SegmentLook<'_> {
     #[inline(always)]
     fn interval(&self, n: usize, i: usize) -> Interval<'_> {
         let x = &self.x.segments[self.index];
-        Interval::new(x, n, self.t, i, &self.nodes[i..i + 2])
+        Interval::new(x, [self.t.stages, n], i, &self.nodes[i..i + 2])
     }
 
     /// How near to the nodes of interval i a jump by as much as the largest slope is harmless, as a share of

@@ -83,7 +83,7 @@ impl Collocation<'_> {
             let mut jump = vec![0.0; n];
             let to = residual.equations[index].nodes[n..].chunks_exact_mut(n);
             for (i, (ends, to)) in self.mesh[index].windows(2).zip(to).enumerate() {
-                let interval = Interval::new(&x.segments[index], n, t, i, ends);
+                let interval = Interval::new(&x.segments[index], [t.stages, n], i, ends);
                 interval.continuity(t, &mut jump);
                 for (component, (to, jump)) in to.iter_mut().zip(&jump).enumerate() {
                     let beside_one = jump.abs() / (SPACINGS * f64::EPSILON);
@@ -166,7 +166,7 @@ impl Collocation<'_> {
             .zip(local)
             .zip(self.mesh[index].windows(2));
         for (i, ((samples, local), ends)) in intervals.enumerate() {
-            let [x, w] = [x, w].map(|x| Interval::new(&x.segments[index], n, t, i, ends));
+            let [x, w] = [x, w].map(|x| Interval::new(&x.segments[index], [m, n], i, ends));
             for (values, integrals) in places {
                 let mut shown = largest.see(n, x.y, w.y);
                 let points = values.chunks_exact(m).zip(integrals.chunks_exact(m + 1));

@@ -122,7 +122,7 @@ impl Collocation<'_> {
             let mut rows = self.stages[index].jacobians().chunks_exact(n + k);
             let pairs = self.mesh[index].windows(2).enumerate();
             for ((i, pair), (stages, continuity)) in pairs.zip(images) {
-                let interval = Interval::new(&z.segments[index], n, t, i, pair);
+                let interval = Interval::new(&z.segments[index], [t.stages, n], i, pair);
                 for (j, r) in stages.chunks_exact_mut(n).enumerate() {
                     interval.stage_state(t, j, &mut y);
                     for ((r, slope), row) in r.iter_mut().zip(&mut slopes).zip(&mut rows) {

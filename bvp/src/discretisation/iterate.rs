@@ -134,6 +134,8 @@ pub(crate) enum NonFinite {
 /// The unknowns on one interval.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Interval<'a> {
+    /// Stages m and states n.
+    m: usize,
     n: usize,
     /// Left end.
     s: f64,
@@ -148,22 +150,23 @@ pub(crate) struct Interval<'a> {
 }
 
 impl<'a> Interval<'a> {
+    /// Interval `index` of a segment with m stages and n states.
     #[inline(always)]
     pub(crate) fn new(
         x: &'a SegmentIterate,
-        n: usize,
-        t: &Tableau,
+        [m, n]: [usize; 2],
         index: usize,
         ends: &[f64],
     ) -> Self {
         Self {
+            m,
             n,
             s: ends[0],
             end: ends[1],
             h: ends[1] - ends[0],
             y: &x.nodes[index * n..][..n],
             next: &x.nodes[(index + 1) * n..][..n],
-            stages: &x.stages[index * t.stages * n..][..t.stages * n],
+            stages: &x.stages[index * m * n..][..m * n],
         }
     }
 
@@ -214,7 +217,7 @@ impl<'a> Interval<'a> {
     /// The state at stage j; returns its s.
     #[inline(always)]
     pub(crate) fn stage_state(&self, t: &Tableau, j: usize, y: &mut [f64]) -> f64 {
-        self.state(&t.a[j * t.stages..][..t.stages], y);
+        self.state(&t.a[j * self.m..][..self.m], y);
         self.place(t.c[j])
     }
 
@@ -244,7 +247,7 @@ impl<'a> Interval<'a> {
     /// Writes the continuity residual c = yᵢ₊₁ − yᵢ − h Σ bⱼ Kⱼ.
     #[inline(always)]
     pub(crate) fn continuity(&self, t: &Tableau, c: &mut [f64]) {
-        self.state(&t.b, c);
+        self.state(&t.b[..self.m], c);
         for (c, next) in c.iter_mut().zip(self.next) {
             *c = next - *c;
         }

@@ -33,7 +33,7 @@ fn restrict_segment(t: &Tableau, n: usize, mesh: &[f64], from: &SegmentIterate) 
         .chunks_exact_mut(2 * size)
         .zip(to.nodes.chunks_exact_mut(2 * n));
     for (i, ((stages, nodes), ends)) in halves.zip(mesh.windows(2)).enumerate() {
-        let interval = Interval::new(from, n, t, i, ends);
+        let interval = Interval::new(from, [t.stages, n], i, ends);
         let (left, middle) = nodes.split_at_mut(n);
         left.copy_from_slice(interval.y);
         interval.state(&t.half_value, middle);

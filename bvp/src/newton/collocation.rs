@@ -179,7 +179,10 @@ impl<'a> Collocation<'a> {
                 m * n * (m + n),
                 (&mut stages[..], &mut nodes[n..]),
                 &mut self.buffers[index],
-                &|run, (stages, nodes), buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => segment.residuals(n, run, stages, nodes, buffers)),
+                &|run, (stages, nodes), buffers| {
+                    specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                    segment.residuals([m, n], run, stages, nodes, buffers)))
+                },
             )?;
             stats.rhs_evaluations += intervals * m;
         }
@@ -219,7 +222,10 @@ impl<'a> Collocation<'a> {
                     condensation.jacobians_mut(),
                 ),
                 buffers,
-                &|run, ((stages, nodes), jacobians), buffers| specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(k in [0] => segment.jacobians(n, k, run, stages, nodes, jacobians, buffers))),
+                &|run, ((stages, nodes), jacobians), buffers| {
+                    specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] => specialise!(k in [0] =>
+                    segment.jacobians([m, n, k], run, stages, nodes, jacobians, buffers))))
+                },
             )?;
             stats.rhs_evaluations += intervals * m;
             stats.jacobian_evaluations += intervals * m;

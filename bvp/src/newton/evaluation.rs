@@ -67,29 +67,29 @@ impl<'a> SegmentAt<'a> {
         }
     }
 
-    /// Interval i, where there are n states.
+    /// Interval i, where there are m stages and n states.
     #[inline(always)]
-    fn interval(&self, i: usize, n: usize) -> Interval<'a> {
-        Interval::new(self.x, n, self.tableau, i, &self.mesh[i..i + 2])
+    fn interval(&self, size: [usize; 2], i: usize) -> Interval<'a> {
+        Interval::new(self.x, size, i, &self.mesh[i..i + 2])
     }
 
-    /// The residuals of the stages and of the continuity of a run of intervals with n states.
+    /// The residuals of the stages and of the continuity of a run of intervals with m stages and n states.
     #[inline(always)]
     pub(crate) fn residuals(
         &self,
-        n: usize,
+        [m, n]: [usize; 2],
         run: Range<usize>,
         stages: &mut [f64],
         continuity: &mut [f64],
         buffers: &mut StageBuffers,
     ) -> Result<(), NonFinite> {
-        let (t, m) = (self.tableau, self.tableau.stages);
+        let t = self.tableau;
         let y = &mut buffers.y[..n];
         let residuals = stages
             .chunks_exact_mut(m * n)
             .zip(continuity.chunks_exact_mut(n));
         for (i, (r, c)) in run.zip(residuals) {
-            let interval = self.interval(i, n);
+            let interval = self.interval([m, n], i);
             r.fill(f64::NAN);
             for (j, f) in r.chunks_exact_mut(n).enumerate() {
                 let s = interval.stage_state(t, j, y);
@@ -102,19 +102,17 @@ impl<'a> SegmentAt<'a> {
     }
 
     /// The [`residuals`](Self::residuals), and the Jacobians at the stages, with k parameters.
-    #[expect(clippy::too_many_arguments, reason = "what an interval has, each once")]
     #[inline(always)]
     pub(crate) fn jacobians(
         &self,
-        n: usize,
-        k: usize,
+        [m, n, k]: [usize; 3],
         run: Range<usize>,
         stages: &mut [f64],
         continuity: &mut [f64],
         jacobians: &mut [f64],
         buffers: &mut StageBuffers,
     ) -> Result<(), NonFinite> {
-        let (t, m, columns) = (self.tableau, self.tableau.stages, n + k);
+        let (t, columns) = (self.tableau, n + k);
         let StageBuffers { y, observed } = buffers;
         let y = &mut y[..n];
         let residuals = stages
@@ -122,7 +120,7 @@ impl<'a> SegmentAt<'a> {
             .zip(continuity.chunks_exact_mut(n))
             .zip(jacobians.chunks_exact_mut(m * n * columns));
         for (i, ((r, c), jacobians)) in run.zip(residuals) {
-            let interval = self.interval(i, n);
+            let interval = self.interval([m, n], i);
             r.fill(f64::NAN);
             jacobians.fill(f64::NAN);
             let written = r
