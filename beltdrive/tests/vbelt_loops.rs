@@ -80,9 +80,13 @@ fn two_pulleys_are_the_drive_with_two_pulleys() {
         ("bristle", 105.0, 1e-8),
         ("bristle", 700.0, 1e-8),
         ("bristle", 3000.0, 1e-8),
+        ("coulomb", 105.0, 1e-6),
+        ("coulomb", 200.0, 1e-6),
         ("coulomb", 400.0, 1e-8),
         ("coulomb", 700.0, 1e-8),
         ("coulomb", 3000.0, 1e-8),
+        ("epp", 105.0, 1e-6),
+        ("epp", 200.0, 1e-6),
         ("epp", 700.0, 1e-6),
         ("epp", 3000.0, 1e-6),
     ] {
@@ -480,15 +484,7 @@ fn a_load_beyond_the_limit_is_refused_with_the_limit() {
         let limit = solve_with_margins(&belt_loop, &options).unwrap();
         let limit = limit.load_limit.unwrap();
         println!("limit {limit:?}");
-        let at = |share: f64| {
-            let mut scaled = belt_loop.clone();
-            for pulley in &mut scaled.pulleys {
-                if let Duty::Torque(torque) = &mut pulley.duty {
-                    *torque *= share * limit.factor;
-                }
-            }
-            solve(&scaled)
-        };
+        let at = |share: f64| solve(&times(&belt_loop, share * limit.factor));
         let below = at(0.995).unwrap();
         assert!(
             below
@@ -586,33 +582,24 @@ fn the_smallest_margin_of_two_pulleys_is_their_load_limit() {
 
 /// Every pulley with a torque has a margin, and the loop carries its load up to the limit and not beyond.
 #[test]
-fn coulomb_friction_has_margins_and_a_limit() {
-    let belt_loop = with_law(
-        accessories(Closure::SetupTension(500.0)),
-        FrictionLaw::Coulomb,
-    );
+fn friction_that_sticks_or_slides_has_margins_and_a_limit() {
     let options = SolveOptions { tolerance: 1e-5 };
-    let state = solve_with_margins(&belt_loop, &options).unwrap();
-    let margins = state.pulleys.iter().map(|pulley| pulley.torque_margin);
-    let margins: Vec<_> = margins.map(Option::unwrap).collect();
-    let limit = state.load_limit.unwrap().factor;
-    println!("margins {margins:?}, limit {limit}");
-    assert!(margins.iter().all(|margin| *margin > limit));
-    let loaded = |factor: f64| {
-        let mut belt_loop = belt_loop.clone();
-        for pulley in &mut belt_loop.pulleys {
-            if let Duty::Torque(torque) = &mut pulley.duty {
-                *torque *= factor;
+    for law in [FrictionLaw::Coulomb, FrictionLaw::Epp { stiffness: 4e8 }] {
+        let belt_loop = with_law(accessories(Closure::SetupTension(500.0)), law);
+        let state = solve_with_margins(&belt_loop, &options).unwrap();
+        let margins = state.pulleys.iter().map(|pulley| pulley.torque_margin);
+        let margins: Vec<_> = margins.map(Option::unwrap).collect();
+        let limit = state.load_limit.unwrap().factor;
+        println!("{law:?}: margins {margins:?}, limit {limit}");
+        assert!(margins.iter().all(|margin| *margin > limit));
+        let loaded = |factor: f64| solve_to(&times(&belt_loop, factor), &options);
+        loaded(0.99 * limit).unwrap();
+        match loaded(1.01 * limit).unwrap_err() {
+            LoopError::Overloaded { load_factor, .. } => {
+                close("limit", 1.01 * limit * load_factor, limit, 1e-4);
             }
+            error => panic!("{error}"),
         }
-        solve_to(&belt_loop, &options)
-    };
-    loaded(0.99 * limit).unwrap();
-    match loaded(1.01 * limit).unwrap_err() {
-        LoopError::Overloaded { load_factor, .. } => {
-            close("limit", 1.01 * limit * load_factor, limit, 1e-4);
-        }
-        error => panic!("{error}"),
     }
 }
 
@@ -793,10 +780,11 @@ fn random_loop_with(law: FrictionLaw, random: &mut Random) -> BeltLoop {
     belt_loop
 }
 
-/// Solves random loops, prints the score and returns how many were neither solved nor refused for a reason.
+/// Solves random loops, prints the score and returns how many were neither solved nor refused for a reason. A loop
+/// that is refused for its load is to carry a little less than is said.
 fn survey(name: &str, count: usize, law: impl Fn(&mut Random) -> FrictionLaw) -> usize {
     let mut random = Random(0x2545_f491_4f6c_dd1d);
-    let (mut refused, mut failed, mut seconds) = (0, 0, Vec::new());
+    let (mut refused, mut failed, mut wrong, mut seconds) = (0, 0, 0, Vec::new());
     for index in 0..count {
         let law = law(&mut random);
         let belt_loop = random_loop_with(law, &mut random);
@@ -812,6 +800,12 @@ fn survey(name: &str, count: usize, law: impl Fn(&mut Random) -> FrictionLaw) ->
             Err(error) => {
                 refused += 1;
                 println!("{index}, {took:.2} s: {error}");
+                if let LoopError::Overloaded { load_factor, .. } = error
+                    && let Err(error) = solve(&times(&belt_loop, BELOW * load_factor))
+                {
+                    wrong += 1;
+                    println!("{index}, at {BELOW} of that: {error}");
+                }
             }
         }
     }
@@ -819,11 +813,25 @@ fn survey(name: &str, count: usize, law: impl Fn(&mut Random) -> FrictionLaw) ->
     let [median, most, slowest] =
         [50, 90, 100].map(|share| seconds[(seconds.len() - 1) * share / 100]);
     println!(
-        "{name}: {} solved, {refused} refused, {failed} failed; median {median:.2} s, 90 % {most:.2} s, \
-         slowest {slowest:.2} s",
+        "{name}: {} solved, {refused} refused, {wrong} of them with a limit that is not reached, {failed} failed; \
+         median {median:.2} s, 90 % {most:.2} s, slowest {slowest:.2} s",
         seconds.len(),
     );
-    failed
+    failed + wrong
+}
+
+/// Share of its largest load that a loop is to carry.
+const BELOW: f64 = 0.97;
+
+/// The loop with all torques multiplied.
+fn times(belt_loop: &BeltLoop, factor: f64) -> BeltLoop {
+    let mut scaled = belt_loop.clone();
+    for pulley in &mut scaled.pulleys {
+        if let Duty::Torque(torque) = &mut pulley.duty {
+            *torque *= factor;
+        }
+    }
+    scaled
 }
 
 #[test]

@@ -406,3 +406,6 @@ impl Problem for LoopProblem {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -20,7 +20,7 @@ mod sliding;
 
 use super::carried::Carried;
 use super::path::{Effort, Path, Solved, Stuck};
-use super::{BeltProblem, DriveProblem, Guess, Scales};
+use super::{BeltProblem, DriveProblem, Guess, Law, Scales};
 use crate::{Drive, FrictionLaw};
 use std::f64::consts::LN_10;
 
@@ -114,19 +114,24 @@ impl<D> Path<'_, D> {
         self.sharper(asked, start)
     }
 
-    /// As [`Path::seek`], from a state with a law that is smooth without zones.
+    /// As [`Path::seek`], from a state at the load with a law of [`Path::enter`].
     pub(super) fn seek_from<A: Asked>(
         &mut self,
         asked: &A,
         near: &Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        let law = match asked.law() {
-            law @ FrictionLaw::Bristle { .. } => law,
+        let law = asked.law();
+        if let (FrictionLaw::Epp { .. }, Law::Bristle { .. }) = (law, near.problem.law())
+            && let Some(solved) = self.epp_by_bristles(asked, near)
+        {
+            return Ok(solved);
+        }
+        let law = match law {
+            FrictionLaw::Bristle { .. } => law,
             _ => asked.softest(),
         };
-        let bristles = asked.problem(law, 0.0);
         let start = self
-            .attempt(bristles, &Carried(near), Effort::Start)
+            .attempt(asked.problem(law, 0.0), &Carried(near), Effort::Start)
             .map_err(|cause| Stuck::after(near.clone(), cause))?;
         match asked.law() {
             FrictionLaw::Bristle { .. } => self.with_estimate(start),
@@ -134,8 +139,8 @@ impl<D> Path<'_, D> {
         }
     }
 
-    /// A state with the law that is asked for or, if that has zones, with one near it that is smooth without
-    /// them: roughly, to follow curves of states from it.
+    /// A state with the law that is asked for or, where that changes abruptly, with one near it that does not:
+    /// roughly and with one zone on every pulley, to follow curves of states from it.
     pub(super) fn enter<A: Asked>(
         &mut self,
         asked: &A,
@@ -146,7 +151,7 @@ impl<D> Path<'_, D> {
         let start = self.cold(asked, asked.softest(), Effort::Start)?;
         match asked.law() {
             FrictionLaw::Coulomb => self.enter_normalised(asked, start),
-            _ => self.elastic_bristles(asked, &start),
+            _ => self.enter_epp(asked, &start),
         }
     }
 
