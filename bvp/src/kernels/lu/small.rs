@@ -30,7 +30,7 @@ pub(super) fn factor<const N: usize>(
     factor_and_solve_transposed::<N>(a, pivots, &mut [])
 }
 
-/// Factors A and solves xᵀ A = bᵀ for each row b of `rows` while the factors are still in registers.
+/// Factors A in place and solves xᵀ A = bᵀ for each row b of `rows`.
 pub(super) fn factor_and_solve_transposed<const N: usize>(
     a: &mut [f64],
     pivots: &mut [usize],
@@ -38,12 +38,10 @@ pub(super) fn factor_and_solve_transposed<const N: usize>(
 ) -> Result<(), SingularRow> {
     let a: &mut [[f64; N]; N] = a.as_chunks_mut().0.try_into().expect("n rows");
     let pivots: &mut [usize; N] = pivots.try_into().expect("n pivots");
-    let mut lu = *a;
-    eliminate(&mut lu, pivots)?;
+    eliminate(a, pivots)?;
     for b in rows.as_chunks_mut().0 {
-        solve_transposed(&lu, pivots, b);
+        solve_transposed(a, pivots, b);
     }
-    *a = lu;
     Ok(())
 }
 
