@@ -14,9 +14,9 @@
 
 use crate::discretisation::iterate::{Interval, Iterate};
 use crate::discretisation::mesh::{Mesh, split};
-use crate::discretisation::scheme::MAX_STAGES;
+use crate::discretisation::powers::Powers;
 use crate::discretisation::tableau::Tableau;
-use crate::kernels::dense::{add_scaled, max_or_nan};
+use crate::kernels::dense::max_or_nan;
 use crate::kernels::specialise::specialise;
 use crate::problem::equations::Equations;
 use crate::problem::held::Held;
@@ -63,7 +63,7 @@ impl FurtherPlaces {
     ) -> Option<Mesh> {
         let mut finer = None;
         for (index, nodes) in mesh.iter().enumerate() {
-            let segment = SegmentLook {
+            let mut segment = SegmentLook {
                 equations,
                 t,
                 x,
@@ -71,19 +71,19 @@ impl FurtherPlaces {
                 nodes,
                 local: &defects.local[index],
                 tolerance,
+                found: &mut self.found,
+                scratch: &mut self.scratch,
+                stats,
             };
             let mut pieces = vec![1; nodes.len() - 1];
-            let n = segment.n();
-            self.scratch.resize(n);
-            let (found, scratch) = (&mut self.found, &mut self.scratch);
-            specialise!(n in [1, 2, 3, 4, 5, 6] => {
-                segment.near_nodes(n, &mut pieces, found, scratch, stats);
-                for _ in 0..PLACES.div_ceil(pieces.len()) {
-                    let theta = next(&mut self.last);
-                    segment.inside(n, theta, &mut pieces, found, scratch, stats);
-                }
-            });
-            segment.again(&mut pieces, found, scratch, stats);
+            let [m, n] = segment.size();
+            segment.scratch.resize([m, n]);
+            let mut places = [0.0; PLACES];
+            let places = &mut places[..PLACES.div_ceil(pieces.len())];
+            places.fill_with(|| next(&mut self.last));
+            specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                segment.everywhere([m, n], places, &mut pieces)));
+            segment.again(&mut pieces);
             if pieces.iter().any(|&pieces| pieces > 1) {
                 let finer = finer.get_or_insert_with(|| mesh.clone());
                 finer[index] = split(nodes, &pieces);
@@ -100,7 +100,7 @@ fn next(last: &mut f64) -> f64 {
     *last
 }
 
-/// A solution on one segment, and what is allowed of its defect.
+/// A solution on one segment, what is allowed of its defect, and what is found.
 struct SegmentLook<'a> {
     equations: &'a Held<'a>,
     t: &'a Tableau,
@@ -110,58 +110,74 @@ struct SegmentLook<'a> {
     /// The local defects of its intervals.
     local: &'a [f64],
     tolerance: f64,
+    found: &'a mut Vec<(usize, f64)>,
+    scratch: &'a mut Scratch,
+    stats: &'a mut Stats,
 }
 
-impl SegmentLook<'_> {
-    /// Looks next to all nodes from both sides.
+impl<'a> SegmentLook<'a> {
+    /// Looks at all intervals next to their nodes and at these shares of their lengths. Its stages m and
+    /// states n are known to the compiler.
     #[inline(always)]
-    fn near_nodes(
-        &self,
-        n: usize,
-        pieces: &mut [usize],
-        found: &mut Vec<(usize, f64)>,
-        scratch: &mut Scratch,
-        stats: &mut Stats,
-    ) {
-        let gap = self.t.defect_rule.points[0];
-        let slope = self.largest_slope();
-        let ends = [0.0, 1.0].map(|theta| Weights::at(self.t, theta));
+    fn everywhere(&mut self, size: [usize; 2], places: &[f64], pieces: &mut [usize]) {
+        let slope = self.largest_slope(size);
         for (i, pieces) in pieces.iter_mut().enumerate() {
-            let interval = self.interval(n, i);
-            let nearest = self.nearest(i, slope);
-            let first = gap.max(2.0 * nearest);
-            for (right, end) in [false, true].into_iter().zip(&ends) {
-                let theta = if right { 1.0 - nearest } else { nearest };
-                let s = interval.place(theta);
-                let defect = self.defect(n, &interval, s, end, scratch, stats);
-                let jumps = self.is_unseen(interval.h * first * defect, self.local[i]);
-                let grows =
-                    interval.h * nearest * scratch.rate() > 2.0 * UNNOTICED * self.tolerance;
-                if jumps || grows {
-                    let sum = self.near_node(&interval, right, [first, nearest], scratch, stats);
-                    if sum > AIM * self.tolerance && (grows || sum > self.local[i]) {
-                        *pieces = PARTS;
-                        found.push((self.index, s));
-                    }
+            let interval = self.interval(size, i);
+            self.scratch.powers.expand(size, self.t, &interval);
+            if self.is_unseen_near_nodes(size, i, &interval, slope) {
+                *pieces = PARTS;
+            }
+            for &theta in places {
+                if self.is_unseen_at(size, i, &interval, theta) {
+                    *pieces = PARTS;
+                    self.found.push((self.index, interval.place(theta)));
                 }
             }
         }
     }
 
+    /// Looks next to both nodes of interval i.
+    #[inline(always)]
+    fn is_unseen_near_nodes(
+        &mut self,
+        size: [usize; 2],
+        i: usize,
+        interval: &Interval<'_>,
+        slope: f64,
+    ) -> bool {
+        let nearest = self.nearest(i, slope);
+        let first = self.t.defect_rule.points[0].max(2.0 * nearest);
+        let mut unseen = false;
+        for right in [false, true] {
+            let theta = if right { 1.0 - nearest } else { nearest };
+            let defect = self.defect(size, interval, theta);
+            let jumps = self.is_unseen(interval.h * first * defect, self.local[i]);
+            let rate = self.scratch.rate();
+            let grows = interval.h * nearest * rate > 2.0 * UNNOTICED * self.tolerance;
+            if jumps || grows {
+                let sum = self.near_node(interval, right, [first, nearest]);
+                if sum > AIM * self.tolerance && (grows || sum > self.local[i]) {
+                    unseen = true;
+                    self.found.push((self.index, interval.place(theta)));
+                }
+            }
+        }
+        unseen
+    }
+
     /// The integral of the defect beside the left or right node of an interval, over the shares of it up to
     /// the first one: down to the nearest by the rungs of a ladder, each of which does not show in the one
     /// before, beyond it that of the right-hand side by the power law of the last two.
+    #[inline(never)]
     fn near_node(
-        &self,
+        &mut self,
         interval: &Interval<'_>,
         right: bool,
         [first, nearest]: [f64; 2],
-        scratch: &mut Scratch,
-        stats: &mut Stats,
     ) -> f64 {
         let mut at = |distance: f64| {
             let theta = if right { 1.0 - distance } else { distance };
-            self.unexplained(interval, theta, scratch, stats)
+            self.unexplained(interval, theta)
         };
         let (mut sum, mut power, mut last) = (0.0, 0.0f64, first);
         let [mut defect, mut rate] = at(first);
@@ -182,44 +198,26 @@ impl SegmentLook<'_> {
         interval.h * (sum + nearest * (defect + beyond))
     }
 
-    /// Looks at the same place of all intervals.
-    #[inline(always)]
-    fn inside(
-        &self,
-        n: usize,
-        theta: f64,
-        pieces: &mut [usize],
-        found: &mut Vec<(usize, f64)>,
-        scratch: &mut Scratch,
-        stats: &mut Stats,
-    ) {
-        let weights = Weights::at(self.t, theta);
-        for (i, pieces) in pieces.iter_mut().enumerate() {
-            if self.is_unseen_at(n, i, theta, &weights, scratch, stats) {
-                *pieces = PARTS;
-                found.push((self.index, self.interval(n, i).place(theta)));
-            }
-        }
-    }
-
     /// Looks where something was found before.
-    fn again(
-        &self,
-        pieces: &mut [usize],
-        found: &[(usize, f64)],
-        scratch: &mut Scratch,
-        stats: &mut Stats,
-    ) {
-        for &(_, s) in found.iter().filter(|(index, _)| *index == self.index) {
+    fn again(&mut self, pieces: &mut [usize]) {
+        let size = self.size();
+        for which in 0..self.found.len() {
+            let (index, s) = self.found[which];
+            if index != self.index {
+                continue;
+            }
             let i = self
                 .nodes
                 .partition_point(|&node| node <= s)
                 .clamp(1, pieces.len())
                 - 1;
-            let theta = (s - self.nodes[i]) / (self.nodes[i + 1] - self.nodes[i]);
-            let weights = Weights::at(self.t, theta);
-            if pieces[i] == 1 && self.is_unseen_at(self.n(), i, theta, &weights, scratch, stats) {
-                pieces[i] = PARTS;
+            if pieces[i] == 1 {
+                let interval = self.interval(size, i);
+                self.scratch.powers.expand(size, self.t, &interval);
+                let theta = (s - self.nodes[i]) / interval.h;
+                if self.is_unseen_at(size, i, &interval, theta) {
+                    pieces[i] = PARTS;
+                }
             }
         }
     }
@@ -232,19 +230,17 @@ impl SegmentLook<'_> {
     /// are beside it.
     #[inline(always)]
     fn is_unseen_at(
-        &self,
-        n: usize,
+        &mut self,
+        size: [usize; 2],
         i: usize,
+        interval: &Interval<'_>,
         theta: f64,
-        weights: &Weights,
-        scratch: &mut Scratch,
-        stats: &mut Stats,
     ) -> bool {
-        let (interval, gap) = (self.interval(n, i), self.t.widest_gap);
+        let gap = self.t.widest_gap;
         let expected = gap * ONE_SAMPLE * self.local[i];
-        let defect = self.defect(n, &interval, interval.place(theta), weights, scratch, stats);
+        let defect = self.defect(size, interval, theta);
         self.is_unseen(gap * interval.h * defect, expected) && {
-            let [defect, _] = self.unexplained(&interval, theta, scratch, stats);
+            let [defect, _] = self.unexplained(interval, theta);
             self.is_unseen(gap * interval.h * defect, expected)
         }
     }
@@ -254,15 +250,16 @@ impl SegmentLook<'_> {
         addition > AIM * self.tolerance && addition > expected
     }
 
-    /// The number of states n.
-    fn n(&self) -> usize {
-        self.x.segments[self.index].nodes.len() / self.nodes.len()
+    /// The numbers of stages m and of states n.
+    fn size(&self) -> [usize; 2] {
+        let states = self.x.segments[self.index].nodes.len();
+        [self.t.stages, states / self.nodes.len()]
     }
 
     #[inline(always)]
-    fn interval(&self, n: usize, i: usize) -> Interval<'_> {
+    fn interval(&self, size: [usize; 2], i: usize) -> Interval<'a> {
         let x = &self.x.segments[self.index];
-        Interval::new(x, [self.t.stages, n], i, &self.nodes[i..i + 2])
+        Interval::new(x, size, i, &self.nodes[i..i + 2])
     }
 
     /// How near to the nodes of interval i a jump by as much as the largest slope is harmless, as a share of
@@ -278,33 +275,28 @@ impl SegmentLook<'_> {
 
     /// The largest |dy/ds| / (1 + |y|) at the collocation points of the segment, at least that of a state
     /// that changes by one.
-    fn largest_slope(&self) -> f64 {
+    #[inline(always)]
+    fn largest_slope(&self, size: [usize; 2]) -> f64 {
         let least = 1.0 / (self.nodes[self.nodes.len() - 1] - self.nodes[0]);
-        let n = self.n();
-        let intervals = (0..self.nodes.len() - 1).map(|i| self.interval(n, i));
+        let intervals = (0..self.nodes.len() - 1).map(|i| self.interval(size, i));
         intervals.fold(least, |m, interval| {
             m.max(interval.largest_relative_slope())
         })
     }
 
-    /// The largest defect and the largest right-hand side at a place of an interval, relative to 1 + |y|,
+    /// The largest defect and the largest right-hand side at a place of the interval, relative to 1 + |y|,
     /// less what an error of the states within the tolerance makes of the right-hand side: next to a singular
     /// end that is much.
     #[inline(never)]
-    fn unexplained(
-        &self,
-        interval: &Interval<'_>,
-        theta: f64,
-        scratch: &mut Scratch,
-        stats: &mut Stats,
-    ) -> [f64; 2] {
-        self.interpolate(self.n(), interval, &Weights::at(self.t, theta), scratch);
-        let Scratch { y, f, slope } = scratch;
+    fn unexplained(&mut self, interval: &Interval<'_>, theta: f64) -> [f64; 2] {
+        let size = self.size();
+        self.scratch.interpolate(size, theta);
+        let Scratch { y, f, slope, .. } = &mut *self.scratch;
         let (n, columns) = (y.len(), y.len() + self.x.p.len());
         let (mut jacobian, s) = (vec![0.0; n * columns], interval.place(theta));
         self.equations
             .rhs_jacobian(self.index, s, y, &self.x.p, f, &mut jacobian);
-        stats.jacobian_evaluations += 1;
+        self.stats.jacobian_evaluations += 1;
         let rows = jacobian.chunks_exact(columns);
         let each = slope.iter().zip(&*f).zip(&*y).zip(rows);
         let largest = each.fold([0.0f64; 2], |largest, (((slope, f), y_own), row)| {
@@ -317,93 +309,53 @@ impl SegmentLook<'_> {
         largest.map(|size| if size.is_finite() { size } else { 0.0 })
     }
 
-    /// The largest defect at a place s of an interval with n states, with the weights of it or of the node
-    /// beside it, relative to 1 + |y|; zero where it is not finite.
+    /// The largest defect at a place of the interval relative to 1 + |y|; zero where it is not finite.
     #[inline(always)]
-    fn defect(
-        &self,
-        n: usize,
-        interval: &Interval<'_>,
-        s: f64,
-        weights: &Weights,
-        scratch: &mut Scratch,
-        stats: &mut Stats,
-    ) -> f64 {
-        self.interpolate(n, interval, weights, scratch);
-        let Scratch { y, f, slope } = scratch;
+    fn defect(&mut self, size: [usize; 2], interval: &Interval<'_>, theta: f64) -> f64 {
+        self.scratch.interpolate(size, theta);
+        let n = size[1];
+        let Scratch { y, f, slope, .. } = &mut *self.scratch;
         let (y, f, slope) = (&y[..n], &mut f[..n], &slope[..n]);
         f.fill(f64::NAN);
+        let s = interval.place(theta);
         self.equations.evaluate_rhs(self.index, s, y, &self.x.p, f);
-        stats.rhs_evaluations += 1;
+        self.stats.rhs_evaluations += 1;
         let defects = slope.iter().zip(&*f).zip(y);
         let largest = defects.fold(0.0f64, |m, ((slope, f), y)| {
             max_or_nan(m, (slope - f).abs() / (1.0 + y.abs()))
         });
         if largest.is_finite() { largest } else { 0.0 }
     }
-
-    /// The state and the slope of the solution at a place of an interval.
-    #[inline(always)]
-    fn interpolate(
-        &self,
-        n: usize,
-        interval: &Interval<'_>,
-        weights: &Weights,
-        scratch: &mut Scratch,
-    ) {
-        let m = self.t.stages;
-        interval.state(&weights.value[..m], &mut scratch.y[..n]);
-        interval.slope(&weights.slope[..m], &mut scratch.slope[..n]);
-    }
 }
 
-/// The weights of the slopes for the state and the slope at a place of all intervals.
-struct Weights {
-    value: [f64; MAX_STAGES],
-    slope: [f64; MAX_STAGES],
-}
-
-impl Weights {
-    fn at(t: &Tableau, theta: f64) -> Self {
-        let m = t.stages;
-        specialise!(m in [4, 5, 6, 7] => Self::by_powers(m, &t.powers_of_slope, theta))
-    }
-
-    /// From the coefficients of the powers of u = 2θ − 1 in the slope, whose integrals from 0 to θ are
-    /// (uᵏ⁺¹ − (−1)ᵏ⁺¹) / (2 (k + 1)).
-    #[inline(always)]
-    fn by_powers(m: usize, coefficients: &[f64], theta: f64) -> Self {
-        let [mut value, mut slope] = [[0.0; MAX_STAGES]; 2];
-        let u = 2.0 * theta - 1.0;
-        let (mut power, mut at_start, mut twice) = (1.0, -1.0, 2.0);
-        for coefficients in coefficients.chunks_exact(m) {
-            add_scaled(&mut slope[..m], power, coefficients);
-            power *= u;
-            add_scaled(&mut value[..m], (power - at_start) / twice, coefficients);
-            (at_start, twice) = (-at_start, twice + 2.0);
-        }
-        Self { value, slope }
-    }
-}
-
-/// One state, its right-hand side and its slope.
+/// The interval that is looked at, and one state there, its right-hand side and its slope.
 #[derive(Clone, Debug, Default)]
 struct Scratch {
+    powers: Powers,
     y: Vec<f64>,
     f: Vec<f64>,
     slope: Vec<f64>,
 }
 
 impl Scratch {
+    fn resize(&mut self, [m, n]: [usize; 2]) {
+        self.powers.resize([m, n]);
+        for values in [&mut self.y, &mut self.f, &mut self.slope] {
+            values.resize(n, 0.0);
+        }
+    }
+
+    /// Finds the state and the slope of the solution at a place of the interval.
+    #[inline(always)]
+    fn interpolate(&mut self, [m, n]: [usize; 2], theta: f64) {
+        let u = 2.0 * theta - 1.0;
+        self.powers.state([m, n], u, &mut self.y[..n]);
+        self.powers.slope([m, n], u, &mut self.slope[..n]);
+    }
+
     /// The largest |f| relative to 1 + |y|.
     fn rate(&self) -> f64 {
         let rates = self.f.iter().zip(&self.y);
         rates.fold(0.0, |m, (f, y)| m.max(f.abs() / (1.0 + y.abs())))
-    }
-
-    fn resize(&mut self, n: usize) {
-        for values in [&mut self.y, &mut self.f, &mut self.slope] {
-            values.resize(n, 0.0);
-        }
     }
 }

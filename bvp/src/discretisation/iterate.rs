@@ -180,12 +180,13 @@ impl<'a> Interval<'a> {
     }
 
     /// The largest |Kⱼ| relative to 1 + |yᵢ| of all stages and states.
+    #[inline(always)]
     pub(crate) fn largest_relative_slope(&self) -> f64 {
-        let slopes = self
-            .stages
-            .chunks_exact(self.n)
-            .flat_map(|k| k.iter().zip(self.y));
-        slopes.fold(0.0, |m, (k, y)| m.max(k.abs() / (1.0 + y.abs())))
+        let states = self.y.iter().enumerate();
+        states.fold(0.0, |largest, (state, y)| {
+            let slopes = (0..self.m).map(|j| self.stages[j * self.n + state].abs());
+            largest.max(slopes.fold(0.0, f64::max) / (1.0 + y.abs()))
+        })
     }
 
     /// slope = Σ weightsₗ Kₗ.

@@ -2,6 +2,7 @@
 
 pub(crate) mod iterate;
 pub(crate) mod mesh;
+pub(crate) mod powers;
 pub(crate) mod ratio;
 pub(crate) mod restriction;
 pub(crate) mod scheme;

@@ -1,0 +1,67 @@
+//! The solution on one interval in powers, by which it is evaluated at many places at the least cost.
+
+use crate::discretisation::iterate::Interval;
+use crate::discretisation::tableau::Tableau;
+
+/// The collocation polynomials of the n states of an interval of length h, in powers of u, which runs from −1
+/// at its left end to 1 at its right end:
+///
+/// ```text
+/// y' = Σ cₖ uᵏ,      y = d₀ + Σ dₖ₊₁ uᵏ⁺¹,      dₖ₊₁ = h cₖ / (2 (k + 1))
+/// ```
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Powers {
+    /// cₖ, m × n.
+    slope: Vec<f64>,
+    /// dₖ, (m + 1) × n.
+    state: Vec<f64>,
+}
+
+impl Powers {
+    /// Makes room for m stages and n states.
+    pub(crate) fn resize(&mut self, [m, n]: [usize; 2]) {
+        self.slope.resize(m * n, 0.0);
+        self.state.resize((m + 1) * n, 0.0);
+    }
+
+    /// Finds the coefficients on an interval with m stages and n states.
+    #[inline(always)]
+    pub(crate) fn expand(&mut self, [m, n]: [usize; 2], t: &Tableau, interval: &Interval<'_>) {
+        let slopes = self.slope[..m * n].chunks_exact_mut(n);
+        let (start, states) = self.state[..(m + 1) * n].split_at_mut(n);
+        start.copy_from_slice(interval.y);
+        let (mut at_start, mut twice) = (-1.0, 2.0);
+        let rows = t.powers_of_slope[..m * m].chunks_exact(m);
+        for ((slope, state), row) in slopes.zip(states.chunks_exact_mut(n)).zip(rows) {
+            interval.slope(row, slope);
+            for ((start, state), slope) in start.iter_mut().zip(state).zip(&*slope) {
+                *state = interval.h / twice * slope;
+                *start -= at_start * *state;
+            }
+            (at_start, twice) = (-at_start, twice + 2.0);
+        }
+    }
+
+    /// The states at u.
+    #[inline(always)]
+    pub(crate) fn state(&self, [m, n]: [usize; 2], u: f64, y: &mut [f64]) {
+        horner(&self.state[..(m + 1) * n], n, u, y);
+    }
+
+    /// Their slopes at u.
+    #[inline(always)]
+    pub(crate) fn slope(&self, [m, n]: [usize; 2], u: f64, slope: &mut [f64]) {
+        horner(&self.slope[..m * n], n, u, slope);
+    }
+}
+
+/// n polynomials at u from their coefficients, n per power, by Horner's rule.
+#[inline(always)]
+fn horner(coefficients: &[f64], n: usize, u: f64, values: &mut [f64]) {
+    values.fill(0.0);
+    for coefficients in coefficients.chunks_exact(n).rev() {
+        for (value, coefficient) in values.iter_mut().zip(coefficients) {
+            *value = *value * u + coefficient;
+        }
+    }
+}
