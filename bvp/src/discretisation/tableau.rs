@@ -33,6 +33,8 @@ pub(crate) struct Tableau {
     pub(crate) a: Vec<f64>,
     /// Its powers A, A², …, m × m each.
     pub(crate) powers: Vec<f64>,
+    /// The same column by column.
+    pub(crate) columns: Vec<f64>,
     /// bᵀ, bᵀ A, bᵀ A², …, m numbers each; as many as there are powers.
     pub(crate) weights: Vec<f64>,
     /// Where the defect is sampled: the Gauss rule with m + 1 points, which integrates the square
@@ -110,6 +112,12 @@ impl Tableau {
             stages,
             b,
             a,
+            columns: powers
+                .chunks_exact(stages * stages)
+                .flat_map(|power| {
+                    (0..stages * stages).map(|i| power[i % stages * stages + i / stages])
+                })
+                .collect(),
             powers,
             weights,
             widest_gap: widest_gap([&c[..], &defect_rule.points].concat()),

@@ -159,9 +159,9 @@ impl Condensation {
             written,
             &mut self.buffers,
             &move |run, written, buffers| {
-                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(f in [1] =>
+                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(f in [1] => specialise!(k in [0] =>
                     condense_run(StageSystem::new(t, reduction, [m, n, k, f]), run, mesh, jacobians, written, buffers)
-                )), else specialise!(m in [1, 2, 3, 4, 5] =>
+                ))), else specialise!(m in [1, 2, 3, 4, 5] =>
                     condense_run(StageSystem::new(t, reduction, [m, n, k, f]), run, mesh, jacobians, written, buffers)
                 ))
             },
@@ -236,9 +236,9 @@ impl Condensation {
             &mut stages[..],
             &mut self.buffers,
             &|run, stages, buffers| {
-                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(f in [1] =>
+                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(f in [1] => specialise!(k in [0] =>
                     recover_run(StageSystem::new(t, reduction, [m, n, k, f]), run, factored, known, stages, buffers)
-                )), else specialise!(m in [1, 2, 3, 4, 5] =>
+                ))), else specialise!(m in [1, 2, 3, 4, 5] =>
                     recover_run(StageSystem::new(t, reduction, [m, n, k, f]), run, factored, known, stages, buffers)
                 ));
                 Ok(())

@@ -42,14 +42,12 @@ fn powers_of(h: f64) -> [f64; POWERS] {
     powers
 }
 
-/// A x for an m × m matrix.
+/// A x for an m × m matrix given by its columns, so that no sum waits for another.
 #[inline(always)]
-fn product(a: &[f64], m: usize, x: &[f64]) -> [f64; MAX_STAGES] {
+fn product(columns: &[f64], m: usize, x: &[f64]) -> [f64; MAX_STAGES] {
     let mut products = [0.0; MAX_STAGES];
-    for (product, row) in products[..m].iter_mut().zip(a.chunks_exact(m)) {
-        for (a, x) in row.iter().zip(&x[..m]) {
-            *product += a * x;
-        }
+    for (x, column) in x[..m].iter().zip(columns[..m * m].chunks_exact(m)) {
+        add_scaled(&mut products[..m], *x, column);
     }
     products
 }
@@ -85,16 +83,21 @@ impl<'a> StageSystem<'a> {
         } = self;
         let powers = powers_of(h);
         for (v, &state) in reduction.free[..f].iter().enumerate() {
-            for (j, unit) in IDENTITY[..m].iter().enumerate() {
-                let slopes = &jacobians[(j * n + state) * (n + k)..][..n];
-                let row = &mut matrix[(v * m + j) * f * m..][..f * m];
-                for (place, block) in row.chunks_exact_mut(m).enumerate() {
-                    let mut sums = if place == v { *unit } else { [0.0; MAX_STAGES] };
-                    for &(c, order, factor) in self.members_of(place) {
-                        let a = &t.powers[(order * m + j) * m..][..m];
-                        add_scaled(&mut sums[..m], -slopes[c] * (factor * powers[order]), a);
+            let matrix = &mut matrix[v * m * f * m..][..m * f * m];
+            for (row, unit) in matrix.chunks_exact_mut(f * m).zip(&IDENTITY) {
+                row.fill(0.0);
+                row[v * m..][..m].copy_from_slice(&unit[..m]);
+            }
+            for place in 0..f {
+                for &(c, order, factor) in self.members_of(place) {
+                    let scale = factor * powers[order];
+                    let rows = matrix.chunks_exact_mut(f * m);
+                    let a = t.powers[order * m * m..][..m * m].chunks_exact(m);
+                    let slopes = jacobians[..m * n * (n + k)].chunks_exact(n * (n + k));
+                    for ((row, a), slopes) in rows.zip(a).zip(slopes) {
+                        let slope = slopes[state * (n + k) + c];
+                        add_scaled(&mut row[place * m..][..m], -slope * scale, a);
                     }
-                    block.copy_from_slice(&sums[..m]);
                 }
             }
         }
@@ -147,26 +150,27 @@ impl<'a> StageSystem<'a> {
             k,
             f,
         } = self;
+        let slopes = || jacobians[..m * n * (n + k)].chunks_exact(n * (n + k));
         for row in 0..n {
             let x_free = &rows[row * f * m..][..f * m];
             let adjoint = &mut adjoint[row * m * n..][..m * n];
-            for (place, &v) in reduction.free[..f].iter().enumerate() {
-                for j in 0..m {
-                    adjoint[j * n + v] = x_free[place * m + j];
+            for (x, &v) in x_free.chunks_exact(m).zip(&reduction.free) {
+                for (adjoint, x) in adjoint.chunks_exact_mut(n).zip(x) {
+                    adjoint[v] = *x;
                 }
             }
             for &(c, _, _) in reduction.sources.iter().rev() {
                 let mut sums = [0.0; MAX_STAGES];
                 let sums = &mut sums[..m];
                 for (x, &v) in x_free.chunks_exact(m).zip(&reduction.free) {
-                    for (j, sum) in sums.iter_mut().enumerate() {
-                        *sum += jacobians[(j * n + v) * (n + k) + c] * x[j];
+                    for ((sum, x), slopes) in sums.iter_mut().zip(x).zip(slopes()) {
+                        *sum += slopes[v * (n + k) + c] * x;
                     }
                 }
                 for &(d, source, factor) in &reduction.sources {
                     if source == c {
-                        for (j, sum) in sums.iter_mut().enumerate() {
-                            *sum += factor * adjoint[j * n + d];
+                        for (sum, adjoint) in sums.iter_mut().zip(adjoint.chunks_exact(n)) {
+                            *sum += factor * adjoint[d];
                         }
                     }
                 }
@@ -175,11 +179,11 @@ impl<'a> StageSystem<'a> {
                 if c == row {
                     x.copy_from_slice(&t.b[..m]);
                 }
-                for (sum, a) in sums.iter().zip(t.a.chunks_exact(m)) {
+                for (sum, a) in sums.iter().zip(t.a[..m * m].chunks_exact(m)) {
                     add_scaled(x, *sum, a);
                 }
-                for (j, x) in x.iter().enumerate() {
-                    adjoint[j * n + c] = h * x;
+                for (adjoint, x) in adjoint.chunks_exact_mut(n).zip(&*x) {
+                    adjoint[c] = h * x;
                 }
             }
         }
@@ -234,30 +238,33 @@ impl<'a> StageSystem<'a> {
             k,
             f,
         } = self;
-        for (place, &v) in reduction.free[..f].iter().enumerate() {
-            for j in 0..m {
-                free[place * m + j] = stages[j * n + v];
+        let (stages, free) = (&mut stages[..m * n], &mut free[..f * m]);
+        for (free, &v) in free.chunks_exact_mut(m).zip(&reduction.free) {
+            for (free, stage) in free.iter_mut().zip(stages.chunks_exact(n)) {
+                *free = stage[v];
             }
         }
         for &(c, source, factor) in &reduction.sources {
             let mut slopes = [0.0; MAX_STAGES];
-            for j in 0..m {
-                slopes[j] = stages[j * n + c];
+            for (slope, stage) in slopes.iter_mut().zip(stages.chunks_exact(n)) {
+                *slope = stage[c];
             }
             if reduction.highest[source].1 > 0 {
-                for j in 0..m {
-                    slopes[j] += factor * known[source * m + j];
-                    stages[j * n + c] = slopes[j];
+                let known = &known[source * m..][..m];
+                let stages = stages.chunks_exact_mut(n);
+                for ((slope, stage), known) in slopes.iter_mut().zip(stages).zip(known) {
+                    *slope += factor * known;
+                    stage[c] = *slope;
                 }
             }
-            let products = product(&t.a, m, &slopes);
-            for j in 0..m {
-                known[c * m + j] = h * products[j];
+            let known = &mut known[c * m..][..m];
+            for (known, product) in known.iter_mut().zip(product(&t.columns, m, &slopes)) {
+                *known = h * product;
             }
-            for (place, &v) in reduction.free[..f].iter().enumerate() {
-                for j in 0..m {
-                    let slope = jacobians[(j * n + v) * (n + k) + c];
-                    free[place * m + j] += slope * (h * products[j]);
+            let jacobians = || jacobians[..m * n * (n + k)].chunks_exact(n * (n + k));
+            for (free, &v) in free.chunks_exact_mut(m).zip(&reduction.free) {
+                for ((free, known), slopes) in free.iter_mut().zip(&*known).zip(jacobians()) {
+                    *free += slopes[v * (n + k) + c] * known;
                 }
             }
         }
@@ -274,18 +281,19 @@ impl<'a> StageSystem<'a> {
             f,
             ..
         } = self;
-        let powers = powers_of(h);
-        for (place, &v) in reduction.free[..f].iter().enumerate() {
-            for j in 0..m {
-                stages[j * n + v] = free[place * m + j];
+        let (powers, stages) = (powers_of(h), &mut stages[..m * n]);
+        for (free, &v) in free.chunks_exact(m).zip(&reduction.free[..f]) {
+            for (stage, free) in stages.chunks_exact_mut(n).zip(free) {
+                stage[v] = *free;
             }
         }
         for &(c, _, _) in &reduction.sources {
             let (place, order) = reduction.highest[c];
-            let products = product(&t.powers[(order - 1) * m * m..], m, &free[place * m..]);
+            let columns = &t.columns[(order - 1) * m * m..];
+            let products = product(columns, m, &free[place * m..]);
             let factor = reduction.factors[c] * powers[order - 1];
-            for j in 0..m {
-                stages[j * n + c] += factor * products[j];
+            for (stage, product) in stages.chunks_exact_mut(n).zip(products) {
+                stage[c] += factor * product;
             }
         }
     }
