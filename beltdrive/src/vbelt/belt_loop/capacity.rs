@@ -18,8 +18,9 @@ use super::super::path::Solved;
 use super::super::{BeltProblem, Contact, Groove, Regime};
 use super::climb::{followed, on_the_way};
 use super::levelling::Levelling;
-use super::problem::{FLOW, LoopProblem};
+use super::problem::LoopProblem;
 use super::seat::Seat;
+use super::unknowns::FLOW;
 use bvp::{Ends, Family, Problem, Real, Segment};
 use continuation::{Branch, Direction, Kind};
 
@@ -132,7 +133,7 @@ impl Solved<LoopProblem> {
         }
         let p = self.solution.parameters();
         let coordinate = problem.coordinate(p);
-        let ends = self.with_ends(|at, _| problem.end_angles(at));
+        let ends = self.round(|round| round.end_angles());
         let [entry, exit] = [self.entry(pulley), self.exit(pulley)];
         let change =
             exit[TENSION] * ends[pulley].exit.cos() - entry[TENSION] * ends[pulley].entry.cos();

@@ -4,8 +4,9 @@
 use super::super::BeltProblem;
 use super::super::path::{Effort, Solved};
 use super::levelling::Levelling;
-use super::problem::{FLOW, LoopProblem};
+use super::problem::LoopProblem;
 use super::solve::Search;
+use super::unknowns::FLOW;
 use crate::results::difficulty;
 use crate::results::loop_error::LoopError;
 use crate::results::loop_state::LoadLimit;
@@ -95,7 +96,7 @@ impl Search<'_> {
             Err(error) => return lost(begin, difficulty::of_branch(&error)),
         };
         let moving: Vec<_> = (0..free.pulleys())
-            .filter_map(|pulley| Some((pulley, free.speed_index(pulley)?)))
+            .filter_map(|pulley| Some((pulley, free.unknowns.speeds[pulley]?)))
             .collect();
         for &(_, index) in &moving {
             branch = branch.event(move |_, point| point.z[point.z.len() - 1 - unknown + index]);
@@ -172,7 +173,7 @@ fn top(solved: &Solved<LoopProblem>, point: &Point, factor: f64) -> Top {
     let of_belt = moved[FLOW] / p[FLOW];
     let touched = (0..problem.pulleys()).filter(|&pulley| !problem.is_idle(pulley));
     let slowed = touched.map(|pulley| {
-        let of_pulley = problem.speed_index(pulley).map(|index| moved[index]);
+        let of_pulley = problem.unknowns.speeds[pulley].map(|index| moved[index]);
         let of_pulley = of_pulley.unwrap_or(0.0) / problem.omega(pulley, p);
         ((of_pulley - of_belt).abs(), pulley)
     });
@@ -180,7 +181,7 @@ fn top(solved: &Solved<LoopProblem>, point: &Point, factor: f64) -> Top {
         (0.0, 0),
         |most, next| if next.0 > most.0 { next } else { most },
     );
-    let ends = solved.with_ends(|at, _| problem.end_angles(at));
+    let ends = solved.round(|round| round.end_angles());
     let steep = ends.iter().position(|ends| ends.exit.abs() > FRAC_PI_2);
     Top {
         factor,

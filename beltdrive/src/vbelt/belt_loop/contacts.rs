@@ -4,8 +4,9 @@ use super::super::BeltProblem;
 use super::super::on_pulley::{Integrals, OnPulley, points};
 use super::super::path::Solved;
 use super::back::Back;
-use super::problem::{FLOW, LoopProblem};
+use super::problem::LoopProblem;
 use super::seat::Seat;
+use super::unknowns::FLOW;
 use crate::{Profile, Zone, ZoneKind};
 use std::f64::consts::FRAC_PI_2;
 

@@ -11,10 +11,11 @@
 
 use super::super::BeltProblem;
 use super::super::guess::Contacting;
-use super::closing::Target;
-use super::problem::{FLOW, LoopProblem};
+use super::problem::LoopProblem;
 use super::rest::Rest;
+use super::round::Target;
 use super::seat::Seat;
+use super::unknowns::FLOW;
 use crate::drive::belt_loop::BeltLoop;
 use crate::drive::layout::{Layout, Side};
 
@@ -162,11 +163,11 @@ impl bvp::Guess for LoopGuess<'_> {
         let [entering, _] = self.tension(driver);
         let speed = 1.0 / (1.0 + 0.5 * self.depth(driver));
         p[FLOW] = speed / strand.speed(strand.tension(entering, 1.0), 1.0);
-        if let Some(index) = problem.coordinate_index() {
+        if let Some(index) = problem.unknowns.coordinate {
             p[index] = self.coordinate;
         }
         for pulley in 0..problem.pulleys() {
-            if let Some(index) = problem.speed_index(pulley) {
+            if let Some(index) = problem.unknowns.speeds[pulley] {
                 let [entry, exit] = self.tension(pulley);
                 // The belt slows down by its mean depth where it is driven, and a driven pulley loses as
                 // much again; an idler does not.

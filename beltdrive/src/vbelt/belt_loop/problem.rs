@@ -13,30 +13,27 @@
 //!   on the back u = 0 or B = 0, e = 0 at entry                                    n − 1
 //!   the belt turns by as much as between the spans (see `plane`)                  1
 //! R (F_out cos θ_out − F_in cos θ_in) = M on every pulley but the driver          speeds
-//! closure (see `closing`)                                                         1
+//! closure (see `round`)                                                           1
 //! tensioner   Q(q) + H·dC/dq = 0 with the hub load H                              0 or 1
 //! T_o of EPP friction is the tension of the slackest span                         0 or 1
 //! ```
 //!
 //! A contact has as many conditions more than states as it has segments: together as many as there are parameters.
 
-use super::super::belt_problem::{BeltProblem, Zoning, end_angles, in_groove};
+use super::super::belt_problem::{BeltProblem, Zoning, in_groove};
 use super::super::groove::{ANGLE, LAW, TENSION};
-use super::super::path::Solved;
-use super::super::{Contact, EndAngles, Groove, Law, Regime, Units};
+use super::super::{Contact, Groove, Law, Regime, Units};
 use super::back;
-use super::closing::Target;
 use super::plane::Plane;
+use super::round::Target;
 use super::seat::Seat;
 use super::tensioner::{coordinate_unit, unbalanced};
+use super::unknowns::{FLOW, Unknowns};
 use crate::FrictionLaw;
 use crate::drive::belt_loop::{BeltLoop, Duty, Tensioner};
 use crate::drive::layout::Layout;
 use bvp::{Ends, Problem, Real, Segment, Solution};
 use std::ops::Range;
-
-/// Index of G among the parameters.
-pub(super) const FLOW: usize = 0;
 
 /// What a pulley does, scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,16 +54,11 @@ pub(crate) struct LoopProblem {
     /// Factor on all torques and powers; unknown where there is none.
     factor: Option<f64>,
     tensioner: Option<(usize, Tensioner)>,
-    /// Index of the speed of each pulley among the parameters, if it is unknown.
-    speed_index: Vec<Option<usize>>,
-    /// Index of the length of the first segment among the parameters.
-    first_length: usize,
+    pub(super) unknowns: Unknowns,
     /// Index of the driver.
     pub(super) driver: usize,
     zoning: Zoning,
     segments: Vec<Segment>,
-    /// Whether friction is elastic/perfectly-plastic.
-    has_reference: bool,
 }
 
 impl LoopProblem {
@@ -89,16 +81,9 @@ impl LoopProblem {
             Duty::Power(power) => Load::Power(power / units.power()),
         });
         let (tensioner, driver) = (belt_loop.tensioner(), belt_loop.driver());
-        let mut first_length = FLOW + 1 + usize::from(tensioner.is_some());
-        let speed_index = seats.iter().enumerate().map(|(pulley, seat)| {
-            let is_unknown = pulley != driver && !matches!(seat, Seat::Idle);
-            first_length += usize::from(is_unknown);
-            is_unknown.then_some(first_length - 1)
-        });
-        let speed_index = speed_index.collect();
-        let has_reference = matches!(law, FrictionLaw::Epp { .. });
+        let is_epp = matches!(law, FrictionLaw::Epp { .. });
         let zones = seats.iter().map(|seat| match seat {
-            Seat::Groove(_) if !has_reference => vec![Regime::Slip],
+            Seat::Groove(_) if !is_epp => vec![Regime::Slip],
             Seat::Groove(_) | Seat::Back(_) => vec![Regime::Either],
             Seat::Idle => vec![],
         });
@@ -110,13 +95,11 @@ impl LoopProblem {
             factor: Some(1.0),
             target,
             tensioner: tensioner.map(|(pulley, tensioner)| (pulley, *tensioner)),
-            speed_index,
-            first_length,
+            unknowns: Unknowns::new(&seats, driver, tensioner.is_some(), is_epp),
             driver,
             zoning: Zoning::default(),
             segments: Vec::new(),
             seats,
-            has_reference,
         };
         problem.with_zones(&zones)
     }
@@ -133,20 +116,15 @@ impl LoopProblem {
         self
     }
 
-    /// Index of the tension at which the displacement of EPP friction does not grow, among the parameters.
-    fn reference_index(&self) -> Option<usize> {
-        let index = self.first_length + self.segments.len();
-        self.has_reference.then_some(index)
-    }
-
-    /// That tension, scaled; 0 with other laws.
+    /// The tension at which the displacement of EPP friction does not grow, scaled; 0 with other laws.
     pub(super) fn reference(&self, p: &[f64]) -> f64 {
-        self.reference_index().map_or(0.0, |index| p[index])
+        let index = self.unknowns.reference(self.segments.len());
+        index.map_or(0.0, |index| p[index])
     }
 
     /// Number of parameters but for the factor.
     fn known_parameters(&self) -> usize {
-        self.first_length + self.segments.len() + usize::from(self.has_reference)
+        self.unknowns.count(self.segments.len())
     }
 
     /// The factor on all torques and powers.
@@ -160,11 +138,6 @@ impl LoopProblem {
         self.zones(pulley).is_empty()
     }
 
-    /// Index of the coordinate of the tensioner among the parameters.
-    pub(super) fn coordinate_index(&self) -> Option<usize> {
-        self.tensioner.map(|_| FLOW + 1)
-    }
-
     /// Unit of the coordinate, rad or m.
     pub(super) fn coordinate_unit(&self) -> f64 {
         self.tensioner.map_or(1.0, |(pulley, tensioner)| {
@@ -174,46 +147,8 @@ impl LoopProblem {
 
     /// Coordinate of the tensioner, rad or m.
     pub(super) fn coordinate<T: Real>(&self, p: &[T]) -> T {
-        let index = self.coordinate_index();
+        let index = self.unknowns.coordinate;
         index.map_or(T::ZERO, |index| p[index] * self.coordinate_unit())
-    }
-
-    /// Index of the speed of a pulley among the parameters, if it is unknown.
-    pub(super) fn speed_index(&self, pulley: usize) -> Option<usize> {
-        self.speed_index[pulley]
-    }
-
-    /// Tractive tension with which the belt leaves a pulley, scaled.
-    pub(super) fn leaving<T: Real>(&self, pulley: usize, at: &Ends<'_, T>) -> T {
-        let mut pulley = pulley;
-        for _ in &self.seats {
-            if let Some(last) = self.zones(pulley).last() {
-                return at.end(last)[TENSION];
-            }
-            pulley = self.plane.arriving(pulley);
-        }
-        T::from_f64(f64::NAN)
-    }
-
-    /// Inclinations at both ends of every contact.
-    pub(super) fn end_angles<T: Real>(&self, at: &Ends<'_, T>) -> Vec<EndAngles<T>> {
-        let pulleys = self.seats.iter().enumerate();
-        let ends = pulleys.map(|(pulley, seat)| match seat {
-            Seat::Groove(_) => end_angles(self, pulley, at),
-            Seat::Back(_) | Seat::Idle => EndAngles {
-                entry: T::ZERO,
-                exit: T::ZERO,
-            },
-        });
-        ends.collect()
-    }
-
-    /// Calls `view` with the states at both ends of all segments of a solution.
-    fn with_ends<R>(&self, solution: &Solution, view: impl FnOnce(&Ends<'_, f64>) -> R) -> R {
-        let segments = 0..self.segments.len();
-        let values = segments.flat_map(|i| [solution.start(i), solution.end(i)]);
-        let values: Vec<f64> = values.flatten().copied().collect();
-        view(&Ends::new(&self.segments, &values))
     }
 
     /// The number of states of every segment, as the laws ask for.
@@ -221,14 +156,6 @@ impl LoopProblem {
         let seats = (0..self.zoning.count()).map(|segment| &self.seats[self.pulley(segment)]);
         self.segments = seats.map(|seat| Segment::new(seat.states())).collect();
         self
-    }
-}
-
-impl Solved<LoopProblem> {
-    /// Calls `view` with the states at both ends of all segments, and the parameters.
-    pub(super) fn with_ends<R>(&self, view: impl FnOnce(&Ends<'_, f64>, &[f64]) -> R) -> R {
-        let p = self.solution.parameters();
-        self.problem.with_ends(&self.solution, |at| view(at, p))
     }
 }
 
@@ -254,7 +181,7 @@ impl BeltProblem for LoopProblem {
     }
 
     fn omega<T: Real>(&self, pulley: usize, p: &[T]) -> T {
-        self.speed_index[pulley].map_or(T::ONE, |index| p[index])
+        self.unknowns.speeds[pulley].map_or(T::ONE, |index| p[index])
     }
 
     fn flow<T: Real>(&self, p: &[T]) -> T {
@@ -262,11 +189,11 @@ impl BeltProblem for LoopProblem {
     }
 
     fn first_length(&self) -> usize {
-        self.first_length
+        self.unknowns.first_length
     }
 
     fn behind_lengths(&self, solution: &Solution) -> f64 {
-        self.with_ends(solution, |at| self.slackest(at, solution.parameters()))
+        self.solved_by(solution, |round| round.slackest())
     }
 
     /// With the coordinate of the tensioner and the tension `T_o`.
@@ -279,7 +206,7 @@ impl BeltProblem for LoopProblem {
                 Seat::Back(_) | Seat::Idle => self.length(last, p),
             })
         });
-        let constants = p[..self.first_length].iter().copied();
+        let constants = p[..self.first_length()].iter().copied();
         constants.chain([self.reference(p)]).chain(wraps).collect()
     }
 
@@ -337,7 +264,7 @@ impl Problem for LoopProblem {
             Seat::Idle => y[TENSION],
         };
         let strain = self.units.strand().strain(tension);
-        if let Some(index) = self.reference_index() {
+        if let Some(index) = self.unknowns.reference(self.segments.len()) {
             dy[y.len() - 2] -= p[index];
         }
         dy[y.len() - 1] = strain / (strain + 1.0);
@@ -354,16 +281,16 @@ impl Problem for LoopProblem {
                 *residual = value;
             }
         };
-        let ends = self.end_angles(&at);
-        let (coordinate, factor) = (self.coordinate(p), self.factor(p));
-        let laid = self.plane.lay(coordinate, &ends);
+        let round = self.round(&at, p);
+        let (ends, factor) = (round.end_angles(), self.factor(p));
+        let laid = self.plane.lay(self.coordinate(p), &ends);
         for (pulley, seat) in self.seats.iter().enumerate() {
             let zones = self.zones(pulley);
             let Some(last) = zones.clone().last() else {
                 continue;
             };
             let (entry, exit) = (at.start(zones.start), at.end(last));
-            zero(entry[TENSION] - self.leaving(self.plane.arriving(pulley), &at));
+            zero(entry[TENSION] - round.leaving(self.plane.arriving(pulley)));
             let turned = match seat {
                 Seat::Groove(groove) => {
                     in_groove(self, (pulley, groove), &at, p, &mut zero);
@@ -389,18 +316,17 @@ impl Problem for LoopProblem {
                 }
             }
         }
-        zero(self.closing(&at, p, &laid));
-        if let Some(index) = self.reference_index() {
-            zero(p[index] - self.slackest(&at, p));
+        zero(round.closing(&laid));
+        if let Some(index) = self.unknowns.reference(self.segments.len()) {
+            zero(p[index] - round.slackest());
         }
         if let Some((pulley, tensioner)) = &self.tensioner {
-            let tractive =
-                [self.plane.arriving(*pulley), *pulley].map(|span| self.leaving(span, &at));
+            let tractive = [self.plane.arriving(*pulley), *pulley].map(|span| round.leaving(span));
             let hub_load = laid.hub_load(&self.plane, *pulley, tractive);
             zero(unbalanced(
                 tensioner,
                 self.units.force,
-                coordinate,
+                self.coordinate(p),
                 hub_load,
             ));
         }

@@ -4,12 +4,13 @@ use super::super::BeltProblem;
 use super::super::groove::TENSION;
 use super::super::path::Solved;
 use super::climb::{Climbed, Top};
-use super::closing::Target;
 use super::guess::tractive_tensions;
-use super::problem::{FLOW, LoopProblem};
+use super::problem::LoopProblem;
 use super::rest::Rest;
+use super::round::Target;
 use super::solve::{Search, lost};
 use super::start::Start;
+use super::unknowns::FLOW;
 use crate::drive::layout::Layout;
 use crate::results::loop_error::LoopError;
 
@@ -143,7 +144,7 @@ fn raise(
 /// Whether the state may lie beyond the largest load.
 fn may_be_beyond(solved: &Solved<LoopProblem>) -> bool {
     let p = solved.solution.parameters();
-    let ends = solved.with_ends(|at, _| solved.problem.end_angles(at));
+    let ends = solved.round(|round| round.end_angles());
     let mut pulleys = 0..solved.problem.pulleys();
     ends.iter().any(|ends| ends.exit > STEEP)
         || pulleys.any(|pulley| solved.problem.omega(pulley, p) < SLOW)

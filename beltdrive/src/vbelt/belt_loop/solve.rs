@@ -2,8 +2,8 @@
 
 use super::super::path::{Path, Solved};
 use super::at_rest::rest_near;
-use super::closing::Target;
 use super::rest::{Known, Rest, RestProblem};
+use super::round::Target;
 use super::running::{Running, running};
 use super::state::state;
 use crate::drive::belt_loop::{BeltLoop, Closure};
@@ -90,10 +90,8 @@ impl<'l> Search<'l> {
         };
         let running = running(self, target, None, start)?;
         let problem = &running.solved.problem;
-        let (length, coordinate) = running.solved.with_ends(|at, p| {
-            let [unstretched, _] = problem.lengths(at, p);
-            (unstretched, problem.coordinate(p))
-        });
+        let [length, _] = running.solved.round(|round| round.lengths());
+        let coordinate = problem.coordinate(running.solved.solution.parameters());
         let layout = belt_loop.layout(coordinate)?;
         let (at_rest, rest) = rest_near(self, Known::Length(length), coordinate, &layout)?;
         self.found(at_rest, rest, running)

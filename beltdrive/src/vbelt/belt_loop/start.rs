@@ -3,9 +3,9 @@
 use super::super::Units;
 use super::super::laws::Asked;
 use super::super::path::Effort;
-use super::closing::Target;
 use super::guess::LoopGuess;
 use super::problem::LoopProblem;
+use super::round::Target;
 use crate::FrictionLaw;
 use crate::drive::belt_loop::BeltLoop;
 use crate::drive::layout::Layout;

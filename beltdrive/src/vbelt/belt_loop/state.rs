@@ -6,11 +6,12 @@ use super::super::{BeltProblem, EndAngles};
 use super::checks::{Checked, polar, rim};
 use super::contacts::{Touching, idle_profile};
 use super::plane::Laid;
-use super::problem::{FLOW, LoopProblem};
+use super::problem::LoopProblem;
 use super::rest::{Known, Rest, RestProblem};
 use super::rest_guess::RestNear;
 use super::solve::Search;
 use super::tensioner::{held, length_derivatives};
+use super::unknowns::FLOW;
 use crate::drive::belt_loop::{Duty, Mount};
 use crate::mechanics::span::{DEFLECTION, first_frequency, rest_frequency};
 use crate::results::loop_error::LoopError;
@@ -42,9 +43,9 @@ impl<'a> Seen<'a> {
         let problem = &solved.problem;
         let p = solved.solution.parameters();
         let count = problem.seats.len();
-        let (ends, tractive) = solved.with_ends(|at, _| {
-            let tractive: Vec<_> = (0..count).map(|span| problem.leaving(span, at)).collect();
-            (problem.end_angles(at), tractive)
+        let (ends, tractive) = solved.round(|round| {
+            let tractive: Vec<_> = (0..count).map(|span| round.leaving(span)).collect();
+            (round.end_angles(), tractive)
         });
         let coordinate = problem.coordinate(p);
         let laid = problem.plane.lay(coordinate, &ends);
@@ -343,7 +344,7 @@ pub(super) fn state(
         .map(|span| seen.span(search, at_rest, span))
         .collect();
     let tensioner = seen.tensioner(search, at_rest)?;
-    let length = solved.with_ends(|at, p| solved.problem.lengths(at, p))[1];
+    let length = solved.round(|round| round.lengths())[1];
     let units = solved.problem.units;
     let meshes = 0..solved.problem.zoning().count();
     Ok(LoopState {

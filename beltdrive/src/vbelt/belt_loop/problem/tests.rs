@@ -86,7 +86,7 @@ fn every_condition_is_written_and_none_is_missing() {
         let segments = problem.segments();
         let values = vec![0.1; segments.iter().map(|segment| 2 * segment.states).sum()];
         let mut p = vec![1.0; problem.parameters()];
-        p[problem.coordinate_index().unwrap()] = COORDINATE / problem.coordinate_unit();
+        p[problem.unknowns.coordinate.unwrap()] = COORDINATE / problem.coordinate_unit();
         // One entry more than there are conditions must stay untouched.
         let mut r = vec![f64::NAN; unknowns + 1];
         problem.conditions(Ends::new(&segments, &values), &p, &mut r);
