@@ -16,6 +16,13 @@ pub(crate) const INVISIBLE: f64 = AIM * UNNOTICED;
 /// A part of this share or less is as good as none: three digits of what it is compared with do not show it.
 pub(crate) const NEGLIGIBLE: f64 = 1e-3;
 
+/// Numbers whose ratio is at most this may be added and eliminated: ten of the sixteen digits are left.
+pub(crate) const MODERATE: f64 = 1e6;
+
+/// Into how many parts an interval is cut that does not show what is in it: a defect at a further place, a
+/// layer. With 2, problems with singular ends took 12 % more factorisations, and 8 of 503 were lost.
+pub(crate) const PARTS: usize = 4;
+
 /// A size known from one sample, as from one direction or one place, may be larger by this factor.
 pub(crate) const ONE_SAMPLE: f64 = 10.0;
 

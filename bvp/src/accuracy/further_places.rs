@@ -22,13 +22,10 @@ use crate::problem::equations::Equations;
 use crate::problem::held::Held;
 use crate::result::quality::Defects;
 use crate::result::stats::Stats;
-use crate::shares::{AIM, ONE_SAMPLE, SPACINGS, UNNOTICED};
+use crate::shares::{AIM, ONE_SAMPLE, PARTS, SPACINGS, UNNOTICED};
 
 /// Random places of a segment, at least. With as many the look costs as much as four to five intervals.
 const PLACES: usize = 64;
-/// Into how many parts an interval with an unseen defect is cut. With 2, problems with singular ends took 12
-/// % more factorisations, and 8 of 503 were lost.
-const PARTS: usize = 4;
 
 /// The places looked at so far.
 #[derive(Clone, Debug)]

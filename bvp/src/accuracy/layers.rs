@@ -8,14 +8,13 @@
 use crate::discretisation::mesh::Mesh;
 use crate::newton::collocation::Collocation;
 use crate::problem::problem::Segment;
+use crate::shares::PARTS;
 use faer::MatRef;
 
 /// An interval longer than this many decay lengths does not show a layer.
 const HIDDEN: f64 = 20.0;
 /// What the first of the inserted intervals is of the decay length, at most.
 const SHOWN: f64 = 2.0;
-/// By how much inserted intervals shorten from one to the next towards the end.
-const GRADING: f64 = 4.0;
 
 impl Collocation<'_> {
     /// The mesh with intervals inserted at all ends where a layer may hide, by the Jacobians of the last
@@ -81,7 +80,8 @@ fn fastest_growth(jacobian: &[f64], n: usize, h: f64, direction: f64) -> Option<
 /// Distances from the end, descending, at which an interval of length h is cut for a layer that grows
 /// at this rate.
 fn distances(h: f64, rate: f64) -> Vec<f64> {
-    let shorter = std::iter::successors(Some(h / GRADING), |d| Some(d / GRADING));
+    let part = |d: f64| d / PARTS as f64;
+    let shorter = std::iter::successors(Some(part(h)), |&d| Some(part(d)));
     let mut distances: Vec<f64> = shorter.take_while(|d| d * rate > SHOWN).collect();
     distances.push(SHOWN / rate);
     distances

@@ -31,7 +31,7 @@ use crate::kernels::dense::dot;
 use crate::kernels::random::Signs;
 use crate::newton::collocation::{Collocation, gather_ends};
 use crate::problem::problem::Segment;
-use crate::shares::{INVISIBLE, ONE_SAMPLE};
+use crate::shares::{INVISIBLE, MODERATE, ONE_SAMPLE};
 
 /// The unit roundoff u of double precision.
 pub(crate) const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
@@ -42,18 +42,15 @@ pub(crate) const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
 /// 9e-5. Of the reference problems none exceeds 1e-8.
 pub(crate) const NO_DIGIT: f64 = 1e-2;
 
-/// Without a pivot smaller than this no rounding is measured: at 1e-9 and above the rounding of reference
-/// problems without one is at most 0.6 tolerances, and problems that must be refused have pivots
-/// below 1e-7.
-const HARMLESS_PIVOT: f64 = 1e-6;
-
 /// Rounding is measured relative to no less than this share of the largest state of a component.
 const SMALL_STATE: f64 = 0.01;
 
-/// Whether a solution within the tolerance by all other measures may be nothing but rounding, by the rounding
-/// measured, a sample of one set of signs, and by the amplification a. The product of a
-/// with the unit roundoff counts where what was measured is not far less: in thin layers slopes are amplified
-/// that nothing depends on. A rounding error that is not a number exceeds everything.
+/// Whether a solution within the tolerance by all other measures may be nothing but rounding. A rounding error
+/// that is not a number exceeds everything.
+///
+/// The rounding measured is a sample of one set of signs. Where it shows, the amplification a times the unit
+/// roundoff must be within the tolerance, too; where it does not, only slopes in thin layers are amplified, on
+/// which nothing depends.
 ///
 /// Where the true error of the reference problems is rounding, with four stages at tolerances of 1e-11 to
 /// 1e-13, it is in the median 1.6 to 2.9 times what is measured, at most 55 times. At 1e-3 to 1e-9 what is
@@ -66,9 +63,11 @@ pub(crate) fn exceeds(rounding: f64, a: f64, tolerance: f64) -> bool {
 }
 
 impl Collocation<'_> {
-    /// Whether pivots of the last factorisation are so small that rounding may matter.
+    /// Whether pivots of the last factorisation are so small that rounding may matter: at 1e-9 and above the
+    /// rounding of reference problems without such a pivot is at most 0.6 tolerances, and problems that must
+    /// be refused have pivots below 1e-7.
     pub(crate) fn is_suspect(&self) -> bool {
-        self.smallest_pivot() < HARMLESS_PIVOT
+        self.smallest_pivot() < 1.0 / MODERATE
     }
 
     /// What the amplification a at the solution `x` is of the rounding anywhere: the elimination rounds relative

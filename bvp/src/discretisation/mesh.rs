@@ -1,13 +1,10 @@
 //! Partitions of the segments into intervals.
 
 use crate::problem::problem::Segment;
+use crate::shares::{PARTS, SPACINGS};
 
 /// The nodes of every segment: ascending, the first and the last are the ends of the segment.
 pub(crate) type Mesh = Vec<Vec<f64>>;
-
-/// The least length of an interval in spacings of floating-point numbers, so that its collocation points
-/// stay apart.
-const FEWEST_SPACINGS: f64 = 64.0;
 
 /// The nodes of `intervals` equal intervals of a segment.
 pub(crate) fn uniform(segment: &Segment, intervals: usize) -> Vec<f64> {
@@ -79,14 +76,14 @@ pub(crate) fn equidistribute(nodes: &[f64], density: &[f64], intervals: usize) -
     placed
 }
 
-/// Whether every interval is long enough for floating-point numbers: its collocation points stay apart
-/// and its density of nodes is finite.
+/// Whether every interval is long enough for floating-point numbers: the ends of its parts are told apart, so
+/// that its collocation points stay apart and its density of nodes is finite.
 pub(crate) fn is_representable(mesh: &Mesh) -> bool {
     let spacing = |pair: &[f64]| {
         let largest = pair[0].abs().max(pair[1].abs());
         (f64::EPSILON * largest).max(f64::MIN_POSITIVE)
     };
-    let resolved = |pair: &[f64]| pair[1] - pair[0] > FEWEST_SPACINGS * spacing(pair);
+    let resolved = |pair: &[f64]| pair[1] - pair[0] > PARTS as f64 * SPACINGS * spacing(pair);
     mesh.iter().all(|nodes| nodes.windows(2).all(resolved))
 }
 

@@ -29,6 +29,7 @@ const SMALLEST_DAMPING: f64 = 1e-5;
 /// of Newton's method do so near a solution, are rounding, unless they are larger than half of the digits:
 /// rounding amplified by more is not told from a failure to converge.
 const ROUNDING_FACTOR: f64 = 100.0;
+
 /// Why the iteration stopped short.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Failure {

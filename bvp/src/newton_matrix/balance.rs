@@ -6,15 +6,14 @@
 //! pre-conditioning of matrices", J. ACM 7 (1960) 338-345.
 
 use crate::kernels::dense::max_or_nan;
+use crate::shares::MODERATE;
 
-/// Units whose ratio is at most this are left alone: intervals differ in what is best for them, and ten of
-/// the sixteen digits are left.
-const MODERATE: f64 = 1e6;
 /// Sweeps over all states: the method converges by the length of the path from state to state.
 const SWEEPS: usize = 8;
 
 /// Balances \[Γ P\], n × (n + k) per interval, in place, if that is needed, and writes the units D, n numbers:
-/// rows are divided by them, columns of states multiplied. Returns whether it was needed. `sizes` is a
+/// rows are divided by them, columns of states multiplied. Returns whether it was needed: units whose ratio is
+/// moderate are left alone, as intervals differ in what is best for them. `sizes` is a
 /// buffer of n × n numbers.
 pub(super) fn balance(blocks: &mut [f64], k: usize, units: &mut [f64], sizes: &mut [f64]) -> bool {
     let n = units.len();
