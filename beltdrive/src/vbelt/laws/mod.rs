@@ -191,8 +191,9 @@ impl<D> Path<'_, D> {
         asked: &A,
         stiffness: f64,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        if let Ok(solved) = self.cold(asked, asked.law(), A::FIRST) {
-            return Ok(solved);
+        let direct = self.cold(asked, asked.law(), A::FIRST);
+        if direct.is_ok() || stiffness <= asked.soft() {
+            return direct;
         }
         let start = self.cold(asked, asked.softest(), Effort::Start)?;
         self.with_bristles(start, [asked.soft(), stiffness])
