@@ -2,8 +2,9 @@
 
 use beltdrive::input::Key;
 use beltdrive::{
-    BeltKind, Branch, BranchEnd, BranchEvent, Drive, EventKind, FrictionLaw, LimitReason, Pulley,
-    RangeEnd, SolveError, SolveOptions, SpanTension, examples, input, limits, solve, trace,
+    Belt, BeltKind, Branch, BranchEnd, BranchEvent, Drive, EventKind, FrictionLaw, LimitReason,
+    Load, Pulley, RangeEnd, SolveError, SolveOptions, SpanTension, VBelt, examples, input, limits,
+    solve, trace,
 };
 
 const BRISTLE: FrictionLaw = FrictionLaw::Bristle { stiffness: 1620.0 };
@@ -75,6 +76,53 @@ fn a_coulomb_branch_goes_through_90_degrees_around_the_limit_point() {
         .map(|point| point.value)
         .fold(0.0, f64::max);
     assert!(largest <= fold.point.value * (1.0 + 1e-9));
+}
+
+#[test]
+fn a_branch_from_near_no_load_takes_few_steps() {
+    // 101 N is one per cent more than the slack tension. With contacts that are not cut where the belt breaks away
+    // from where it hardly slips there are 163 points.
+    let branch = traced(&kim(FrictionLaw::Coulomb), TIGHT, [101.0, 1000.0]);
+    assert_eq!(branch.end, BranchEnd::Target);
+    assert!(branch.points.len() <= 36, "{}", branch.points.len());
+    // With a normalised direction, from 200 N.
+    let last = branch.points.last().unwrap();
+    close(last.state.driven.angular_speed, 101.403_600_20, 1e-7);
+}
+
+#[test]
+fn the_end_of_a_turn_is_no_limit() {
+    // At 20 453 N the friction on the driver, which turns to lift the belt, ceases to pass the middle of that turn.
+    let drive = Drive {
+        belt: Belt {
+            mass_per_length: 0.062_728_92,
+            axial_stiffness: 163_474.3,
+            kind: BeltKind::V(VBelt {
+                radial_stiffness: 1_230_142.4,
+                half_angle: 0.271_928_9,
+                height: None,
+            }),
+            ..kim(FrictionLaw::Coulomb).belt
+        },
+        friction_coefficient: 0.344_997_4,
+        driver_radius: 0.390_039_15,
+        driver_speed: 41.242_612,
+        driven_radius: 0.278_158_05,
+        centre_distance: 3.286_365_9,
+        load: Load {
+            slack: SpanTension::Tractive(334.413_82),
+            tight: SpanTension::Tractive(827.658_5),
+        },
+        ..kim(FrictionLaw::Coulomb)
+    };
+    let options = SolveOptions::default();
+    let limits = limits(&drive, &key(&drive, TIGHT), &options, &mut |_, _| {}).unwrap();
+    assert_eq!(
+        limits.largest.reason,
+        RangeEnd::Limit(LimitReason::Overhang)
+    );
+    // With a normalised direction, whose branch has no turn among its segments.
+    close(limits.largest.value, 24_697.669, 1e-6);
 }
 
 #[test]

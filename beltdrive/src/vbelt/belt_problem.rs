@@ -1,7 +1,7 @@
 //! What the way to a steady state knows of a belt round pulleys.
 
 use super::groove::{ANGLE, INCLINATION, LAW, LEAD, PENETRATION};
-use super::{Contact, Groove, Law, Regime, Units, hold_excess, limit_excess};
+use super::{Contact, Groove, Law, Regime, Units, breakaway_excess, hold_excess, limit_excess};
 use bvp::{Ends, Problem, Real, Solution};
 use std::ops::Range;
 
@@ -51,6 +51,10 @@ pub(crate) trait BeltProblem: Problem + Clone {
 
     /// Scaled angular speed of a pulley.
     fn omega<T: Real>(&self, pulley: usize, p: &[T]) -> T;
+
+    /// The sense of friction along a pulley: 1 where the belt drives it, −1 where it drives the belt, 0 where it
+    /// idles.
+    fn sense(&self, pulley: usize) -> f64;
 
     /// Scaled mass flow.
     fn flow<T: Real>(&self, p: &[T]) -> T;
@@ -147,6 +151,11 @@ pub(crate) trait BeltProblem: Problem + Clone {
         self.has_zones() && !grooves.any(|pulley| self.zones(pulley).any(blurred))
     }
 
+    /// Whether its segments meet where something happens to friction that a solution shows.
+    fn has_junctions(&self) -> bool {
+        self.is_split() || (self.has_direction() && !self.has_zones())
+    }
+
     /// The same belt with another ℓ/R or ε. Bristles stay as they are.
     fn with_smoothing(self, smoothing: f64) -> Self {
         self.with_laws(|law, _| law.with_smoothing(smoothing))
@@ -205,8 +214,8 @@ pub(crate) trait BeltProblem: Problem + Clone {
 ///
 /// A junction is where `k_f` |u| = μ p if elastic and slipping friction meet there. Where the belt begins to
 /// stick it has no slip, and friction straight up the groove just holds it; it breaks loose in a direction of its
-/// own. Else the junction lies in the middle of the turn of the traction that lifts the belt (see
-/// `Contact::turn_excess`).
+/// own. Else the last junction lies in the middle of the turn of the traction that lifts the belt (see
+/// `Contact::turn_excess`), and one in front of that where the belt breaks away (see `breakaway_excess`).
 pub(super) fn in_groove<T: Real>(
     problem: &impl BeltProblem,
     (pulley, groove): (usize, &Groove),
@@ -234,6 +243,7 @@ pub(super) fn in_groove<T: Real>(
     for &state in law {
         zero(state);
     }
+    let is_cut = |next: usize| problem.regime(next - 1) == problem.regime(next);
     for next in zones.start + 1..zones.end {
         let (y, after) = (at.end(next - 1), at.start(next));
         let [before, behind] = [next - 1, next].map(|segment| problem.regime(segment));
@@ -250,9 +260,10 @@ pub(super) fn in_groove<T: Real>(
         match (before, behind) {
             (Regime::Stick, _) => {}
             (before, Regime::Stick) => zero(hold_excess(groove, before, y, omega, flow)),
-            (before, behind) if before == behind => {
-                zero(contact(next, y).turn_excess(groove));
-            }
+            _ if is_cut(next) => zero(match (next + 1..zones.end).any(is_cut) {
+                true => breakaway_excess(y[LAW], problem.sense(pulley)),
+                false => contact(next, y).turn_excess(groove),
+            }),
             _ => zero(limit_excess(groove, y, omega, flow)),
         }
     }

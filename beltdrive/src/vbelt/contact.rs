@@ -239,17 +239,27 @@ impl<T: Real> Contact<T> {
         self.traction[0].hypot(self.traction[1])
     }
 
-    /// Sliding angle γ, from the outward radius towards the motion of the pulley; where the belt sticks, that
-    /// in which it came to rest.
-    pub(crate) fn sliding_angle(&self, state: &[T]) -> T {
-        match self.regime {
-            Regime::Stick => {
-                let (sin, cos) = state[LAW].sin_cos();
-                sin.atan2(cos)
-            }
-            _ => self.slip[0].atan2(self.sin_theta),
-        }
+    /// Sliding angle γ, from the outward radius towards the motion of the pulley: that of the traction where its
+    /// direction is a state, also where the slip is no more than rounding. Where the belt sticks it is that in which
+    /// it came to rest.
+    pub(crate) fn sliding_angle(&self, groove: &Groove, state: &[T]) -> T {
+        let [along, up] = match groove.law {
+            Law::Sliding { .. } => state[LAW].sin_cos().into(),
+            _ => self.slip,
+        };
+        along.atan2(up * groove.cos_beta)
     }
+}
+
+/// Share of friction along the pulley at which the belt breaks away. Smaller than the directions of zones in which
+/// the belt slips, larger than what is left of seating where the belt hardly slips.
+pub(crate) const BREAKAWAY: f64 = 0.02;
+
+/// Excess of the share of friction that acts along the pulley, in the sense of a pulley that is driven (1) or
+/// drives (−1), over that with which the belt breaks away. In front of that place the belt slides straight down
+/// the groove, or hardly at all.
+pub(crate) fn breakaway_excess<T: Real>(direction: T, sense: f64) -> T {
+    direction.sin() * sense - BREAKAWAY
 }
 
 /// Excess of the traction that would hold the belt over that of friction straight up the groove, at a place

@@ -16,12 +16,13 @@ pub(super) struct Curve<'a> {
 }
 
 impl Curve<'_> {
-    /// The relative effect of ε on the constants of the point `z`, where there is an ε: their largest
+    /// The relative effect of ℓ or ε on the constants of the point `z`, where there is one: their largest
     /// change by one Newton correction towards the solution with ε/4, across the curve, as a share of
     /// 1 + |value|, and a third more for what is left of ε then. An estimate of its order only, since
     /// the effect is not linear; inclinations inside lock zones change by more.
     pub(super) fn smoothing_effect(&self, z: &[f64]) -> Option<f64> {
-        let mut finer = self.family.exchanged(self.finer?).ok()?;
+        let smaller = self.finer?;
+        let mut finer = self.family.exchanged(smaller).ok()?;
         let n = z.len() - 1;
         let (mut g, mut v, mut t) = (vec![0.0; n], vec![0.0; n + 1], vec![0.0; n + 1]);
         let (mut group, mut share) = (vec![0; n], vec![0.0; n]);
@@ -37,8 +38,12 @@ impl Curve<'_> {
         };
         let along = dot(&v, &t) / dot(&t, &t);
         // The constants stand before λ.
-        let largest = (n - self.constants..n)
-            .map(|i| ((v[i] - along * t[i]) / (1.0 + z[i].abs())).abs())
+        let constants = [z, &v, &t].map(|vector| smaller.constants(&vector[n - self.constants..n]));
+        let largest = (0..constants[0].len())
+            .map(|i| {
+                let [z, v, t] = constants.map(|of| of[i]);
+                ((v - along * t) / (1.0 + z.abs())).abs()
+            })
             .fold(0.0, f64::max);
         largest.is_finite().then_some(largest * 4.0 / 3.0)
     }

@@ -165,6 +165,13 @@ impl BeltProblem for DriveProblem {
         }
     }
 
+    fn sense(&self, pulley: usize) -> f64 {
+        match pulley {
+            DRIVEN => 1.0,
+            _ => -1.0,
+        }
+    }
+
     fn flow<T: Real>(&self, p: &[T]) -> T {
         p[Self::MASS_FLOW]
     }

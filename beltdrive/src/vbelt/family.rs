@@ -15,6 +15,10 @@ use std::sync::Mutex;
 /// Relative step of the differences.
 const DIFFERENCE: f64 = 1e-5;
 
+/// Where only cuts move the rates of the constants of the drive are those of the load, zero but for the accuracy of
+/// a limit point; at limits of the load they are of the order of those of the lengths.
+const CUTS_ONLY: f64 = 1e-3;
+
 /// Why the members can be used.
 const UNPOISONED: &str = "no evaluation of a member panics";
 
@@ -86,6 +90,29 @@ impl DriveFamily {
     /// Index of the first entry among the parameters.
     pub(super) fn first_entry(&self) -> usize {
         self.constants
+    }
+
+    /// Speed of the driven pulley, mass flow and both contact lengths: linear in the parameters `p` of a drive.
+    pub(super) fn constants(&self, p: &[f64]) -> [f64; 4] {
+        let lengths = &p[DriveProblem::length_index(0)..];
+        let (driven, others) = lengths.split_at(self.regimes[DRIVEN].len());
+        let driver = &others[..self.regimes[DRIVER].len()];
+        [
+            p[DriveProblem::DRIVEN_SPEED],
+            p[DriveProblem::MASS_FLOW],
+            driven.iter().sum(),
+            driver.iter().sum(),
+        ]
+    }
+
+    /// Whether parameters with these rates move the ends of segments and no constant of the drive.
+    pub(super) fn moves_cuts_only(&self, rates: &[f64]) -> bool {
+        let largest = |rates: &[f64]| {
+            rates
+                .iter()
+                .fold(0.0, |most: f64, rate| most.max(rate.abs()))
+        };
+        largest(&self.constants(rates)) < CUTS_ONLY * largest(rates)
     }
 
     /// The drive with scaled values of the entries.

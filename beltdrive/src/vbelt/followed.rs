@@ -196,7 +196,7 @@ impl<'a> Walk<'a, '_, '_> {
                 .filter(|&value| range[0] < value && value < range[1])
                 .collect(),
             largest_step: LARGEST_STEP,
-            ..steps(self.chart.tolerance, range)
+            ..steps(self.chart.tolerance, &self.solved.problem, range)
         }
     }
 
@@ -215,7 +215,7 @@ impl<'a> Walk<'a, '_, '_> {
     fn limit_points(&mut self, values: &[f64]) -> Option<()> {
         let first = self.family.first_entry();
         let (mut curve, z) = self.discretised(first, first + 1, values).ok()?;
-        let options = steps(self.chart.tolerance, AROUND);
+        let options = steps(self.chart.tolerance, &self.solved.problem, AROUND);
         let mut branch = Branch::new(&mut curve, &z, Direction::Increasing, &options).ok()?;
         let limit = branch.find(|point| point.kind == Kind::LimitPoint)?;
         let system = branch.system().clone();

@@ -188,7 +188,9 @@ impl OnPulley<'_> {
                 profile
                     .displacement
                     .push(displacement * units.displacement(radius));
-                profile.sliding_angle.push(contact.sliding_angle(y));
+                profile
+                    .sliding_angle
+                    .push(contact.sliding_angle(self.groove, y));
                 profile
                     .normal_force
                     .push(contact.pressure * units.line_load(radius));

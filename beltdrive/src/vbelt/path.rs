@@ -160,8 +160,8 @@ pub(super) struct Path<'a, D = Drive> {
     pub(super) stats: Stats,
     /// Number of problems solved or tried.
     pub(super) problems: usize,
-    /// Whether Coulomb friction is sought with its direction as a state; along branches it is normalised.
-    pub(super) has_direction: bool,
+    /// Whether EPP friction is sought with its direction as a state; along branches of it that is normalised.
+    pub(super) epp_has_direction: bool,
     /// Relative effect of the last ℓ or ε on the constants of the drive.
     pub(super) smoothing_effect: f64,
 }
@@ -174,14 +174,14 @@ impl<'a, D> Path<'a, D> {
             stats: Stats::default(),
             problems: 0,
             smoothing_effect: 0.0,
-            has_direction: false,
+            epp_has_direction: false,
         }
     }
 
-    /// The search for a state with the direction of Coulomb friction as a state.
+    /// The search for a state with the direction of EPP friction as a state, too.
     pub(super) fn with_direction(self) -> Self {
         Self {
-            has_direction: true,
+            epp_has_direction: true,
             ..self
         }
     }

@@ -4,13 +4,16 @@
 //! segments of the boundary value problem, stay the same. Where a zone vanishes or appears, the
 //! states are cut anew into zones and the next piece begins.
 //!
-//! Along the branch the slip direction is normalised with a fixed ε, smaller where the belt slips
-//! everywhere, larger near no load, where places at which it breaks loose move with the load the
-//! more abruptly the smaller ε is. Every labelled point is located once more with ε/4 on the halved
-//! mesh: the difference is its error.
+//! Along the branch the direction of Coulomb friction is a state that follows the slip over a fixed length ℓ, and
+//! contacts are cut where the belt breaks away and where it turns to be lifted: fronts that move with the load, and
+//! that Newton's method follows only as ends of segments. A cut that is seen no longer, or elsewhere, is one more
+//! change of zones. The direction of EPP friction is that of the slip normalised with a fixed ε, smaller where the
+//! belt slips everywhere, larger near no load, where places at which it breaks loose move with the load the more
+//! abruptly the smaller ε is. Every labelled point is located once more with ℓ/4 or ε/4 on the halved mesh: its
+//! error follows from the difference.
 
 use super::path::Solved;
-use super::piece::PieceEnd;
+use super::piece::{FINER, PieceEnd};
 use super::solve::is_crossed;
 use crate::input::Key;
 use crate::results::difficulty;
@@ -21,6 +24,8 @@ use crate::{
 use continuation::{Direction, Kind, Point, Stop};
 use web_time::Instant;
 
+/// The effect of ℓ or ε from its change when that is multiplied by [`FINER`]: it vanishes at least as fast.
+const WHOLE: f64 = 1.0 / (1.0 - FINER);
 /// The most pieces of a branch.
 const MAX_PIECES: usize = 40;
 /// Behind a limit point a branch is followed until the entry has come back by this share of its way.
@@ -149,7 +154,7 @@ impl<'d> Tracer<'d> {
         end
     }
 
-    /// Records a point and what happens there, with the relative effect of ε on it; returns its
+    /// Records a point and what happens there, with the relative effect of ℓ or ε on it; returns its
     /// value. Labelled points know their error better.
     pub(super) fn record(
         &mut self,
@@ -157,17 +162,24 @@ impl<'d> Tracer<'d> {
         kind: Option<EventKind>,
         state: &SteadyState,
         effect: Option<f64>,
+        has_direction: bool,
     ) -> f64 {
         let value = self.value(point.lambda());
         // Where the comparison did not converge, nothing is known.
         let error = point.error.filter(|error| error.states.is_finite());
-        let located = error.map(|error| {
+        let value_error = error.map(|error| WHOLE * error.lambda);
+        let located = error.zip(value_error).map(|(error, own)| {
             let own = if value == 0.0 {
                 0.0
             } else {
-                error.lambda / point.lambda().abs()
+                own / point.lambda().abs()
             };
-            error.states.max(own)
+            let states = match effect {
+                // The direction changes by more where the belt hardly slips, and is not printed.
+                Some(effect) if has_direction => effect,
+                _ => WHOLE * error.states,
+            };
+            states.max(own)
         });
         let relative = located.or(effect);
         let traced = TracePoint {
@@ -182,7 +194,7 @@ impl<'d> Tracer<'d> {
             self.events.push(BranchEvent {
                 kind,
                 point: traced.clone(),
-                value_error: error.map(|error| error.lambda * self.unit()),
+                value_error: value_error.map(|error| error * self.unit()),
                 errors: relative
                     .map(|relative| StateErrors::relative(&traced.state, self.drive, relative)),
             });

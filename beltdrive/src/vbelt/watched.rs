@@ -8,7 +8,7 @@ use crate::{EventKind, FrictionLaw, Pulley, ZoneKind};
 use continuation::{Branch, Kind, Point, System};
 use std::f64::consts::FRAC_PI_2;
 
-/// ε changes where the tight tension is one of these multiples of the slack one.
+/// ℓ or ε changes where the tight tension is one of these multiples of the slack one.
 pub(super) const RATIOS: [f64; 2] = [3.0, 10.0];
 
 /// Event functions of every piece, by their number; those of the zones follow.
@@ -72,7 +72,7 @@ impl Tracer<'_> {
             .event(ratio)
             .event(sunk(DRIVEN))
             .event(sunk(DRIVER));
-        if problem.is_split() {
+        if problem.has_junctions() {
             for segment in 0..problem.zones(DRIVER).end {
                 let index = DriveProblem::length_index(segment);
                 branch = branch.event(move |curve, point| parameter(curve, point, index));
@@ -97,9 +97,16 @@ impl Tracer<'_> {
             }
             Kind::Event(index) if index >= FIRST_ZONE => {
                 let segment = index - FIRST_ZONE;
-                Some(EventKind::ZoneVanishes {
+                // A cut of a zone of one kind is no event.
+                let regime = here.problem.regime(segment);
+                let beside = [segment.wrapping_sub(1), segment + 1];
+                let is_cut = beside.into_iter().any(|other| {
+                    let zones = here.problem.zones(here.problem.pulley(segment));
+                    zones.contains(&other) && here.problem.regime(other) == regime
+                });
+                (!is_cut).then(|| EventKind::ZoneVanishes {
                     pulley: pulleys[here.problem.pulley(segment)],
-                    kind: match here.problem.regime(segment) {
+                    kind: match regime {
                         Regime::Elastic => ZoneKind::Elastic,
                         Regime::Slip | Regime::Either => ZoneKind::Slip,
                         Regime::Stick => ZoneKind::Adhesion,

@@ -184,6 +184,14 @@ impl BeltProblem for LoopProblem {
         self.unknowns.speeds[pulley].map_or(T::ONE, |index| p[index])
     }
 
+    fn sense(&self, pulley: usize) -> f64 {
+        match self.loads[pulley] {
+            Load::Driver => -1.0,
+            Load::Torque(0.0) | Load::Power(0.0) => 0.0,
+            Load::Torque(load) | Load::Power(load) => load.signum(),
+        }
+    }
+
     fn flow<T: Real>(&self, p: &[T]) -> T {
         p[FLOW]
     }

@@ -47,7 +47,7 @@ impl<D> Path<'_, D> {
         solved: Solved<P>,
         effort: Effort,
     ) -> Result<Solved<P>, Stuck<P>> {
-        if solved.problem.is_split() {
+        if solved.problem.has_junctions() {
             self.split_zones(solved, effort)
         } else {
             Ok(solved)

@@ -161,8 +161,8 @@ impl<D> Path<'_, D> {
         asked: &A,
         start: Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        let follows = match (self.has_direction, asked.law()) {
-            (true, FrictionLaw::Coulomb) => self.coulomb(asked, &start),
+        let follows = match (self.epp_has_direction, asked.law()) {
+            (_, FrictionLaw::Coulomb) => self.coulomb(asked, &start),
             (true, _) => self.epp(asked, &start),
             (false, _) => None,
         };

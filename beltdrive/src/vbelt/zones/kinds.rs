@@ -1,13 +1,13 @@
 //! Zones of one kind of friction, from what is seen along a pulley.
 
-use super::samples::{Sample, turn};
+use super::samples::{Sample, breakaway, crossing, turn};
 use crate::vbelt::Regime;
 
 /// A zone shorter than this share of the contact is not told from its neighbours.
 const SHORTEST_ZONE: f64 = 1e-4;
-/// A turn nearer than this share of the contact to an end of its zone is left to the mesh: with segments as short
-/// as 1e-4 Newton's method failed on 1 of 40 drives.
-const SHORTEST_TURN: f64 = 3e-3;
+/// A zone is not cut nearer than this share of the contact to its ends: with segments as short as 1e-4 Newton's
+/// method failed on 1 of 40 drives.
+const SHORTEST_CUT: f64 = 3e-3;
 /// A turn in less than this share of the contact from the entry is left to the mesh, too. The belt is lifted out
 /// of the groove at its end; where soft friction turns gradually, the middle of the turn may come to lie anywhere,
 /// and end with the load.
@@ -43,14 +43,35 @@ pub(super) fn without_kinks(zones: Vec<Zone>) -> Vec<Zone> {
 }
 
 /// The zones with that which has the turn in two, unless it is at an end of it.
-pub(super) fn cut_at_turn(zones: Vec<Zone>, samples: &[Sample], length: f64) -> Vec<Zone> {
-    let Some([before, after]) = turn(samples) else {
+pub(super) fn cut_at_turn(
+    zones: Vec<Zone>,
+    samples: &[Sample],
+    length: f64,
+    clear: f64,
+) -> Vec<Zone> {
+    match turn(samples, clear) {
+        Some(place) if place > EARLIEST_TURN * length => cut(zones, place, length),
+        _ => zones,
+    }
+}
+
+/// The zones that were cut at the turn with that in two in which the belt breaks away in front of it.
+pub(super) fn cut_at_breakaway(zones: Vec<Zone>, samples: &[Sample], length: f64) -> Vec<Zone> {
+    let is_cut = |pair: &[Zone]| pair[0].regime == pair[1].regime;
+    let Some(turn) = zones.windows(2).rfind(|pair| is_cut(pair)) else {
         return zones;
     };
-    let place = crossing(before.place, before.turn, after.place, after.turn);
-    let margin = SHORTEST_TURN * length;
+    let turn = samples.partition_point(|sample| sample.place < turn[1].from);
+    match breakaway(&samples[..turn]) {
+        Some(place) => cut(zones, place, length),
+        None => zones,
+    }
+}
+
+/// The zones with that in two in which a place is, unless that is at an end of it or the belt sticks there.
+fn cut(zones: Vec<Zone>, place: f64, length: f64) -> Vec<Zone> {
+    let margin = SHORTEST_CUT * length;
     let halves = |zone: Zone| match zone.regime != Regime::Stick
-        && EARLIEST_TURN * length < place
         && zone.from + margin < place
         && place < zone.to - margin
     {
@@ -106,11 +127,6 @@ pub(super) fn friction_zones(samples: &[Sample], length: f64) -> Vec<Zone> {
         zone.to = length;
     }
     merge_short(zones, SHORTEST_ZONE * length)
-}
-
-/// Where a value that changes its sign between two places is zero, linearly.
-fn crossing(from: f64, before: f64, to: f64, after: f64) -> f64 {
-    from + (to - from) * before / (before - after)
 }
 
 /// Gives zones shorter than `shortest` to their neighbours and joins zones of one kind.

@@ -12,8 +12,8 @@ mod samples;
 
 use super::path::Solved;
 use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
-use kinds::{Zone, cut_at_turn, friction_zones, one_zone, without_kinks};
-use samples::{Sample, samples};
+use kinds::{Zone, cut_at_breakaway, cut_at_turn, friction_zones, one_zone, without_kinks};
+use samples::{CLEAR_TURN, Sample, samples};
 
 /// Nodes nearer than this to each other or to the ends of a zone, in its length, are left out.
 const NODE_MARGIN: f64 = 1e-4;
@@ -30,6 +30,9 @@ pub(super) enum Loose {
     /// At once: it does not stick.
     Never,
 }
+
+/// A zone that is cut more than this share of the contact beside the end of a segment is cut elsewhere.
+const ELSEWHERE: f64 = 0.02;
 
 /// A solution cut anew into zones: the guess of the problem that has them as segments.
 pub(super) struct Cut<'a, P = DriveProblem> {
@@ -88,7 +91,25 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
 
     /// Whether they are the segments of the solution.
     pub(super) fn is_kept(&self) -> bool {
+        let pulleys = 0..self.pulleys.len();
         self.regimes() == self.solved.problem.regimes()
+            && pulleys.into_iter().all(|pulley| self.is_in_place(pulley))
+    }
+
+    /// Whether the zones of a pulley are cut where segments of the solution are.
+    fn is_in_place(&self, pulley: usize) -> bool {
+        let (problem, p) = (&self.solved.problem, self.solved.solution.parameters());
+        let near = ELSEWHERE * problem.contact_length(pulley, p);
+        let begins = problem.zones(pulley).scan(0.0, |from, segment| {
+            let begin = *from;
+            *from += problem.length(segment, p);
+            Some(begin)
+        });
+        let zones = &self.pulleys[pulley];
+        let pairs = zones.windows(2).zip(begins.skip(1));
+        pairs
+            .filter(|(pair, _)| pair[0].regime == pair[1].regime)
+            .all(|(pair, begin)| (pair[1].from - begin).abs() <= near)
     }
 
     /// A problem with these zones as segments.
@@ -144,7 +165,16 @@ fn cut<P: BeltProblem>(
     };
     let zones = match groove.law {
         Law::Normalised { .. } => zones,
-        _ => cut_at_turn(zones, &samples, length),
+        // Where the direction is not led yet the belt breaks away elsewhere.
+        Law::Sliding {
+            lead,
+            elastic: None,
+            ..
+        } if lead > 0.0 => {
+            let zones = cut_at_turn(zones, &samples, length, CLEAR_TURN);
+            cut_at_breakaway(zones, &samples, length)
+        }
+        _ => cut_at_turn(zones, &samples, length, 0.0),
     };
     (samples, zones)
 }

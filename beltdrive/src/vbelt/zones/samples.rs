@@ -2,7 +2,10 @@
 
 use super::Loose;
 use crate::vbelt::path::Solved;
-use crate::vbelt::{BeltProblem, Contact, Groove, LAW, Law, MAX_STATES, Regime, limit_excess};
+use crate::vbelt::{
+    BREAKAWAY, BeltProblem, Contact, Groove, LAW, Law, MAX_STATES, Regime, breakaway_excess,
+    limit_excess,
+};
 use std::f64::consts::TAU;
 
 /// Samples per mesh interval in search of crossings.
@@ -12,6 +15,10 @@ const SAMPLES: usize = 8;
 const HOLDING: f64 = 0.98;
 /// Cosine of the direction, from straight down the groove, in which the belt slips until it begins to stick.
 const SINKING: f64 = -0.9;
+/// By how much the share of friction that turns, and that which breaks the belt away, pass zero where they are
+/// seen to. A limit of 20 453 N was found where the turn ended, of a drive that carries 24 698 N.
+pub(super) const CLEAR_TURN: f64 = 0.05;
+const CLEAR_BREAKAWAY: f64 = 0.75 * BREAKAWAY;
 /// The belt breaks loose at least this share of the contact before the turn: bristles are too soft to show a way
 /// between that is shorter, and without one Newton's method failed on 1 of 40 drives.
 const ROOM: f64 = 0.01;
@@ -23,8 +30,10 @@ pub(super) struct Sample {
     pub(super) place: f64,
     /// Excess of elastic friction over its limit.
     pub(super) limit: f64,
-    /// Excess of the traction over that in the middle of the turn.
+    /// Excess of the traction over that in the middle of the turn, as a share of friction.
     pub(super) turn: f64,
+    /// Excess of the friction along the pulley over that with which the belt breaks away.
+    pub(super) breakaway: f64,
     /// Direction of the traction, continuous along the pulley.
     pub(super) direction: f64,
     /// Whether friction holds the belt.
@@ -69,7 +78,8 @@ pub(super) fn samples<P: BeltProblem>(
             samples.push(Sample {
                 place: before + s * length,
                 limit: limit_excess(groove, y, omega, flow),
-                turn: contact.turn_excess(groove),
+                turn: contact.turn_excess(groove) / contact.friction().max(f64::MIN_POSITIVE),
+                breakaway: breakaway_excess(direction, problem.sense(pulley)),
                 direction: samples.last().map_or(direction, |last| {
                     let turns = (last.direction - direction) / TAU;
                     direction + turns.round() * TAU
@@ -112,8 +122,8 @@ fn keep_first_stick(samples: &mut [Sample], loose: Loose) {
         Loose::Late | Loose::Seen => run.count(),
         Loose::Never => 0,
     };
-    let latest = match (turn(samples), samples.last()) {
-        (Some([before, _]), Some(last)) => before.place - ROOM * last.place,
+    let latest = match (turn(samples, 0.0), samples.last()) {
+        (Some(turn), Some(last)) => turn - ROOM * last.place,
         _ => f64::INFINITY,
     };
     for (index, sample) in samples.iter_mut().enumerate() {
@@ -121,11 +131,38 @@ fn keep_first_stick(samples: &mut [Sample], loose: Loose) {
     }
 }
 
-/// The samples around the turn.
-pub(super) fn turn(samples: &[Sample]) -> Option<[Sample; 2]> {
-    let mut pairs = samples.windows(2).rev();
-    let pair = pairs.find(|pair| pair[0].turn < 0.0 && pair[1].turn >= 0.0)?;
-    Some([pair[0], pair[1]])
+/// The place of the turn, if the excess passes zero by more than `clear` there.
+pub(super) fn turn(samples: &[Sample], clear: f64) -> Option<f64> {
+    rise(samples, |sample| sample.turn, clear)
+}
+
+/// The place where the belt breaks away.
+pub(super) fn breakaway(samples: &[Sample]) -> Option<f64> {
+    rise(samples, |sample| sample.breakaway, CLEAR_BREAKAWAY)
+}
+
+/// The last place at which a value rises through zero, if it is clearly below in front of it and clearly above
+/// behind it. Where it is not it may touch zero and be lost at a neighbouring load, which looks like a limit of the
+/// load if the place is a condition.
+fn rise(samples: &[Sample], value: impl Fn(&Sample) -> f64, clear: f64) -> Option<f64> {
+    let below = |sample: &&Sample| value(sample) < 0.0;
+    let after = 1 + samples
+        .windows(2)
+        .rposition(|pair| below(&&pair[0]) && !below(&&pair[1]))?;
+    let (in_front, behind) = samples.split_at(after);
+    let lowest = in_front.iter().rev().take_while(below).map(&value);
+    let highest = behind
+        .iter()
+        .take_while(|sample| !below(sample))
+        .map(&value);
+    let is_clear = lowest.fold(0.0, f64::min) < -clear && highest.fold(0.0, f64::max) > clear;
+    let [before, after] = [samples[after - 1], samples[after]];
+    is_clear.then(|| crossing(before.place, value(&before), after.place, value(&after)))
+}
+
+/// Where a value that changes its sign between two places is zero, linearly.
+pub(super) fn crossing(from: f64, before: f64, to: f64, after: f64) -> f64 {
+    from + (to - from) * before / (before - after)
 }
 
 /// The direction of the traction, up to whole turns.
