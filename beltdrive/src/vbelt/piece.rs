@@ -243,9 +243,18 @@ impl Tracer<'_> {
         {
             return Some(self.next_piece(point, here.clone(), &drive, direction));
         }
+        let restart = match point.kind {
+            Kind::Event(RATIO) => point.arclength > AHEAD,
+            Kind::Event(index) => index >= FIRST_ZONE,
+            _ => false,
+        };
         if let Err(error) = state.verified() {
             let cause = error.to_string();
-            return Some(PieceEnd::Branch(BranchEnd::NotConverged { cause }));
+            return Some(match restart {
+                // The next piece begins with a state that is solved anew, and checked.
+                true => self.next_piece(point, here.clone(), &drive, onward(point)),
+                false => PieceEnd::Branch(BranchEnd::NotConverged { cause }),
+            });
         }
         let has_direction = here.problem.has_direction();
         let place = self.record(point, kind, &state, effect, has_direction);
@@ -258,11 +267,6 @@ impl Tracer<'_> {
                 Some(BranchEnd::Target)
             }
             _ => self.came_back(place).then_some(BranchEnd::Returned),
-        };
-        let restart = match point.kind {
-            Kind::Event(RATIO) => point.arclength > AHEAD,
-            Kind::Event(index) => index >= FIRST_ZONE,
-            _ => false,
         };
         match end {
             Some(end) => Some(PieceEnd::Branch(end)),
