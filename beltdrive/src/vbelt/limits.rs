@@ -18,6 +18,9 @@ use web_time::Instant;
 /// How far a load is lowered, in logarithms of its ratio to the slack tension, where the drive does
 /// not carry it.
 const EASIER: [f64; 6] = [0.8, 0.6, 0.4, 0.25, 0.15, 0.08];
+/// Multiples of the slack tension at which a branch begins whose own load is less than the last of them: nearer to
+/// no load the belt hardly slips, and states are hard to find and to follow.
+const HEAVIER: [f64; 3] = [2.0, 1.5, 1.2];
 /// An upper end is sought up to this multiple of the value in the drive, and from there again.
 const STRETCH: f64 = 64.0;
 /// The most such stretches.
@@ -100,7 +103,7 @@ pub(super) struct Traced<'d> {
     pub(super) end: BranchEnd,
 }
 
-/// A state of the drive, at a smaller load if it does not carry its own.
+/// A state of the drive, at a smaller load if it does not carry its own, at a larger one near no load.
 pub(super) fn first_state(
     drive: &Drive,
     key: &Key,
@@ -109,9 +112,12 @@ pub(super) fn first_state(
     let load = Key::load(drive);
     if *key == load {
         let ratio = load.get(drive) / drive.load.slack.value();
-        for share in [1.0].into_iter().chain(EASIER) {
+        let is_light = (1.0..HEAVIER[2]).contains(&ratio);
+        let heavier = HEAVIER.into_iter().filter(|_| is_light);
+        let easier = EASIER.map(|share| ratio.powf(share));
+        for ratio in heavier.chain([ratio]).chain(easier) {
             let mut first = drive.clone();
-            load.set(&mut first, drive.load.slack.value() * ratio.powf(share));
+            load.set(&mut first, drive.load.slack.value() * ratio);
             let mut path = Path::new(&first, tolerance);
             let Some(solved) =
                 path.below_limit(first.load.tight.value() / path.scales().units.force)
