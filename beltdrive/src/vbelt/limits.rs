@@ -204,7 +204,7 @@ fn no_load(drive: &Drive, key: &Key, tolerance: f64) -> Result<Limit, SolveError
     let idle = idle(drive, key);
     let mut path = Path::new(&idle, tolerance);
     let scaled = idle.load.tight.value() / path.scales().units.force;
-    let solved = match path.at_load(scaled) {
+    let solved = match path.at_no_load(scaled) {
         Ok(solved) => solved,
         // Stuck on the way to a smaller ε.
         Err(stuck) => match stuck.last {

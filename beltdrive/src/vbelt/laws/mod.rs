@@ -229,6 +229,18 @@ impl Path<'_> {
         self.seek(&AtLoad { drive, tight })
     }
 
+    /// The steady state without load, both spans with the scaled tension `tight`. The traction of sliding friction
+    /// turns the other way round there than bristles show, so that the direction is normalised at once.
+    pub(super) fn at_no_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
+        let drive = self.drive;
+        let asked = AtLoad { drive, tight };
+        if let FrictionLaw::Bristle { .. } = drive.law {
+            return self.seek(&asked);
+        }
+        let start = self.cold(&asked, asked.softest(), Effort::Start)?;
+        self.normalised(&asked, start)
+    }
+
     /// The steady state as by [`Path::at_load`], but with the shortest ℓ or smallest ε that was reached where its
     /// effect is not below the tolerance: good enough to follow a branch from it.
     pub(super) fn start(&mut self, tight: f64) -> Result<Solved, Stuck> {
