@@ -101,6 +101,12 @@ pub(crate) trait BeltProblem: Problem + Clone {
         self.zoning().regimes[segment]
     }
 
+    /// Whether friction on a segment is of the same kind as on the one in front of it on the same pulley.
+    fn is_cut(&self, segment: usize) -> bool {
+        let zones = self.zones(self.pulley(segment));
+        segment > zones.start && self.regime(segment - 1) == self.regime(segment)
+    }
+
     /// The friction regimes along every pulley.
     fn regimes(&self) -> Vec<Vec<Regime>> {
         let zones = (0..self.pulleys()).map(|pulley| self.zones(pulley));
@@ -243,7 +249,6 @@ pub(super) fn in_groove<T: Real>(
     for &state in law {
         zero(state);
     }
-    let is_cut = |next: usize| problem.regime(next - 1) == problem.regime(next);
     for next in zones.start + 1..zones.end {
         let (y, after) = (at.end(next - 1), at.start(next));
         let [before, behind] = [next - 1, next].map(|segment| problem.regime(segment));
@@ -260,10 +265,12 @@ pub(super) fn in_groove<T: Real>(
         match (before, behind) {
             (Regime::Stick, _) => {}
             (before, Regime::Stick) => zero(hold_excess(groove, before, y, omega, flow)),
-            _ if is_cut(next) => zero(match (next + 1..zones.end).any(is_cut) {
-                true => breakaway_excess(y[LAW], problem.sense(pulley)),
-                false => contact(next, y).turn_excess(groove),
-            }),
+            _ if problem.is_cut(next) => zero(
+                match (next + 1..zones.end).any(|next| problem.is_cut(next)) {
+                    true => breakaway_excess(y[LAW], problem.sense(pulley)),
+                    false => contact(next, y).turn_excess(groove),
+                },
+            ),
             _ => zero(limit_excess(groove, y, omega, flow)),
         }
     }

@@ -1,6 +1,7 @@
 //! A family of drives whose estimated error is also that of its regularisation.
 
 use super::family::DriveFamily;
+use super::piece::WHOLE;
 use bvp::Family;
 use continuation::{Cause, System, TwoParameter};
 
@@ -11,14 +12,12 @@ pub(super) struct Curve<'a> {
     /// The same drives with a smaller ε. A labelled point is compared with that of these drives on
     /// the halved mesh, so that its error is that of both.
     pub(super) finer: Option<&'a DriveFamily>,
-    /// Number of constants of a drive.
-    pub(super) constants: usize,
 }
 
 impl Curve<'_> {
     /// The relative effect of ℓ or ε on the constants of the point `z`, where there is one: their largest
     /// change by one Newton correction towards the solution with ε/4, across the curve, as a share of
-    /// 1 + |value|, and a third more for what is left of ε then. An estimate of its order only, since
+    /// 1 + |value|, and [`WHOLE`] for what is left of ε then. An estimate of its order only, since
     /// the effect is not linear; inclinations inside lock zones change by more.
     pub(super) fn smoothing_effect(&self, z: &[f64]) -> Option<f64> {
         let smaller = self.finer?;
@@ -37,15 +36,14 @@ impl Curve<'_> {
             terms.map(|((share, a), b)| share * a * b).sum()
         };
         let along = dot(&v, &t) / dot(&t, &t);
-        // The constants stand before λ.
-        let constants = [z, &v, &t].map(|vector| smaller.constants(&vector[n - self.constants..n]));
+        let constants = [z, &v, &t].map(|vector| smaller.constants(vector));
         let largest = (0..constants[0].len())
             .map(|i| {
                 let [z, v, t] = constants.map(|of| of[i]);
                 ((v - along * t) / (1.0 + z.abs())).abs()
             })
             .fold(0.0, f64::max);
-        largest.is_finite().then_some(largest * 4.0 / 3.0)
+        largest.is_finite().then_some(WHOLE * largest)
     }
 }
 

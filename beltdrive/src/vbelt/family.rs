@@ -92,8 +92,15 @@ impl DriveFamily {
         self.constants
     }
 
-    /// Speed of the driven pulley, mass flow and both contact lengths: linear in the parameters `p` of a drive.
-    pub(super) fn constants(&self, p: &[f64]) -> [f64; 4] {
+    /// Those of a vector of unknowns that are parameters of the drive: they stand before λ.
+    pub(super) fn own<'z>(&self, z: &'z [f64]) -> &'z [f64] {
+        let lambda = z.len() - 1;
+        &z[lambda - self.constants..lambda]
+    }
+
+    /// Speed of the driven pulley, mass flow and both contact lengths: linear in the unknowns `z`.
+    pub(super) fn constants(&self, z: &[f64]) -> [f64; 4] {
+        let p = self.own(z);
         let lengths = &p[DriveProblem::length_index(0)..];
         let (driven, others) = lengths.split_at(self.regimes[DRIVEN].len());
         let driver = &others[..self.regimes[DRIVER].len()];
@@ -105,14 +112,14 @@ impl DriveFamily {
         ]
     }
 
-    /// Whether parameters with these rates move the ends of segments and no constant of the drive.
-    pub(super) fn moves_cuts_only(&self, rates: &[f64]) -> bool {
+    /// Whether unknowns along this tangent move the ends of segments and no constant of the drive.
+    pub(super) fn moves_cuts_only(&self, tangent: &[f64]) -> bool {
         let largest = |rates: &[f64]| {
             rates
                 .iter()
                 .fold(0.0, |most: f64, rate| most.max(rate.abs()))
         };
-        largest(&self.constants(rates)) < CUTS_ONLY * largest(rates)
+        largest(&self.constants(tangent)) < CUTS_ONLY * largest(self.own(tangent))
     }
 
     /// The drive with scaled values of the entries.

@@ -177,11 +177,7 @@ impl<'a> Walk<'a, '_, '_> {
         let options = discretisation(self.chart.tolerance, &self.solved.problem);
         let (family, z) = Family::new(self.family, parameter, &[second], &guess, &options)?;
         let finer = (self.solved.problem.smoothing() > 0.0).then_some(self.finer);
-        let curve = Curve {
-            family,
-            finer,
-            constants: self.family.first_entry(),
-        };
+        let curve = Curve { family, finer };
         Ok((curve, z))
     }
 

@@ -23,6 +23,8 @@ const EPSILONS: [f64; 3] = [1e-5, 1e-6, 1e-7];
 const AHEAD: f64 = 1e-6;
 /// Labelled points are located once more with ℓ or ε multiplied by this.
 pub(super) const FINER: f64 = 0.25;
+/// The effect of ℓ or ε from its change when that is multiplied by [`FINER`]: it vanishes at least as fast.
+pub(super) const WHOLE: f64 = 1.0 / (1.0 - FINER);
 /// The most steps of a piece, and of one in shorter steps.
 const MAX_STEPS: usize = 600;
 const MAX_SHORT_STEPS: usize = 2000;
@@ -144,7 +146,6 @@ impl Tracer<'_> {
         let mut curve = Curve {
             family: discretised,
             finer: (smoothing > 0.0).then_some(&finer),
-            constants: first,
         };
         let options = Options {
             largest_step: LARGEST_STEP / REFINEMENT.powi(self.refinements),
@@ -167,11 +168,8 @@ impl Tracer<'_> {
         let mut branch = self.with_events(branch, &solved, first);
         let mut last = bvp::Stats::default();
         let mut before: Option<(Point, Solved)> = None;
-        // They stand before λ.
-        let constants =
-            |vector: &[f64]| vector[vector.len() - 1 - first..vector.len() - 1].to_vec();
         let driven_speed = |point: &Point| {
-            let of = |vector| constants(vector)[DriveProblem::DRIVEN_SPEED];
+            let of = |vector| family.own(vector)[DriveProblem::DRIVEN_SPEED];
             [of(&point.z), of(&point.tangent), point.arclength]
         };
         while let Some(point) = branch.next() {
@@ -201,7 +199,7 @@ impl Tracer<'_> {
                 // A step may have passed the place where a zone appears: its state is none, but a guess.
                 Kind::Regular => Some(onward(&point)),
                 // Not of the load, but of the way of a cut.
-                Kind::LimitPoint if family.moves_cuts_only(&constants(&point.tangent)) => {
+                Kind::LimitPoint if family.moves_cuts_only(&point.tangent) => {
                     let before = before.as_ref().map(|(point, _)| onward(point));
                     Some(before.unwrap_or(direction))
                 }

@@ -151,11 +151,10 @@ fn pulley_state(solved: &Solved, pulley: usize, integrals: Integrals) -> PulleyS
     let on = solved.on_pulley(pulley);
     let EndAngles { entry, exit } = on.ends();
     let profile = on.profile();
-    let sense = if pulley == DRIVEN { 1.0 } else { -1.0 };
     let deepest = profile.penetration.iter().copied().fold(0.0, f64::max);
     PulleyState {
         angular_speed: problem.omega(pulley, p) * scales.units.angular_speed(radius),
-        torque: sense * integrals.torque * scales.units.torque(radius),
+        torque: problem.sense(pulley) * integrals.torque * scales.units.torque(radius),
         wrap_angle: solved.exit(pulley)[super::ANGLE],
         geometric_wrap_angle: problem.layout().wraps([EndAngles::default(); 2])[pulley],
         max_penetration: deepest,

@@ -13,7 +13,7 @@
 //! error follows from the difference.
 
 use super::path::Solved;
-use super::piece::{FINER, PieceEnd};
+use super::piece::{PieceEnd, WHOLE};
 use super::solve::is_crossed;
 use crate::input::Key;
 use crate::results::difficulty;
@@ -24,8 +24,6 @@ use crate::{
 use continuation::{Direction, Kind, Point, Stop};
 use web_time::Instant;
 
-/// The effect of ℓ or ε from its change when that is multiplied by [`FINER`]: it vanishes at least as fast.
-const WHOLE: f64 = 1.0 / (1.0 - FINER);
 /// The most pieces of a branch.
 const MAX_PIECES: usize = 40;
 /// Behind a limit point a branch is followed until the entry has come back by this share of its way.

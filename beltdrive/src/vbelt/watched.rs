@@ -97,16 +97,14 @@ impl Tracer<'_> {
             }
             Kind::Event(index) if index >= FIRST_ZONE => {
                 let segment = index - FIRST_ZONE;
+                let pulley = here.problem.pulley(segment);
+                let last = here.problem.zones(pulley).end - 1;
                 // A cut of a zone of one kind is no event.
-                let regime = here.problem.regime(segment);
-                let beside = [segment.wrapping_sub(1), segment + 1];
-                let is_cut = beside.into_iter().any(|other| {
-                    let zones = here.problem.zones(here.problem.pulley(segment));
-                    zones.contains(&other) && here.problem.regime(other) == regime
-                });
-                (!is_cut).then(|| EventKind::ZoneVanishes {
-                    pulley: pulleys[here.problem.pulley(segment)],
-                    kind: match regime {
+                let is_part = here.problem.is_cut(segment)
+                    || (segment < last && here.problem.is_cut(segment + 1));
+                (!is_part).then(|| EventKind::ZoneVanishes {
+                    pulley: pulleys[pulley],
+                    kind: match here.problem.regime(segment) {
                         Regime::Elastic => ZoneKind::Elastic,
                         Regime::Slip | Regime::Either => ZoneKind::Slip,
                         Regime::Stick => ZoneKind::Adhesion,

@@ -56,16 +56,25 @@ pub(super) fn cut_at_turn(
 }
 
 /// The zones that were cut at the turn with that in two in which the belt breaks away in front of it.
-pub(super) fn cut_at_breakaway(zones: Vec<Zone>, samples: &[Sample], length: f64) -> Vec<Zone> {
-    let is_cut = |pair: &[Zone]| pair[0].regime == pair[1].regime;
+pub(super) fn cut_at_breakaway(
+    zones: Vec<Zone>,
+    samples: &[Sample],
+    length: f64,
+    sense: f64,
+) -> Vec<Zone> {
     let Some(turn) = zones.windows(2).rfind(|pair| is_cut(pair)) else {
         return zones;
     };
     let turn = samples.partition_point(|sample| sample.place < turn[1].from);
-    match breakaway(&samples[..turn]) {
+    match breakaway(&samples[..turn], sense) {
         Some(place) => cut(zones, place, length),
         None => zones,
     }
+}
+
+/// Whether two neighbours are of the same kind.
+pub(super) fn is_cut(pair: &[Zone]) -> bool {
+    pair[0].regime == pair[1].regime
 }
 
 /// The zones with that in two in which a place is, unless that is at an end of it or the belt sticks there.

@@ -12,7 +12,7 @@ mod samples;
 
 use super::path::Solved;
 use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
-use kinds::{Zone, cut_at_breakaway, cut_at_turn, friction_zones, one_zone, without_kinks};
+use kinds::{Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, one_zone, without_kinks};
 use samples::{CLEAR_TURN, Sample, samples};
 
 /// Nodes nearer than this to each other or to the ends of a zone, in its length, are left out.
@@ -91,9 +91,8 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
 
     /// Whether they are the segments of the solution.
     pub(super) fn is_kept(&self) -> bool {
-        let pulleys = 0..self.pulleys.len();
         self.regimes() == self.solved.problem.regimes()
-            && pulleys.into_iter().all(|pulley| self.is_in_place(pulley))
+            && (0..self.pulleys.len()).all(|pulley| self.is_in_place(pulley))
     }
 
     /// Whether the zones of a pulley are cut where segments of the solution are.
@@ -108,7 +107,7 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
         let zones = &self.pulleys[pulley];
         let pairs = zones.windows(2).zip(begins.skip(1));
         pairs
-            .filter(|(pair, _)| pair[0].regime == pair[1].regime)
+            .filter(|(pair, _)| is_cut(pair))
             .all(|(pair, begin)| (pair[1].from - begin).abs() <= near)
     }
 
@@ -172,7 +171,7 @@ fn cut<P: BeltProblem>(
             ..
         } if lead > 0.0 => {
             let zones = cut_at_turn(zones, &samples, length, CLEAR_TURN);
-            cut_at_breakaway(zones, &samples, length)
+            cut_at_breakaway(zones, &samples, length, problem.sense(pulley))
         }
         _ => cut_at_turn(zones, &samples, length, 0.0),
     };

@@ -32,8 +32,6 @@ pub(super) struct Sample {
     pub(super) limit: f64,
     /// Excess of the traction over that in the middle of the turn, as a share of friction.
     pub(super) turn: f64,
-    /// Excess of the friction along the pulley over that with which the belt breaks away.
-    pub(super) breakaway: f64,
     /// Direction of the traction, continuous along the pulley.
     pub(super) direction: f64,
     /// Whether friction holds the belt.
@@ -79,7 +77,6 @@ pub(super) fn samples<P: BeltProblem>(
                 place: before + s * length,
                 limit: limit_excess(groove, y, omega, flow),
                 turn: contact.turn_excess(groove) / contact.friction().max(f64::MIN_POSITIVE),
-                breakaway: breakaway_excess(direction, problem.sense(pulley)),
                 direction: samples.last().map_or(direction, |last| {
                     let turns = (last.direction - direction) / TAU;
                     direction + turns.round() * TAU
@@ -136,9 +133,10 @@ pub(super) fn turn(samples: &[Sample], clear: f64) -> Option<f64> {
     rise(samples, |sample| sample.turn, clear)
 }
 
-/// The place where the belt breaks away.
-pub(super) fn breakaway(samples: &[Sample]) -> Option<f64> {
-    rise(samples, |sample| sample.breakaway, CLEAR_BREAKAWAY)
+/// The place where the belt breaks away, with the sense of friction along the pulley.
+pub(super) fn breakaway(samples: &[Sample], sense: f64) -> Option<f64> {
+    let excess = |sample: &Sample| breakaway_excess(sample.direction, sense);
+    rise(samples, excess, CLEAR_BREAKAWAY)
 }
 
 /// The last place at which a value rises through zero, if it is clearly below in front of it and clearly above
