@@ -74,10 +74,13 @@ pub(crate) fn add_scaled(y: &mut [f64], factor: f64, x: &[f64]) {
     }
 }
 
-/// The larger of two numbers, NaN if either is: what [`f64::max`] would lose.
-#[inline]
+/// The larger of two numbers without a sign, NaN if either is: what [`f64::max`] would lose. Such numbers are in
+/// the order of their bits, infinity and NaN above all others, and these are compared without a branch.
+#[inline(always)]
 pub(crate) fn max_or_nan(a: f64, b: f64) -> f64 {
-    if b <= a || a.is_nan() { a } else { b }
+    let has_sign = |x: f64| x.is_sign_negative() && !x.is_nan();
+    debug_assert!(!has_sign(a) && !has_sign(b), "{a} and {b} have no sign");
+    f64::from_bits(a.to_bits().max(b.to_bits()))
 }
 
 #[cfg(test)]
