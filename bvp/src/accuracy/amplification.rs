@@ -13,6 +13,7 @@ use crate::discretisation::iterate::{Interval, Iterate, Residual};
 use crate::discretisation::ratio::Component;
 use crate::discretisation::tableau::middle;
 use crate::kernels::dense::max_or_nan;
+use crate::kernels::few::Few;
 use crate::kernels::random::Signs;
 use crate::kernels::specialise::specialise;
 use crate::newton::collocation::Collocation;
@@ -87,7 +88,7 @@ impl Collocation<'_> {
 
     #[inline(always)]
     fn write_sizes(&self, [m, n]: [usize; 2], index: usize, x: &Iterate, sizes: &mut [f64]) {
-        let (t, mut buffer) = (&*self.tableau, vec![0.0; n]);
+        let (t, mut buffer) = (&*self.tableau, Few::zeros(n));
         let y = &mut buffer[..n];
         let intervals = self.mesh[index].windows(2).zip(sizes.chunks_exact_mut(n));
         for (i, (ends, sizes)) in intervals.enumerate() {
@@ -119,16 +120,17 @@ impl Collocation<'_> {
                 let sizes = sizes[component..].iter().step_by(n);
                 for (stages, &size) in r.stages.chunks_exact_mut(m * n).zip(sizes) {
                     let size = if vanishes { unit } else { size };
-                    let [mean, slope] = [(); 2].map(|()| signs.turn(size / length));
+                    let mean = signs.turn(size / length);
+                    let slope = signs.turn(size / length);
                     for (r, c) in stages.chunks_exact_mut(n).zip(&self.tableau.c) {
                         r[component] = mean + (c - 0.5) * slope;
                     }
                 }
             }
         }
-        let scales = self.condition_scales(x);
-        for (r, scale) in residual.conditions.iter_mut().zip(scales) {
-            *r = signs.turn(scale);
+        let sizes = self.condition_sizes(x);
+        for (r, (size, _)) in residual.conditions.iter_mut().zip(sizes) {
+            *r = signs.turn(size);
         }
     }
 
@@ -149,9 +151,8 @@ impl Collocation<'_> {
         let segments = self.equations.segments().iter().zip(sizes).enumerate();
         let of_states = segments.fold(0.0, |largest, (index, (segment, sizes))| {
             let n = segment.states;
-            let sizes = self.local_sizes(index, sizes, tolerance);
             let of_segment = specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
-                self.largest_change([m, n], index, correction, &sizes)));
+                self.largest_change([m, n], index, correction, sizes, tolerance)));
             max_or_nan(largest, of_segment)
         });
         let parameters = x.p.iter().zip(&correction.p);
@@ -160,25 +161,8 @@ impl Collocation<'_> {
         })
     }
 
-    /// For all nodes of a segment the sizes beside which the changes of the states there are large, from
-    /// those on its intervals.
-    fn local_sizes(&self, index: usize, of_intervals: &[f64], tolerance: f64) -> Vec<f64> {
-        let n = self.equations.segments()[index].states;
-        let least = |state| match self.stages[index].is_slope(state) {
-            true => f64::INFINITY,
-            false => unit(Component::new(of_intervals, n, state).largest, tolerance).min(1.0),
-        };
-        let least: Vec<f64> = (0..n).map(least).collect();
-        let mut sizes = least.repeat(of_intervals.len() / n + 1);
-        for (i, interval) in of_intervals.chunks_exact(n).enumerate() {
-            enlarge(&mut sizes[i * n..][..n], interval);
-            enlarge(&mut sizes[(i + 1) * n..][..n], interval);
-        }
-        sizes
-    }
-
     /// The largest state of a correction at the nodes of a segment and at the collocation points in the middle
-    /// of its intervals, relative to the sizes at the node or at the one to the left.
+    /// of its intervals, relative to the sizes on the intervals beside the node, or beside the one to the left.
     #[inline(always)]
     fn largest_change(
         &self,
@@ -186,6 +170,7 @@ impl Collocation<'_> {
         index: usize,
         correction: &Iterate,
         sizes: &[f64],
+        tolerance: f64,
     ) -> f64 {
         let correction = &correction.segments[index];
         let larger = |largest, changes: &[f64], sizes: &[f64]| {
@@ -194,18 +179,35 @@ impl Collocation<'_> {
                 max_or_nan(largest, change.abs() / size)
             })
         };
-        let mut largest = larger(0.0, &correction.nodes, sizes);
-        let (t, mut buffer) = (&*self.tableau, vec![0.0; n]);
-        let change = &mut buffer[..n];
+        let (t, mut buffers) = (&*self.tableau, Few::zeros(3 * n));
+        let (least, buffers) = buffers.split_at_mut(n);
+        let (beside, change) = buffers.split_at_mut(n);
+        let (least, beside, change) = (&mut least[..n], &mut beside[..n], &mut change[..n]);
+        for (state, least) in least.iter_mut().enumerate() {
+            *least = match self.stages[index].is_slope(state) {
+                true => f64::INFINITY,
+                false => unit(Component::new(sizes, n, state).largest, tolerance).min(1.0),
+            };
+        }
+        beside.copy_from_slice(least);
+        let mut largest = 0.0;
         let intervals = self.mesh[index].windows(2).zip(sizes.chunks_exact(n));
         for (i, (ends, sizes)) in intervals.enumerate() {
             let interval = Interval::new(correction, [m, n], i, ends);
+            enlarge(beside, sizes);
+            largest = larger(largest, interval.y, beside);
             for j in middle(m) {
                 interval.state(&t.a[j * m..][..m], change);
-                largest = larger(largest, change, sizes);
+                largest = larger(largest, change, beside);
             }
+            beside.copy_from_slice(least);
+            enlarge(beside, sizes);
         }
-        largest
+        larger(
+            largest,
+            &correction.nodes[correction.nodes.len() - n..],
+            beside,
+        )
     }
 }
 

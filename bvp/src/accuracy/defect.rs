@@ -4,7 +4,8 @@ use crate::discretisation::iterate::{Interval, Iterate, NonFinite};
 use crate::discretisation::mesh::Mesh;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::max_or_nan;
-use crate::kernels::parallel::{Buffers, for_each_run};
+use crate::kernels::few::Few;
+use crate::kernels::parallel::for_each_run;
 use crate::kernels::specialise::specialise;
 use crate::problem::equations::Equations;
 use crate::problem::held::Held;
@@ -29,7 +30,8 @@ pub(crate) fn defects(
     samples: &mut Samples,
     stats: &mut Stats,
 ) -> Result<Defects, NonFinite> {
-    let mut all = Defects::default();
+    let [relative, local] = [(); 2].map(|()| Vec::with_capacity(mesh.len()));
+    let mut all = Defects { relative, local };
     samples.resize_with(mesh.len(), Vec::new);
     let segments = equations.segments().iter().zip(samples).enumerate();
     for (index, (segment, samples)) in segments {
@@ -49,7 +51,7 @@ pub(crate) fn defects(
             0..intervals,
             (m + 1) * n * (2 * m + n),
             ((&mut relative[..], &mut local[..]), &mut samples[..]),
-            &mut vec![0.0; 3 * n],
+            &mut Few::zeros(3 * n),
             &|run, written, buffers| {
                 specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
                 along.defects([m, n], run, written, buffers)))
@@ -61,9 +63,6 @@ pub(crate) fn defects(
     }
     Ok(all)
 }
-
-/// A state, a right-hand side and a slope.
-impl Buffers for Vec<f64> {}
 
 /// A continuous solution on one segment.
 struct Along<'a> {

@@ -17,6 +17,7 @@ use crate::discretisation::mesh::{Mesh, split};
 use crate::discretisation::powers::Powers;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::max_or_nan;
+use crate::kernels::few::Few;
 use crate::kernels::specialise::specialise;
 use crate::problem::equations::Equations;
 use crate::problem::held::Held;
@@ -34,7 +35,8 @@ pub(crate) struct FurtherPlaces {
     last: f64,
     /// Segments and places where an unseen defect was found.
     found: Vec<(usize, f64)>,
-    scratch: Scratch,
+    /// The solution on the interval that is looked at.
+    powers: Powers,
 }
 
 impl FurtherPlaces {
@@ -42,7 +44,7 @@ impl FurtherPlaces {
         Self {
             last: 0.5,
             found: vec![],
-            scratch: Scratch::default(),
+            powers: Powers::default(),
         }
     }
 
@@ -69,21 +71,24 @@ impl FurtherPlaces {
                 local: &defects.local[index],
                 tolerance,
                 found: &mut self.found,
-                scratch: &mut self.scratch,
+                cut: vec![],
+                powers: &mut self.powers,
                 stats,
             };
-            let mut pieces = vec![1; nodes.len() - 1];
             let [m, n] = segment.size();
-            segment.scratch.resize([m, n]);
+            segment.powers.resize([m, n]);
+            let intervals = nodes.len() - 1;
             let mut places = [0.0; PLACES];
-            let places = &mut places[..PLACES.div_ceil(pieces.len())];
+            let places = &mut places[..PLACES.div_ceil(intervals)];
             places.fill_with(|| next(&mut self.last));
             specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
-                segment.everywhere([m, n], places, &mut pieces)));
-            segment.again(&mut pieces);
-            if pieces.iter().any(|&pieces| pieces > 1) {
-                let finer = finer.get_or_insert_with(|| mesh.clone());
-                finer[index] = split(nodes, &pieces);
+                segment.everywhere([m, n], places)));
+            segment.again();
+            let SegmentLook { cut, .. } = segment;
+            if !cut.is_empty() {
+                let mut pieces = vec![1; intervals];
+                cut.into_iter().for_each(|i| pieces[i] = PARTS);
+                finer.get_or_insert_with(|| mesh.clone())[index] = split(nodes, &pieces);
             }
         }
         finer
@@ -108,7 +113,9 @@ struct SegmentLook<'a> {
     local: &'a [f64],
     tolerance: f64,
     found: &'a mut Vec<(usize, f64)>,
-    scratch: &'a mut Scratch,
+    /// The intervals with an unseen defect.
+    cut: Vec<usize>,
+    powers: &'a mut Powers,
     stats: &'a mut Stats,
 }
 
@@ -116,19 +123,22 @@ impl<'a> SegmentLook<'a> {
     /// Looks at all intervals next to their nodes and at these shares of their lengths. Its stages m and
     /// states n are known to the compiler.
     #[inline(always)]
-    fn everywhere(&mut self, size: [usize; 2], places: &[f64], pieces: &mut [usize]) {
+    fn everywhere(&mut self, size: [usize; 2], places: &[f64]) {
         let slope = self.largest_slope(size);
-        for (i, pieces) in pieces.iter_mut().enumerate() {
+        let mut values = Few::zeros(3 * size[1]);
+        let mut at = At::new(size[1], &mut values);
+        for i in 0..self.nodes.len() - 1 {
             let interval = self.interval(size, i);
-            self.scratch.powers.expand(size, self.t, &interval);
-            if self.is_unseen_near_nodes(size, i, &interval, slope) {
-                *pieces = PARTS;
-            }
+            self.powers.expand(size, self.t, &interval);
+            let mut unseen = self.is_unseen_near_nodes(size, i, &interval, slope, &mut at);
             for &theta in places {
-                if self.is_unseen_at(size, i, &interval, theta) {
-                    *pieces = PARTS;
+                if self.is_unseen_at(size, i, &interval, theta, &mut at) {
+                    unseen = true;
                     self.found.push((self.index, interval.place(theta)));
                 }
+            }
+            if unseen {
+                self.cut.push(i);
             }
         }
     }
@@ -141,16 +151,16 @@ impl<'a> SegmentLook<'a> {
         i: usize,
         interval: &Interval<'_>,
         slope: f64,
+        at: &mut At<'_>,
     ) -> bool {
         let nearest = self.nearest(i, slope);
         let first = self.t.defect_rule.points[0].max(2.0 * nearest);
         let mut unseen = false;
         for right in [false, true] {
             let theta = if right { 1.0 - nearest } else { nearest };
-            let defect = self.defect(size, interval, theta);
+            let defect = self.defect(size, interval, theta, at);
             let jumps = self.is_unseen(interval.h * first * defect, self.local[i]);
-            let rate = self.scratch.rate();
-            let grows = interval.h * nearest * rate > 2.0 * UNNOTICED * self.tolerance;
+            let grows = interval.h * nearest * at.rate() > 2.0 * UNNOTICED * self.tolerance;
             if jumps || grows {
                 let sum = self.near_node(interval, right, [first, nearest]);
                 if sum > AIM * self.tolerance && (grows || sum > self.local[i]) {
@@ -196,24 +206,23 @@ impl<'a> SegmentLook<'a> {
     }
 
     /// Looks where something was found before.
-    fn again(&mut self, pieces: &mut [usize]) {
+    fn again(&mut self) {
         let size = self.size();
         for which in 0..self.found.len() {
             let (index, s) = self.found[which];
             if index != self.index {
                 continue;
             }
-            let i = self
-                .nodes
-                .partition_point(|&node| node <= s)
-                .clamp(1, pieces.len())
-                - 1;
-            if pieces[i] == 1 {
+            let behind = self.nodes.partition_point(|&node| node <= s);
+            let i = behind.clamp(1, self.nodes.len() - 1) - 1;
+            if !self.cut.contains(&i) {
                 let interval = self.interval(size, i);
-                self.scratch.powers.expand(size, self.t, &interval);
+                self.powers.expand(size, self.t, &interval);
                 let theta = (s - self.nodes[i]) / interval.h;
-                if self.is_unseen_at(size, i, &interval, theta) {
-                    pieces[i] = PARTS;
+                let mut values = Few::zeros(3 * size[1]);
+                let at = &mut At::new(size[1], &mut values);
+                if self.is_unseen_at(size, i, &interval, theta, at) {
+                    self.cut.push(i);
                 }
             }
         }
@@ -232,10 +241,11 @@ impl<'a> SegmentLook<'a> {
         i: usize,
         interval: &Interval<'_>,
         theta: f64,
+        at: &mut At<'_>,
     ) -> bool {
         let gap = self.t.widest_gap;
         let expected = gap * ONE_SAMPLE * self.local[i];
-        let defect = self.defect(size, interval, theta);
+        let defect = self.defect(size, interval, theta, at);
         self.is_unseen(gap * interval.h * defect, expected) && {
             let [defect, _] = self.unexplained(interval, theta);
             self.is_unseen(gap * interval.h * defect, expected)
@@ -286,10 +296,13 @@ impl<'a> SegmentLook<'a> {
     /// end that is much.
     #[inline(never)]
     fn unexplained(&mut self, interval: &Interval<'_>, theta: f64) -> [f64; 2] {
-        let size = self.size();
-        self.scratch.interpolate(size, theta);
-        let Scratch { y, f, slope, .. } = &mut *self.scratch;
-        let (n, columns) = (y.len(), y.len() + self.x.p.len());
+        let [m, n] = self.size();
+        let mut values = Few::zeros(3 * n);
+        let At { y, f, slope } = At::new(n, &mut values);
+        let u = 2.0 * theta - 1.0;
+        self.powers.state([m, n], u, y);
+        self.powers.slope([m, n], u, slope);
+        let columns = n + self.x.p.len();
         let (mut jacobian, s) = (vec![0.0; n * columns], interval.place(theta));
         self.equations
             .rhs_jacobian(self.index, s, y, &self.x.p, f, &mut jacobian);
@@ -308,16 +321,22 @@ impl<'a> SegmentLook<'a> {
 
     /// The largest defect at a place of the interval relative to 1 + |y|; zero where it is not finite.
     #[inline(always)]
-    fn defect(&mut self, size: [usize; 2], interval: &Interval<'_>, theta: f64) -> f64 {
-        self.scratch.interpolate(size, theta);
-        let n = size[1];
-        let Scratch { y, f, slope, .. } = &mut *self.scratch;
-        let (y, f, slope) = (&y[..n], &mut f[..n], &slope[..n]);
+    fn defect(
+        &mut self,
+        size: [usize; 2],
+        interval: &Interval<'_>,
+        theta: f64,
+        at: &mut At<'_>,
+    ) -> f64 {
+        let At { y, f, slope } = at;
+        let u = 2.0 * theta - 1.0;
+        self.powers.state(size, u, y);
+        self.powers.slope(size, u, slope);
         f.fill(f64::NAN);
         let s = interval.place(theta);
         self.equations.evaluate_rhs(self.index, s, y, &self.x.p, f);
         self.stats.rhs_evaluations += 1;
-        let defects = slope.iter().zip(&*f).zip(y);
+        let defects = slope.iter().zip(&**f).zip(&**y);
         let largest = defects.fold(0.0f64, |m, ((slope, f), y)| {
             max_or_nan(m, (slope - f).abs() / (1.0 + y.abs()))
         });
@@ -325,34 +344,27 @@ impl<'a> SegmentLook<'a> {
     }
 }
 
-/// The interval that is looked at, and one state there, its right-hand side and its slope.
-#[derive(Clone, Debug, Default)]
-struct Scratch {
-    powers: Powers,
-    y: Vec<f64>,
-    f: Vec<f64>,
-    slope: Vec<f64>,
+/// A state at one place, its right-hand side and its slope.
+struct At<'a> {
+    y: &'a mut [f64],
+    f: &'a mut [f64],
+    slope: &'a mut [f64],
 }
 
-impl Scratch {
-    fn resize(&mut self, [m, n]: [usize; 2]) {
-        self.powers.resize([m, n]);
-        for values in [&mut self.y, &mut self.f, &mut self.slope] {
-            values.resize(n, 0.0);
-        }
-    }
-
-    /// Finds the state and the slope of the solution at a place of the interval.
+impl<'a> At<'a> {
+    /// Room for n states in 3n numbers.
     #[inline(always)]
-    fn interpolate(&mut self, [m, n]: [usize; 2], theta: f64) {
-        let u = 2.0 * theta - 1.0;
-        self.powers.state([m, n], u, &mut self.y[..n]);
-        self.powers.slope([m, n], u, &mut self.slope[..n]);
+    fn new(n: usize, values: &'a mut [f64]) -> Self {
+        let (y, rest) = values.split_at_mut(n);
+        let (f, slope) = rest.split_at_mut(n);
+        let (y, f, slope) = (&mut y[..n], &mut f[..n], &mut slope[..n]);
+        Self { y, f, slope }
     }
 
     /// The largest |f| relative to 1 + |y|.
+    #[inline(always)]
     fn rate(&self) -> f64 {
-        let rates = self.f.iter().zip(&self.y);
+        let rates = self.f.iter().zip(&*self.y);
         rates.fold(0.0, |m, (f, y)| m.max(f.abs() / (1.0 + y.abs())))
     }
 }

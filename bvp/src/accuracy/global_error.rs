@@ -20,6 +20,7 @@
 use crate::discretisation::iterate::{Interval, Iterate, Residual, SegmentIterate};
 use crate::discretisation::tableau::middle;
 use crate::kernels::dense::{add_scaled, dot, max_or_nan};
+use crate::kernels::few::Few;
 use crate::kernels::specialise::specialise;
 use crate::newton::collocation::Collocation;
 use crate::result::quality::{GlobalErrors, Samples};
@@ -69,8 +70,8 @@ impl Collocation<'_> {
         for (index, samples) in samples.iter().enumerate() {
             let n = self.equations.segments()[index].states;
             let to = &mut residual.equations[index];
-            specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
-                self.integrate([m, n, k], index, samples, to)));
+            specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] => specialise!(k in [0] =>
+                self.integrate([m, n, k], index, samples, to))));
         }
     }
 
@@ -80,12 +81,12 @@ impl Collocation<'_> {
         let t = &*self.tableau;
         for (index, segment) in self.equations.segments().iter().enumerate() {
             let n = segment.states;
-            let mut jump = vec![0.0; n];
+            let mut jump = Few::zeros(n);
             let to = residual.equations[index].nodes[n..].chunks_exact_mut(n);
             for (i, (ends, to)) in self.mesh[index].windows(2).zip(to).enumerate() {
                 let interval = Interval::new(&x.segments[index], [t.stages, n], i, ends);
                 interval.continuity(t, &mut jump);
-                for (component, (to, jump)) in to.iter_mut().zip(&jump).enumerate() {
+                for (component, (to, jump)) in to.iter_mut().zip(jump.iter()).enumerate() {
                     let beside_one = jump.abs() / (SPACINGS * f64::EPSILON);
                     if beside_one > 1.0 && beside_one > interval.size(component) {
                         *to += jump;
@@ -105,7 +106,7 @@ impl Collocation<'_> {
         to: &mut SegmentIterate,
     ) {
         let (t, columns) = (&*self.tableau, n + k);
-        let mut integral = vec![0.0; n];
+        let mut integral = Few::zeros(n);
         let integral = &mut integral[..n];
         let jacobians = self.stages[index].jacobians();
         let intervals = to
@@ -158,7 +159,7 @@ impl Collocation<'_> {
             ),
             (&t.defect_value[..], &t.defect_to_defect[..]),
         ];
-        let mut buffers = vec![0.0; 2 * n];
+        let mut buffers = Few::zeros(2 * n);
         let (y, e) = buffers.split_at_mut(n);
         let (y, e) = (&mut y[..n], &mut e[..n]);
         let intervals = samples
@@ -166,7 +167,8 @@ impl Collocation<'_> {
             .zip(local)
             .zip(self.mesh[index].windows(2));
         for (i, ((samples, local), ends)) in intervals.enumerate() {
-            let [x, w] = [x, w].map(|x| Interval::new(&x.segments[index], [m, n], i, ends));
+            let x = Interval::new(&x.segments[index], [m, n], i, ends);
+            let w = Interval::new(&w.segments[index], [m, n], i, ends);
             for (values, integrals) in places {
                 let mut shown = largest.see(n, x.y, w.y);
                 let points = values.chunks_exact(m).zip(integrals.chunks_exact(m + 1));
@@ -190,15 +192,15 @@ impl Collocation<'_> {
 struct Largest {
     /// Relative to 1 + |y|, one a state.
     errors: Vec<f64>,
-    /// Value and error of every state at the last place.
-    last: Vec<[f64; 2]>,
+    /// Values of all states at the last place, then their errors.
+    last: Few,
 }
 
 impl Largest {
     fn new(n: usize) -> Self {
         Self {
             errors: vec![0.0; n],
-            last: vec![[0.0; 2]; n],
+            last: Few::zeros(2 * n),
         }
     }
 
@@ -207,10 +209,13 @@ impl Largest {
     #[inline(always)]
     fn see(&mut self, n: usize, y: &[f64], e: &[f64]) -> f64 {
         let mut largest = 0.0;
-        let states = self.errors[..n].iter_mut().zip(&mut self.last[..n]);
-        for ((all, last), (&y, &e)) in states.zip(y[..n].iter().zip(&e[..n])) {
+        let (values, errors) = self.last[..2 * n].split_at_mut(n);
+        let last = values.iter_mut().zip(errors);
+        let states = self.errors[..n].iter_mut().zip(last);
+        for ((all, (last, last_error)), (&y, &e)) in states.zip(y[..n].iter().zip(&e[..n])) {
             let mut error = relative(y, e);
-            let [before, error_before] = std::mem::replace(last, [y, e]);
+            let before = std::mem::replace(last, y);
+            let error_before = std::mem::replace(last_error, e);
             if before * y < 0.0 {
                 let share = before / (before - y);
                 let between = error_before + share * (e - error_before);

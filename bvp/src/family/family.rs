@@ -88,7 +88,7 @@ impl<'a> Family<'a> {
         let k = problem.parameters();
         let fixed = [&[parameter], held].concat();
         check_indices(&problem, &fixed)?;
-        check_guess_shape(&problem, guess)?;
+        check_guess_shape(&problem, guess, guess.mesh().as_ref())?;
         let mut p = vec![0.0; k];
         guess.parameters(&mut p);
         let first = solve_held(&Held::new(equations, &fixed, &p), guess, options)?;

@@ -2,6 +2,7 @@
 
 pub(crate) mod blocked;
 pub(crate) mod dense;
+pub(crate) mod few;
 pub(crate) mod householder;
 pub(crate) mod lq;
 pub(crate) mod lu;

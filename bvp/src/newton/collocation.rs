@@ -302,31 +302,35 @@ impl<'a> Collocation<'a> {
         self.stage_correction(zeros, t);
     }
 
-    /// The size of every condition's terms, Σ |∂g/∂z| |z|, from the last linearisation: the scale
-    /// below which its residual is rounding.
-    pub(crate) fn condition_scales(&mut self, x: &Iterate) -> Vec<f64> {
+    /// For every condition, from the last linearisation, the size of its terms, Σ |∂g/∂z| |z|, below which its
+    /// residual is rounding, and its unit.
+    pub(crate) fn condition_sizes(&mut self, x: &Iterate) -> impl Iterator<Item = (f64, f64)> {
         gather_ends(self.equations.segments(), x, &mut self.ends);
-        let columns = self.ends.len() + x.p.len();
-        let row_scale = |row: &[f64]| {
-            let unknowns = self.ends.iter().chain(&x.p);
-            row.iter().zip(unknowns).map(|(a, z)| (a * z).abs()).sum()
-        };
-        self.conditions_jacobian
-            .chunks_exact(columns)
-            .map(row_scale)
-            .collect()
+        let this = &*self;
+        let rows = this
+            .conditions_jacobian
+            .chunks_exact(this.ends.len() + x.p.len());
+        rows.map(|row| {
+            let unknowns = this.ends.iter().chain(&x.p);
+            let size = row.iter().zip(unknowns).map(|(a, z)| (a * z).abs()).sum();
+            (size, this.unit_of(row))
+        })
     }
 
-    /// The unit of every condition: one; or, if the states and parameters have units, the most that a change of
-    /// one of them by its unit changes it by, from the last linearisation.
+    /// The unit of every condition; see [`unit_of`](Self::unit_of).
     pub(crate) fn condition_units(&self) -> Vec<f64> {
-        if self.equations.units().is_none() {
-            return vec![1.0; self.equations.condition_count()];
-        }
         let columns = self.ends.len() + self.equations.parameters();
         let rows = self.conditions_jacobian.chunks_exact(columns);
-        rows.map(|row| row.iter().fold(0.0, |m: f64, a| m.max(a.abs())))
-            .collect()
+        rows.map(|row| self.unit_of(row)).collect()
+    }
+
+    /// The unit of a condition with this row in the Jacobian of the conditions: one; or, if the states and
+    /// parameters have units, the most that a change of one of them by its unit changes it by.
+    fn unit_of(&self, row: &[f64]) -> f64 {
+        match self.equations.units() {
+            None => 1.0,
+            Some(_) => row.iter().fold(0.0, |m: f64, a| m.max(a.abs())),
+        }
     }
 }
 

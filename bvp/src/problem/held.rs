@@ -5,6 +5,7 @@ use crate::problem::guess::Guess;
 use crate::problem::in_units::{InUnits, Units, divide};
 use crate::problem::pieces::Pieces;
 use crate::problem::problem::{Ends, Segment};
+use std::sync::Arc;
 
 /// Equations on the pieces of their segments, in units, with more conditions after their own: continuity
 /// where pieces meet, and pᵢ − value = 0 for each of some parameters that are held. Their shape is asked
@@ -12,7 +13,9 @@ use crate::problem::problem::{Ends, Segment};
 #[derive(Clone)]
 pub(crate) struct Held<'a> {
     equations: InUnits<'a>,
-    pieces: Pieces,
+    /// The equations as stated, where every segment is its own piece and there are no units.
+    as_stated: Option<&'a dyn Equations>,
+    pieces: Arc<Pieces>,
     parameters: usize,
     /// Number of conditions of the equations themselves.
     own: usize,
@@ -34,9 +37,11 @@ impl<'a> Held<'a> {
 
     fn with_values(equations: InUnits<'a>, values: Vec<(usize, f64)>) -> Self {
         let shape = equations.shape();
+        let pieces = Arc::new(Pieces::new(shape.segments));
         Self {
+            as_stated: as_stated(&equations, &pieces),
             equations,
-            pieces: Pieces::new(shape.segments),
+            pieces,
             parameters: shape.parameters,
             own: shape.conditions,
             values,
@@ -53,6 +58,7 @@ impl<'a> Held<'a> {
     pub(crate) fn in_units(&self, absolute: &[f64]) -> Self {
         let mut new = self.clone();
         new.equations = self.equations.with(absolute);
+        new.as_stated = as_stated(&new.equations, &new.pieces);
         for (index, value) in &mut new.values {
             *value *= self.equations.parameter_unit(*index);
             *value /= new.equations.parameter_unit(*index);
@@ -139,14 +145,6 @@ impl<'a> Held<'a> {
         })
     }
 
-    /// The equations as stated, where every segment is its own piece and there are no units.
-    #[inline(always)]
-    fn as_stated(&self) -> Option<&'a dyn Equations> {
-        self.equations
-            .as_stated()
-            .filter(|_| self.pieces.are_plain())
-    }
-
     /// The right-hand side of a piece.
     #[inline(never)]
     fn evaluate_piece(&self, piece: usize, t: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
@@ -191,7 +189,7 @@ impl Equations for Held<'_> {
 
     #[inline(always)]
     fn evaluate_rhs(&self, piece: usize, t: f64, y: &[f64], p: &[f64], dy: &mut [f64]) {
-        match self.as_stated() {
+        match self.as_stated {
             Some(equations) => equations.evaluate_rhs(piece, t, y, p, dy),
             None => self.evaluate_piece(piece, t, y, p, dy),
         }
@@ -207,7 +205,7 @@ impl Equations for Held<'_> {
         dy: &mut [f64],
         jacobian: &mut [f64],
     ) {
-        match self.as_stated() {
+        match self.as_stated {
             Some(equations) => equations.rhs_jacobian(piece, t, y, p, dy, jacobian),
             None => self.piece_jacobian(piece, t, y, p, dy, jacobian),
         }
@@ -255,6 +253,11 @@ impl Equations for Held<'_> {
             row[ends + index] = 1.0;
         }
     }
+}
+
+/// The equations as stated, where every segment is its own piece and there are no units.
+fn as_stated<'a>(equations: &InUnits<'a>, pieces: &Pieces) -> Option<&'a dyn Equations> {
+    equations.as_stated().filter(|_| pieces.are_plain())
 }
 
 /// Turns the sign where that is wanted.

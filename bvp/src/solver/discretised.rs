@@ -45,15 +45,10 @@ pub(crate) struct Discretised<'a> {
 }
 
 impl<'a> Discretised<'a> {
-    /// On a first mesh, by a call that began at `start`.
-    pub(crate) fn new(
-        equations: &'a Held<'a>,
-        options: &'a Options,
-        first: Mesh,
-        start: Instant,
-    ) -> Self {
+    /// Without a mesh yet, by a call that began at `start`.
+    pub(crate) fn new(equations: &'a Held<'a>, options: &'a Options, start: Instant) -> Self {
         let tableau = Tableau::of(options.scheme());
-        let collocation = Collocation::new(equations.clone(), tableau, first);
+        let collocation = Collocation::new(equations.clone(), tableau, vec![]);
         Self {
             equations,
             options,
@@ -121,18 +116,18 @@ impl<'a> Discretised<'a> {
         let mut conditions = vec![0.0; self.equations.condition_count()];
         self.collocation.conditions(x, &mut conditions)?;
         conditions.iter_mut().for_each(|r| *r = r.abs());
-        let scales = self.collocation.condition_scales(x);
-        let units = self.collocation.condition_units();
-        let scales = scales.iter().zip(units).map(|(s, unit)| s.max(unit));
-        let allowed = scales.map(|s| self.options.tolerance * s);
-        let all = conditions.iter().zip(allowed).enumerate();
-        let mut violations = all.filter_map(|(condition, (&residual, allowed))| {
-            (residual > allowed).then_some(Violation {
-                condition,
-                residual,
-                allowed,
-            })
-        });
+        let all = conditions.iter().enumerate();
+        let sizes = self.collocation.condition_sizes(x);
+        let mut violations = all
+            .zip(sizes)
+            .filter_map(|((condition, &residual), (size, unit))| {
+                let allowed = self.options.tolerance * size.max(unit);
+                (residual > allowed).then_some(Violation {
+                    condition,
+                    residual,
+                    allowed,
+                })
+            });
         let first = violations.next();
         Ok((conditions, first))
     }

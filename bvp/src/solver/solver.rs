@@ -59,7 +59,7 @@ pub(crate) fn solve_held(
         Control::Both | Control::Defect => mesh,
     };
     let run = Run {
-        problem: Discretised::new(equations, options, first.clone(), start),
+        problem: Discretised::new(equations, options, start),
         acceptance: Acceptance::new(),
         meshes: 0,
         missed: 0,

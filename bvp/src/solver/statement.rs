@@ -93,27 +93,31 @@ pub(crate) fn first_mesh(
         true => Err(Error::FirstMesh { intervals, limit }),
         false => Ok(()),
     };
-    let mesh = match guess.mesh() {
+    let stated = guess.mesh();
+    let mesh = match &stated {
         None => {
             // Before so many nodes are made.
             allow(options.initial_intervals.saturating_mul(segments.len()))?;
             equal_intervals(pieces, options.initial_intervals)
         }
         Some(mesh) => {
-            check_nodes(segments, &mesh)?;
-            pieces.divide(&mesh)
+            check_nodes(segments, mesh)?;
+            pieces.divide(mesh)
         }
     };
-    check_guess_shape(equations, guess)?;
+    check_guess_shape(equations, guess, stated.as_ref())?;
     allow(intervals(&mesh))?;
     Ok(mesh)
 }
 
-/// Checks that a guess has the states and parameters of a problem.
-pub(crate) fn check_guess_shape(equations: &Held<'_>, guess: &dyn Guess) -> Result<(), Error> {
-    let mesh = guess.mesh();
+/// Checks that a guess with this mesh has the states and parameters of a problem.
+pub(crate) fn check_guess_shape(
+    equations: &Held<'_>,
+    guess: &dyn Guess,
+    mesh: Option<&Mesh>,
+) -> Result<(), Error> {
     for (index, segment) in equations.pieces().stated().iter().enumerate() {
-        let nodes = mesh.as_ref().and_then(|mesh| mesh.get(index));
+        let nodes = mesh.and_then(|mesh| mesh.get(index));
         let needed = segment.states * nodes.map_or(1, Vec::len);
         let found = guess.state_values(index, segment).unwrap_or(needed);
         if found != needed {
