@@ -88,6 +88,12 @@ impl Along<'_> {
         let (y, buffers) = buffers.split_at_mut(n);
         let (f, slope) = buffers.split_at_mut(n);
         let (y, f, slope) = (&mut y[..n], &mut f[..n], &mut slope[..n]);
+        let (points, weights) = (
+            &t.defect_rule.points[..m + 1],
+            &t.defect_rule.weights[..m + 1],
+        );
+        let to_value = &t.defect_value[..(m + 1) * m];
+        let to_slope = &t.defect_slope[..(m + 1) * m];
         let samples = samples.chunks_exact_mut((m + 1) * n);
         let written = relative.iter_mut().zip(local).zip(samples);
         for (i, ((relative, local), samples)) in run.zip(written) {
@@ -95,10 +101,9 @@ impl Along<'_> {
             let interval = Interval::new(&x.segments[self.index], [m, n], i, ends);
             let (mut square, mut local_square) = (0.0, 0.0);
             for (q, sample) in samples.chunks_exact_mut(n).enumerate() {
-                let weight = t.defect_rule.weights[q];
-                let s = interval.place(t.defect_rule.points[q]);
-                interval.state(&t.defect_value[q * m..][..m], y);
-                interval.slope(&t.defect_slope[q * m..][..m], slope);
+                let (s, weight) = (interval.place(points[q]), weights[q]);
+                interval.state(&to_value[q * m..][..m], y);
+                interval.slope(&to_slope[q * m..][..m], slope);
                 f.fill(f64::NAN);
                 self.equations.evaluate_rhs(self.index, s, y, &x.p, f);
                 if let Some(component) = f.iter().position(|f| !f.is_finite()) {

@@ -3,6 +3,7 @@
 use crate::discretisation::mesh::Mesh;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::{add_product, add_scaled, max_or_nan};
+use crate::kernels::specialise::specialise;
 use crate::problem::guess::Guess;
 use crate::problem::problem::Segment;
 
@@ -38,6 +39,38 @@ pub(crate) fn resize(
     }
 }
 
+impl SegmentIterate {
+    /// Takes the polynomials with m stages that interpolate n states from zero slopes.
+    #[inline(always)]
+    fn interpolate(
+        &mut self,
+        [m, n]: [usize; 2],
+        nodes: &[f64],
+        t: &Tableau,
+        state: impl Fn(f64, &mut [f64]),
+    ) {
+        let mut values = vec![0.0; (m + 1) * n];
+        let values = &mut values[..(m + 1) * n];
+        let unknowns = self.nodes.chunks_exact_mut(n);
+        let unknowns = unknowns.zip(self.stages.chunks_exact_mut(m * n));
+        for (pair, (node, stages)) in nodes.windows(2).zip(unknowns) {
+            let h = pair[1] - pair[0];
+            for (value, theta) in values.chunks_exact_mut(n).zip(&t.guess_points) {
+                state(pair[0] + theta * h, value);
+            }
+            node.copy_from_slice(&values[..n]);
+            let stages = stages.chunks_exact_mut(n);
+            for (stage, slopes) in stages.zip(t.guess_slope.chunks_exact(m + 1)) {
+                for (value, slope) in values.chunks_exact(n).zip(slopes) {
+                    add_scaled(stage, slope / h, value);
+                }
+            }
+        }
+        let last = nodes.len() - 1;
+        state(nodes[last], &mut self.nodes[last * n..]);
+    }
+}
+
 impl Iterate {
     /// Makes room for the given segments, mesh, stages and k parameters.
     pub(crate) fn resize(&mut self, segments: &[Segment], mesh: &Mesh, stages: usize, k: usize) {
@@ -53,32 +86,15 @@ impl Iterate {
         k: usize,
         guess: &dyn Guess,
     ) -> Self {
-        let (m, points) = (t.stages, t.stages + 1);
+        let m = t.stages;
         let mut x = Self::default();
         x.resize(segments, mesh, m, k);
         guess.parameters(&mut x.p);
         let each = segments.iter().zip(mesh).zip(&mut x.segments);
         for (index, ((segment, nodes), unknowns)) in each.enumerate() {
             let n = segment.states;
-            let mut values = vec![0.0; points * n];
-            for (i, pair) in nodes.windows(2).enumerate() {
-                let h = pair[1] - pair[0];
-                for (value, theta) in values.chunks_exact_mut(n).zip(&t.guess_points) {
-                    guess.state(index, pair[0] + theta * h, value);
-                }
-                unknowns.nodes[i * n..][..n].copy_from_slice(&values[..n]);
-                let stages = &mut unknowns.stages[i * m * n..][..m * n];
-                for (stage, slopes) in stages
-                    .chunks_exact_mut(n)
-                    .zip(t.guess_slope.chunks_exact(points))
-                {
-                    for (value, slope) in values.chunks_exact(n).zip(slopes) {
-                        add_scaled(stage, slope / h, value);
-                    }
-                }
-            }
-            let last = nodes.len() - 1;
-            guess.state(index, nodes[last], &mut unknowns.nodes[last * n..]);
+            specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                unknowns.interpolate([m, n], nodes, t, |s, y| guess.state(index, s, y))));
         }
         x
     }
@@ -215,11 +231,9 @@ impl<'a> Interval<'a> {
         &self.stages[j * self.n..][..self.n]
     }
 
-    /// The state at stage j; returns its s.
-    #[inline(always)]
-    pub(crate) fn stage_state(&self, t: &Tableau, j: usize, y: &mut [f64]) -> f64 {
+    /// The state at stage j.
+    pub(crate) fn stage_state(&self, t: &Tableau, j: usize, y: &mut [f64]) {
         self.state(&t.a[j * self.m..][..self.m], y);
-        self.place(t.c[j])
     }
 
     /// Replaces f by r = Kⱼ − f; refuses an f that is not finite.

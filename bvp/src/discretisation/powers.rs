@@ -11,24 +11,22 @@ use crate::discretisation::tableau::Tableau;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Powers {
-    /// cₖ, m × n.
-    slope: Vec<f64>,
-    /// dₖ, (m + 1) × n.
-    state: Vec<f64>,
+    /// cₖ, m × n, and then dₖ, (m + 1) × n.
+    coefficients: Vec<f64>,
 }
 
 impl Powers {
     /// Makes room for m stages and n states.
     pub(crate) fn resize(&mut self, [m, n]: [usize; 2]) {
-        self.slope.resize(m * n, 0.0);
-        self.state.resize((m + 1) * n, 0.0);
+        self.coefficients.resize((2 * m + 1) * n, 0.0);
     }
 
     /// Finds the coefficients on an interval with m stages and n states.
     #[inline(always)]
     pub(crate) fn expand(&mut self, [m, n]: [usize; 2], t: &Tableau, interval: &Interval<'_>) {
-        let slopes = self.slope[..m * n].chunks_exact_mut(n);
-        let (start, states) = self.state[..(m + 1) * n].split_at_mut(n);
+        let (slopes, states) = self.coefficients[..(2 * m + 1) * n].split_at_mut(m * n);
+        let slopes = slopes.chunks_exact_mut(n);
+        let (start, states) = states.split_at_mut(n);
         start.copy_from_slice(interval.y);
         let (mut at_start, mut twice) = (-1.0, 2.0);
         let rows = t.powers_of_slope[..m * m].chunks_exact(m);
@@ -45,13 +43,13 @@ impl Powers {
     /// The states at u.
     #[inline(always)]
     pub(crate) fn state(&self, [m, n]: [usize; 2], u: f64, y: &mut [f64]) {
-        horner(&self.state[..(m + 1) * n], n, u, y);
+        horner(&self.coefficients[m * n..(2 * m + 1) * n], n, u, y);
     }
 
     /// Their slopes at u.
     #[inline(always)]
     pub(crate) fn slope(&self, [m, n]: [usize; 2], u: f64, slope: &mut [f64]) {
-        horner(&self.slope[..m * n], n, u, slope);
+        horner(&self.coefficients[..m * n], n, u, slope);
     }
 }
 

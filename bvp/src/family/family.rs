@@ -97,7 +97,7 @@ impl<'a> Family<'a> {
         let collocation = Collocation::new(
             held_equations,
             Arc::clone(&first.tableau),
-            problem.pieces().divide(&first.mesh),
+            problem.pieces().divide(first.mesh),
         );
         let layout = Layout::new(k, parameter, held);
         let family = Self::on(collocation, layout, options.clone(), first.stats);

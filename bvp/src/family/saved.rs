@@ -80,7 +80,7 @@ impl<'a> Family<'a> {
         check_indices(&problem, &[&[parameter], &indices[..]].concat())?;
         options.validate()?;
         check_nodes(problem.pieces().stated(), &mesh)?;
-        let mesh = problem.pieces().divide(&mesh);
+        let mesh = problem.pieces().divide(mesh);
         let mut p = vec![0.0; problem.parameters()];
         for (&index, value) in indices.iter().zip(values) {
             p[index] = value;

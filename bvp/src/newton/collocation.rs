@@ -57,8 +57,6 @@ pub(crate) struct Collocation<'a> {
     pub(crate) conditions_jacobian: Vec<f64>,
     /// States at all ends, in the order of [`Ends`].
     ends: Vec<f64>,
-    /// Conditions with the sign turned.
-    negative_conditions: Vec<f64>,
 }
 
 impl<'a> Collocation<'a> {
@@ -78,7 +76,6 @@ impl<'a> Collocation<'a> {
             mesh: vec![],
             conditions_jacobian: vec![0.0; conditions * (2 * states + k)],
             ends: vec![0.0; 2 * states],
-            negative_conditions: vec![0.0; conditions],
             equations,
             tableau,
         };
@@ -106,7 +103,7 @@ impl<'a> Collocation<'a> {
     pub(crate) fn resize_residual(&self, residual: &mut Residual) {
         let (segments, m) = (self.equations.segments(), self.tableau.stages);
         resize(&mut residual.equations, segments, &self.mesh, m);
-        let conditions = self.negative_conditions.len();
+        let conditions = self.equations.condition_count();
         residual.conditions.resize(conditions, 0.0);
     }
 
@@ -273,11 +270,7 @@ impl<'a> Collocation<'a> {
         for (stages, (r, correction)) in self.stages.iter().zip(segments) {
             stages.reduce(r, &mut correction.nodes);
         }
-        let conditions = self.negative_conditions.iter_mut();
-        for (negative, r) in conditions.zip(&residual.conditions) {
-            *negative = -r;
-        }
-        self.matrix.solve(correction, &self.negative_conditions);
+        self.matrix.solve(correction, &residual.conditions);
     }
 
     /// Its stages, once nodes and parameters are known.

@@ -4,6 +4,7 @@ use crate::discretisation::iterate::{Interval, Iterate, NonFinite, SegmentIterat
 use crate::discretisation::mesh::Mesh;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::all_finite;
+use crate::kernels::few::Few;
 use crate::kernels::parallel::Buffers;
 use crate::newton_matrix::derivative_states::ObservedRows;
 use crate::problem::equations::Equations;
@@ -15,7 +16,7 @@ use std::ops::Range;
 #[derive(Clone)]
 pub(crate) struct StageBuffers {
     /// One state.
-    y: Vec<f64>,
+    y: Few,
     /// What the last Jacobians have shown.
     pub(crate) observed: ObservedRows,
 }
@@ -24,7 +25,7 @@ impl StageBuffers {
     pub(crate) fn new(segment: &Segment) -> Self {
         let n = segment.states;
         Self {
-            y: vec![0.0; n],
+            y: Few::zeros(n),
             observed: ObservedRows::new(n),
         }
     }
@@ -84,19 +85,21 @@ impl<'a> SegmentAt<'a> {
         buffers: &mut StageBuffers,
     ) -> Result<(), NonFinite> {
         let t = self.tableau;
+        let (a, c) = (&t.a[..m * m], &t.c[..m]);
         let y = &mut buffers.y[..n];
         let residuals = stages
             .chunks_exact_mut(m * n)
             .zip(continuity.chunks_exact_mut(n));
-        for (i, (r, c)) in run.zip(residuals) {
+        for (i, (r, jump)) in run.zip(residuals) {
             let interval = self.interval([m, n], i);
             r.fill(f64::NAN);
             for (j, f) in r.chunks_exact_mut(n).enumerate() {
-                let s = interval.stage_state(t, j, y);
+                let s = interval.place(c[j]);
+                interval.state(&a[j * m..][..m], y);
                 self.equations.evaluate_rhs(self.index, s, y, self.p, f);
                 interval.stage_residual(j, f, self.index, s)?;
             }
-            interval.continuity(t, c);
+            interval.continuity(t, jump);
         }
         Ok(())
     }
@@ -113,13 +116,14 @@ impl<'a> SegmentAt<'a> {
         buffers: &mut StageBuffers,
     ) -> Result<(), NonFinite> {
         let (t, columns) = (self.tableau, n + k);
+        let (a, c) = (&t.a[..m * m], &t.c[..m]);
         let StageBuffers { y, observed } = buffers;
         let y = &mut y[..n];
         let residuals = stages
             .chunks_exact_mut(m * n)
             .zip(continuity.chunks_exact_mut(n))
             .zip(jacobians.chunks_exact_mut(m * n * columns));
-        for (i, ((r, c), jacobians)) in run.zip(residuals) {
+        for (i, ((r, jump), jacobians)) in run.zip(residuals) {
             let interval = self.interval([m, n], i);
             r.fill(f64::NAN);
             jacobians.fill(f64::NAN);
@@ -127,7 +131,8 @@ impl<'a> SegmentAt<'a> {
                 .chunks_exact_mut(n)
                 .zip(jacobians.chunks_exact_mut(n * columns));
             for (j, (f, jacobian)) in written.enumerate() {
-                let s = interval.stage_state(t, j, y);
+                let s = interval.place(c[j]);
+                interval.state(&a[j * m..][..m], y);
                 self.equations
                     .rhs_jacobian(self.index, s, y, self.p, f, jacobian);
                 interval.stage_residual(j, f, self.index, s)?;
@@ -135,12 +140,12 @@ impl<'a> SegmentAt<'a> {
             if let Some(row) = non_finite_row(jacobians, columns) {
                 return Err(NonFinite::Rhs {
                     segment: self.index,
-                    s: interval.place(t.c[row / n]),
+                    s: interval.place(c[row / n]),
                     component: row % n,
                 });
             }
             observed.observe(jacobians, n, columns);
-            interval.continuity(t, c);
+            interval.continuity(t, jump);
         }
         Ok(())
     }

@@ -4,3 +4,4 @@ pub(crate) mod collocation;
 pub(crate) mod evaluation;
 mod largest_correction;
 pub(crate) mod newton;
+pub(crate) mod norm;

@@ -8,9 +8,9 @@
 //! step that could have been longer is not repeated.
 
 use crate::discretisation::iterate::{Iterate, NonFinite, Residual};
-use crate::kernels::dense::max_or_nan;
 use crate::newton::collocation::{Collocation, LinearisationError};
 use crate::newton::largest_correction::most_corrected;
+use crate::newton::norm::{Norm, norm, norm_of_sum};
 use crate::newton_matrix::dependence::Dependence;
 use crate::newton_matrix::singular::Singular;
 use crate::problem::unknown::Unknown;
@@ -57,42 +57,6 @@ impl From<LinearisationError> for Failure {
             }
             LinearisationError::Singular(Singular::Ends) => Self::Ends(Dependence::default()),
         }
-    }
-}
-
-/// Size of a correction relative to 1 + |x|.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Norm {
-    /// Root mean square over nodes, states and parameters: what the damping compares.
-    mean: f64,
-    /// Largest entry: what the stopping test uses.
-    pub(crate) largest: f64,
-}
-
-/// Measures Σ factors · corrections relative to 1 + |x|.
-pub(crate) fn norm(x: &Iterate, corrections: &[(f64, &Iterate)]) -> Norm {
-    let (mut square, mut largest, mut count) = (0.0, 0.0f64, 0usize);
-    let mut add = |x: f64, delta: f64| {
-        let relative = delta / (1.0 + x.abs());
-        square += relative * relative;
-        largest = max_or_nan(largest, relative.abs());
-        count += 1;
-    };
-    for (index, segment) in x.segments.iter().enumerate() {
-        for (i, &value) in segment.nodes.iter().enumerate() {
-            let terms = corrections.iter();
-            add(
-                value,
-                terms.map(|(f, c)| f * c.segments[index].nodes[i]).sum(),
-            );
-        }
-    }
-    for (i, &value) in x.p.iter().enumerate() {
-        add(value, corrections.iter().map(|(f, c)| f * c.p[i]).sum());
-    }
-    Norm {
-        mean: (square / count as f64).sqrt(),
-        largest,
     }
 }
 
@@ -143,7 +107,7 @@ impl Newton {
     ) -> Result<(), Failure> {
         self.linearise(collocation, x, stats)?;
         let mut fresh = true;
-        let mut size = norm(x, &[(1.0, &self.delta)]);
+        let mut size = norm(x, &self.delta);
         let mut damping = 1.0;
         let rounding = (ROUNDING_FACTOR * tolerance).min(f64::EPSILON.sqrt());
         for _ in 0..max_steps {
@@ -166,7 +130,7 @@ impl Newton {
                 Err(_) if !fresh => {
                     // The kept Jacobian is too old: take a new one at the same point.
                     self.linearise(collocation, x, stats)?;
-                    size = norm(x, &[(1.0, &self.delta)]);
+                    size = norm(x, &self.delta);
                     fresh = true;
                     continue;
                 }
@@ -190,13 +154,13 @@ impl Newton {
                 continue;
             }
             self.linearise(collocation, x, stats)?;
-            let next = norm(x, &[(1.0, &self.delta)]);
+            let next = norm(x, &self.delta);
             let negligible = next.largest <= rounding;
             if negligible && next.mean > KEEP_JACOBIAN_BELOW * size.mean {
                 return Ok(());
             }
             // Prediction of the damping from the curvature seen over the last step.
-            let bent = norm(x, &[(1.0, &self.simplified), (-1.0, &self.delta)]);
+            let bent = norm_of_sum(x, &self.simplified, -1.0, &self.delta);
             let curvature = bent.mean * next.mean;
             damping = if curvature > 0.0 {
                 (damping * size.mean * shrunk.mean / curvature).clamp(SMALLEST_DAMPING, 1.0)
@@ -228,7 +192,7 @@ impl Newton {
     ) -> Result<f64, Failure> {
         self.factor(collocation, x, stats)?;
         collocation.node_correction(&self.residual, &mut self.delta);
-        Ok(norm(x, &[(1.0, &self.delta)]).largest)
+        Ok(norm(x, &self.delta).largest)
     }
 
     /// The global errors of the solution `x` by the last linearisation; see
@@ -337,12 +301,12 @@ impl Newton {
                 Err(_) => 0.25 * *damping,
                 Ok(()) => {
                     collocation.node_correction(&self.residual, &mut self.simplified);
-                    let shrunk = norm(x, &[(1.0, &self.simplified)]);
+                    let shrunk = norm(x, &self.simplified);
                     if shrunk.mean <= (1.0 - 0.25 * *damping) * size.mean {
                         return Ok(shrunk);
                     }
                     let linear = -(1.0 - *damping);
-                    let bent = norm(x, &[(1.0, &self.simplified), (linear, &self.delta)]);
+                    let bent = norm_of_sum(x, &self.simplified, linear, &self.delta);
                     let curvature = 0.5 * size.mean * *damping * *damping / bent.mean;
                     // NaN, where the correction overflowed, takes the fixed reduction.
                     if curvature < 0.5 * *damping {
@@ -356,45 +320,6 @@ impl Newton {
                 return Err(self.no_convergence(collocation, x, size));
             }
             *damping = shorter;
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::discretisation::iterate::SegmentIterate;
-
-    fn iterate(nodes: &[f64], p: &[f64]) -> Iterate {
-        Iterate {
-            segments: vec![SegmentIterate {
-                nodes: nodes.to_vec(),
-                stages: vec![],
-            }],
-            p: p.to_vec(),
-        }
-    }
-
-    #[test]
-    fn a_norm_is_relative_and_counts_parameters() {
-        let x = iterate(&[0.0, 3.0], &[-1.0]);
-        let size = norm(&x, &[(1.0, &iterate(&[1.0, 4.0], &[6.0]))]);
-        assert_eq!(size.largest, 3.0);
-        assert_eq!(size.mean, (11.0f64 / 3.0).sqrt());
-        let minus = iterate(&[0.5, 2.0], &[3.0]);
-        let none = norm(&x, &[(1.0, &iterate(&[1.0, 4.0], &[6.0])), (-2.0, &minus)]);
-        assert_eq!((none.mean, none.largest), (0.0, 0.0));
-    }
-
-    #[test]
-    fn a_norm_keeps_nan_wherever_it_stands() {
-        let x = iterate(&[0.0, 0.0], &[0.0]);
-        for place in 0..3 {
-            let mut values = [1.0; 3];
-            values[place] = f64::NAN;
-            let correction = iterate(&values[..2], &values[2..]);
-            let size = norm(&x, &[(1.0, &correction)]);
-            assert!(size.mean.is_nan() && size.largest.is_nan());
         }
     }
 }

@@ -114,6 +114,7 @@ impl Transitions {
     fn eliminate_nodes(&mut self, n: usize, k: usize) -> Result<(), usize> {
         let width = 3 * n + k;
         let block_size = n * (n + k);
+        let work = &mut self.work[..2 * n * width];
         // The first interval: −Γ₀ δy₀ + δy₁ − P₀ δp = g₀.
         for i in 0..n {
             let row = &mut self.reduced[i * (2 * n + k)..][..2 * n + k];
@@ -131,7 +132,7 @@ impl Transitions {
             .zip(self.blocks.chunks_exact(block_size).skip(1));
         for (interior, (((panel, tau), coupling), block)) in nodes.enumerate() {
             // Columns of the work rows: δyᵢ, δyᵢ₊₁, δy₀, δp.
-            let (top, bottom) = self.work.split_at_mut(n * width);
+            let (top, bottom) = work.split_at_mut(n * width);
             for (i, row) in top.chunks_exact_mut(width).enumerate() {
                 let reduced = &self.reduced[i * (2 * n + k)..][..2 * n + k];
                 row[..n].copy_from_slice(&reduced[n..2 * n]);
@@ -147,14 +148,14 @@ impl Transitions {
                 add_scaled(&mut row[3 * n..], -1.0, &row_of_block[n..]);
             }
             match &mut self.reflections {
-                Some(reflections) => reflections.eliminate(&mut self.work, width, tau),
-                None => eliminate(&mut self.work, width, tau, &mut self.row),
+                Some(reflections) => reflections.eliminate(work, width, tau),
+                None => eliminate(work, width, tau, &mut self.row[..width]),
             }
             .ok_or(interior + 1)?;
-            for (panel, row) in panel.chunks_exact_mut(n).zip(self.work.chunks_exact(width)) {
+            for (panel, row) in panel.chunks_exact_mut(n).zip(work.chunks_exact(width)) {
                 panel.copy_from_slice(&row[..n]);
             }
-            let (top, bottom) = self.work.split_at(n * width);
+            let (top, bottom) = work.split_at(n * width);
             for (coupling, row) in coupling
                 .chunks_exact_mut(2 * n + k)
                 .zip(top.chunks_exact(width))
@@ -190,6 +191,7 @@ impl Transitions {
     /// [`forward`](Self::forward) for values of n that the compiler may know.
     #[inline(always)]
     fn forward_nodes(&mut self, n: usize, nodes: &mut [f64], reduced: &mut [f64]) {
+        let (reduced, stacked) = (&mut reduced[..n], &mut self.row[..2 * n]);
         reduced.copy_from_slice(&nodes[n..2 * n]);
         let factors = self
             .panels
@@ -197,7 +199,6 @@ impl Transitions {
             .zip(self.tau.chunks_exact(n));
         for (i, (panel, tau)) in factors.enumerate() {
             let node = i + 1;
-            let stacked = &mut self.row[..2 * n];
             stacked[..n].copy_from_slice(reduced);
             stacked[n..].copy_from_slice(&nodes[(node + 1) * n..][..n]);
             for (j, tau) in tau.iter().enumerate() {
@@ -338,13 +339,16 @@ impl AlmostBlockDiagonal {
         conditions_rows.copy_from_slice(conditions);
         let mut column = 0;
         for of_segment in &self.transitions {
-            for _end in 0..2 {
+            let n = of_segment.n;
+            if of_segment.balanced {
                 for row in conditions_rows.chunks_exact_mut(size) {
-                    let of_end = row[column..].iter_mut().zip(&of_segment.units);
-                    of_end.for_each(|(x, unit)| *x *= unit);
+                    for of_end in row[column..column + 2 * n].chunks_exact_mut(n) {
+                        let each = of_end.iter_mut().zip(&of_segment.units);
+                        each.for_each(|(x, unit)| *x *= unit);
+                    }
                 }
-                column += of_segment.n;
             }
+            column += 2 * n;
         }
         self.ends.factor()
     }
@@ -357,8 +361,8 @@ impl AlmostBlockDiagonal {
     }
 
     /// Solves with the factored matrix. On entry the slot of node i + 1 of `x` holds gᵢ and
-    /// `conditions` the right-hand sides of the conditions; on return `x` holds all δy and δp.
-    pub(crate) fn solve(&mut self, x: &mut Iterate, conditions: &[f64]) {
+    /// `r` the residuals of the conditions; on return `x` holds all δy and δp.
+    pub(crate) fn solve(&mut self, x: &mut Iterate, r: &[f64]) {
         let mut row = 0;
         for (transitions, segment) in self.transitions.iter_mut().zip(&mut x.segments) {
             transitions.forward(
@@ -367,7 +371,9 @@ impl AlmostBlockDiagonal {
             );
             row += transitions.n;
         }
-        self.unknowns[row..row + conditions.len()].copy_from_slice(conditions);
+        for (unknown, r) in self.unknowns[row..].iter_mut().zip(r) {
+            *unknown = -r;
+        }
         self.ends.solve(&mut self.unknowns);
         self.backward(x);
     }

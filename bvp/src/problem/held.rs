@@ -289,6 +289,6 @@ impl Guess for Divided<'_> {
 
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {
         let mesh = self.guess.mesh()?;
-        Some(self.equations.pieces.divide(&mesh))
+        Some(self.equations.pieces.divide(mesh))
     }
 }

@@ -42,22 +42,21 @@ impl Pieces {
             let reversed = shape.is_reversed();
             let sign = sign(reversed);
             let inner = shape.joined.iter().copied();
-            let points = [shape.from].into_iter().chain(inner).chain([shape.to]);
-            let points: Vec<f64> = points.map(|s| sign * s).collect();
-            let last = points.len() - 2;
-            for (i, pair) in points.windows(2).enumerate() {
-                pieces.push(Segment::on(shape.states, pair[0], pair[1]));
-                let from = if i > 0 { pair[0].next_up() } else { pair[0] };
-                let to = if i < last {
-                    pair[1].next_down()
-                } else {
-                    pair[1]
-                };
+            let last = shape.joined.len();
+            let mut from = sign * shape.from;
+            for (i, to) in inner.chain([shape.to]).enumerate() {
+                let to = sign * to;
+                pieces.push(Segment::on(shape.states, from, to));
+                let inside = [
+                    if i > 0 { from.next_up() } else { from },
+                    if i < last { to.next_down() } else { to },
+                ];
                 origins.push(Origin {
                     segment,
                     reversed,
-                    inside: [from, to],
+                    inside,
                 });
+                from = to;
             }
         }
         let plain = pieces == stated;
@@ -116,7 +115,10 @@ impl Pieces {
     }
 
     /// The mesh of the pieces that has the nodes of a mesh of the segments, and the joined points.
-    pub(crate) fn divide(&self, mesh: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    pub(crate) fn divide(&self, mesh: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+        if self.plain {
+            return mesh;
+        }
         let nodes = |(piece, origin): (&Segment, &Origin)| {
             let sign = sign(origin.reversed);
             let all = mesh[origin.segment].iter().map(|s| sign * s);
@@ -150,7 +152,7 @@ mod tests {
         let (_, before, _) = pieces.place(1, -1.0);
         let (_, behind, _) = pieces.place(2, -1.0);
         assert!(before > 1.0 && behind < 1.0 && before - behind < 1e-15);
-        let mesh = pieces.divide(&[vec![0.0, 0.5, 1.0], vec![3.0, 2.0, 1.0, -0.5, -1.0]]);
+        let mesh = pieces.divide(vec![vec![0.0, 0.5, 1.0], vec![3.0, 2.0, 1.0, -0.5, -1.0]]);
         assert_eq!(
             mesh,
             [

@@ -135,7 +135,10 @@ fn change_units(equations: &Held<'_>, x: &mut Iterate, change: fn(&mut [f64], &[
 /// The unknowns of the pieces of a solution of the segments of equations whose mesh has the joined points.
 pub(crate) fn divided(equations: &Held<'_>, solution: &Solution) -> Iterate {
     let pieces = equations.pieces();
-    let (m, mesh) = (solution.tableau.stages, pieces.divide(&solution.mesh));
+    let (m, mesh) = (
+        solution.tableau.stages,
+        pieces.divide(solution.mesh.clone()),
+    );
     let mut first = vec![0; pieces.stated().len()];
     let each = mesh.iter().enumerate().map(|(piece, nodes)| {
         let (segment, sign) = pieces.origin(piece);

@@ -94,18 +94,16 @@ pub(crate) fn first_mesh(
         false => Ok(()),
     };
     let stated = guess.mesh();
-    let mesh = match &stated {
-        None => {
-            // Before so many nodes are made.
-            allow(options.initial_intervals.saturating_mul(segments.len()))?;
-            equal_intervals(pieces, options.initial_intervals)
-        }
-        Some(mesh) => {
-            check_nodes(segments, mesh)?;
-            pieces.divide(mesh)
-        }
-    };
+    match &stated {
+        // Before so many nodes are made.
+        None => allow(options.initial_intervals.saturating_mul(segments.len()))?,
+        Some(mesh) => check_nodes(segments, mesh)?,
+    }
     check_guess_shape(equations, guess, stated.as_ref())?;
+    let mesh = match stated {
+        None => equal_intervals(pieces, options.initial_intervals),
+        Some(mesh) => pieces.divide(mesh),
+    };
     allow(intervals(&mesh))?;
     Ok(mesh)
 }

@@ -66,7 +66,8 @@ impl Linear {
             segments: self.sizes.iter().zip(&self.loads).map(segment).collect(),
             p: vec![0.0; self.k],
         };
-        matrix.solve(&mut x, &self.values);
+        let residuals: Vec<f64> = self.values.iter().map(|value| -value).collect();
+        matrix.solve(&mut x, &residuals);
         let nodes = x.segments.into_iter().map(|s| s.nodes);
         Ok(nodes.chain([x.p]).flatten().collect())
     }
