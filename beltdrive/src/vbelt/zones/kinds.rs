@@ -55,13 +55,17 @@ pub(super) fn cut_at_turn(
     }
 }
 
-/// The zones that were cut at the turn with that in two in which the belt breaks away in front of it.
+/// The zones that were cut at the turn with that in two in which the belt breaks away in front of it, unless the
+/// belt sticks: then it does so at the end of that.
 pub(super) fn cut_at_breakaway(
     zones: Vec<Zone>,
     samples: &[Sample],
     length: f64,
     sense: f64,
 ) -> Vec<Zone> {
+    if zones.iter().any(|zone| zone.regime == Regime::Stick) {
+        return zones;
+    }
     let Some(turn) = zones.windows(2).rfind(|pair| is_cut(pair)) else {
         return zones;
     };

@@ -8,15 +8,20 @@
 //! and the mesh follows the turn.
 
 mod kinds;
+mod places;
 mod samples;
 
 use super::path::Solved;
 use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
 use kinds::{Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, one_zone, without_kinks};
+use places::{ends, keep_junctions, locate};
 use samples::{CLEAR_TURN, Sample, samples};
 
 /// Nodes nearer than this to each other or to the ends of a zone, in its length, are left out.
 const NODE_MARGIN: f64 = 1e-4;
+
+/// How far inside a zone, in its length, the states at its ends are taken: more than the rounding of a place.
+const INSIDE: f64 = 1e-13;
 
 /// Where a belt that sticks is taken to break loose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,7 +89,8 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
         self.pulleys == other.pulleys
     }
 
-    fn regimes(&self) -> Vec<Vec<Regime>> {
+    /// The kinds of friction along every pulley.
+    pub(super) fn regimes(&self) -> Vec<Vec<Regime>> {
         let regimes = |zones: &Vec<Zone>| zones.iter().map(|zone| zone.regime).collect();
         self.pulleys.iter().map(regimes).collect()
     }
@@ -99,16 +105,11 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
     fn is_in_place(&self, pulley: usize) -> bool {
         let (problem, p) = (&self.solved.problem, self.solved.solution.parameters());
         let near = ELSEWHERE * problem.contact_length(pulley, p);
-        let begins = problem.zones(pulley).scan(0.0, |from, segment| {
-            let begin = *from;
-            *from += problem.length(segment, p);
-            Some(begin)
-        });
-        let zones = &self.pulleys[pulley];
-        let pairs = zones.windows(2).zip(begins.skip(1));
+        let pairs = self.pulleys[pulley].windows(2);
         pairs
+            .zip(ends(self.solved, pulley))
             .filter(|(pair, _)| is_cut(pair))
-            .all(|(pair, begin)| (pair[1].from - begin).abs() <= near)
+            .all(|(pair, end)| (pair[1].from - end).abs() <= near)
     }
 
     /// A problem with these zones as segments.
@@ -162,34 +163,17 @@ fn cut<P: BeltProblem>(
         (true, _) => without_kinks(friction_zones(&samples, length)),
         (false, _) => one_zone(length),
     };
-    let zones = match groove.law {
+    let mut zones = match groove.law {
         Law::Normalised { .. } => zones,
         // Where the direction is not led yet the belt breaks away elsewhere.
-        Law::Sliding {
-            lead,
-            elastic: None,
-            ..
-        } if lead > 0.0 => {
+        Law::Sliding { lead, .. } if lead > 0.0 => {
             let zones = cut_at_turn(zones, &samples, length, CLEAR_TURN);
             cut_at_breakaway(zones, &samples, length, problem.sense(pulley))
         }
         _ => cut_at_turn(zones, &samples, length, 0.0),
     };
+    keep_junctions(&mut zones, (solved, pulley), ELSEWHERE * length);
     (samples, zones)
-}
-
-/// The segment of a solution with a place on a pulley (scaled arc length from the entry), and s
-/// there.
-fn locate<P: BeltProblem>(solved: &Solved<P>, pulley: usize, place: f64) -> (usize, f64) {
-    let (problem, p) = (&solved.problem, solved.solution.parameters());
-    let length = |segment| problem.length(segment, p);
-    let segments = problem.zones(pulley);
-    let (mut segment, mut before) = (segments.start, 0.0);
-    while segment + 1 < segments.end && place > before + length(segment) {
-        before += length(segment);
-        segment += 1;
-    }
-    (segment, (place - before) / length(segment))
 }
 
 /// The kinds of friction along one pulley with the swept angles where they begin and end.
@@ -218,7 +202,8 @@ impl<P: BeltProblem> bvp::Guess for Cut<'_, P> {
     fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
         let zone = self.zones().nth(segment);
         let (pulley, Zone { from, to, .. }) = zone.expect("a segment for every zone");
-        let place = from + s * (to - from);
+        // States may jump at its ends.
+        let place = from + s.clamp(INSIDE, 1.0 - INSIDE) * (to - from);
         let Solved { problem, solution } = self.solved;
         let (known, s) = locate(self.solved, pulley, place);
         let mut states = [0.0; MAX_STATES];

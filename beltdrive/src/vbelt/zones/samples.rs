@@ -54,8 +54,8 @@ pub(super) fn samples<P: BeltProblem>(
     let mut before = 0.0;
     for segment in problem.zones(pulley) {
         let length = problem.length(segment, p);
-        // The belt sticks nowhere any more.
-        if problem.regime(segment) == Regime::Stick && length <= 0.0 {
+        // A zone that has vanished.
+        if length <= 0.0 {
             continue;
         }
         let mut y = [0.0; MAX_STATES];
