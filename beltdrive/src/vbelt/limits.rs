@@ -4,7 +4,6 @@ use super::path::{Path, Solved};
 use super::solve::{carried, find, forwards, is_crossed};
 use super::state::describe;
 use super::tracer::{Tracer, Until};
-use super::watched::RATIOS;
 use crate::input::Key;
 use crate::results::possible;
 use crate::{
@@ -21,6 +20,8 @@ const EASIER: [f64; 6] = [0.8, 0.6, 0.4, 0.25, 0.15, 0.08];
 /// Multiples of the slack tension at which a branch begins whose own load is less than the last of them: nearer to
 /// no load the belt hardly slips, and states are hard to find and to follow.
 const HEAVIER: [f64; 3] = [2.0, 1.5, 1.2];
+/// Below this multiple of the slack tension a branch is left to the state without load.
+const LIGHT: f64 = 3.0;
 /// An upper end is sought up to this multiple of the value in the drive, and from there again.
 const STRETCH: f64 = 64.0;
 /// The most such stretches.
@@ -46,9 +47,8 @@ pub(crate) fn limits(
     let mut up = upwards(&drive, key, tolerance, solved.clone(), high, progress);
     let largest = up.limit()?;
     let is_load = *key == Key::load(&drive);
-    // Below that the branch is left to the state without load.
     let bottom = if is_load && !matches!(drive.law, crate::FrictionLaw::Bristle { .. }) {
-        (RATIOS[0] * drive.load.slack.value()).min(value)
+        (LIGHT * drive.load.slack.value()).min(value)
     } else {
         low
     };

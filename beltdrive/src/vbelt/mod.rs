@@ -28,6 +28,7 @@ mod limit_curve;
 mod limits;
 mod model;
 mod on_pulley;
+mod other_zones;
 mod path;
 mod piece;
 mod scaling;

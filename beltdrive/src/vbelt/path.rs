@@ -160,8 +160,6 @@ pub(super) struct Path<'a, D = Drive> {
     pub(super) stats: Stats,
     /// Number of problems solved or tried.
     pub(super) problems: usize,
-    /// Whether EPP friction is sought with its direction as a state; along branches of it that is normalised.
-    pub(super) epp_has_direction: bool,
     /// Relative effect of the last ℓ or ε on the constants of the drive.
     pub(super) smoothing_effect: f64,
 }
@@ -174,15 +172,6 @@ impl<'a, D> Path<'a, D> {
             stats: Stats::default(),
             problems: 0,
             smoothing_effect: 0.0,
-            epp_has_direction: false,
-        }
-    }
-
-    /// The search for a state with the direction of EPP friction as a state, too.
-    pub(super) fn with_direction(self) -> Self {
-        Self {
-            epp_has_direction: true,
-            ..self
         }
     }
 

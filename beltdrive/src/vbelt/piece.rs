@@ -6,7 +6,7 @@ use super::family::{DriveFamily, Entry};
 use super::path::{Effort, Path, Solved};
 use super::state::describe;
 use super::tracer::{Tracer, Until};
-use super::watched::{FIRST_ZONE, RATIO, RATIOS};
+use super::watched::FIRST_ZONE;
 use super::zones::Cut;
 use super::{BeltProblem, DriveProblem, Law};
 use crate::results::difficulty;
@@ -14,13 +14,12 @@ use crate::{BranchEnd, Drive, EventKind, Pulley};
 use bvp::{Control, Family, Scheme};
 use continuation::{Branch, Direction, Kind, Options, Point};
 
-/// ℓ/R, and ε where the direction is normalised, where the tight tension is less than the first of [`RATIOS`] times
-/// the slack one, less than the second, and beyond. With ℓ/R = 1e-10 everywhere branches near no load took three
-/// times as many steps; with 1e-8 everywhere limits were off by up to 3e-7.
-const LAGS: [f64; 3] = [1e-8, 1e-9, 1e-10];
-const EPSILONS: [f64; 3] = [1e-5, 1e-6, 1e-7];
-/// A share of the range that is no way.
-const AHEAD: f64 = 1e-6;
+/// ℓ/R where the belt hardly slips somewhere, and where it slips everywhere. With 1e-10 in the first case rounding
+/// errors of the slip asked for up to 3000 mesh intervals; with 1e-8 in the second limits were off by up to 3e-7.
+const LAGS: [f64; 2] = [1e-8, 1e-10];
+/// ε where the direction is normalised. Places at which the belt breaks loose move with the load the more abruptly
+/// the smaller it is.
+const EPSILON: f64 = 1e-6;
 /// Labelled points are located once more with ℓ or ε multiplied by this.
 pub(super) const FINER: f64 = 0.25;
 /// The effect of ℓ or ε from its change when that is multiplied by [`FINER`]: it vanishes at least as fast.
@@ -35,7 +34,8 @@ const LARGEST_STEP: f64 = 0.15;
 
 /// The first step of a piece.
 const FIRST_STEP: f64 = 0.05;
-/// Where the driven speed may have fallen below this share of that of the driver within a step, ...
+/// Where the driven speed may have fallen below this share of that of the driver within a step, or zones have changed
+/// on the way to a labelled point, ...
 const MARGIN: f64 = 0.05;
 /// ... the step is taken again with steps and margin divided by this, ...
 const REFINEMENT: f64 = 4.0;
@@ -57,6 +57,15 @@ pub(super) enum PieceEnd {
         value: f64,
         direction: Direction,
     },
+}
+
+/// ℓ/R or ε along a piece with the zones of a problem.
+fn smoothing(problem: &DriveProblem) -> f64 {
+    match problem.law() {
+        Law::Sliding { .. } => LAGS[usize::from(!problem.is_locked())],
+        Law::Normalised { .. } => EPSILON,
+        Law::Bristle { .. } => 0.0,
+    }
 }
 
 /// How the members of the family of a problem are discretised.
@@ -88,17 +97,6 @@ pub(super) fn steps(tolerance: f64, problem: &DriveProblem, [low, high]: [f64; 2
 }
 
 impl Tracer<'_> {
-    /// ℓ/R or ε of a problem at the load of a drive.
-    fn smoothing(drive: &Drive, problem: &DriveProblem) -> f64 {
-        let ratio = drive.load.tight.value() / drive.load.slack.value();
-        let range = RATIOS.iter().filter(|&&change| ratio >= change).count();
-        match problem.law() {
-            Law::Sliding { .. } => LAGS[range],
-            Law::Normalised { .. } => EPSILONS[range],
-            Law::Bristle { .. } => 0.0,
-        }
-    }
-
     /// Follows the branch as long as its friction zones stay the same.
     pub(super) fn piece(
         &mut self,
@@ -113,13 +111,7 @@ impl Tracer<'_> {
         };
         let unit = self.unit();
         let drive = self.drive_at(value);
-        // A piece may begin where ℓ or ε changes: what counts is what lies ahead.
-        let ahead = match direction {
-            Direction::Increasing => AHEAD,
-            Direction::Decreasing => -AHEAD,
-        };
-        let drive_ahead = self.drive_at(value + ahead * unit);
-        let smoothing = Self::smoothing(&drive_ahead, &solved.problem);
+        let smoothing = smoothing(&solved.problem);
         let mut path = Path::new(&drive, self.tolerance);
         let solved = match path.smooth_less(solved.clone(), smoothing, Effort::Full) {
             Ok(solved) => solved,
@@ -168,11 +160,19 @@ impl Tracer<'_> {
         let mut branch = self.with_events(branch, &solved, first);
         let mut last = bvp::Stats::default();
         let mut before: Option<(Point, Solved)> = None;
+        // The ends of a zone may move at a load that does not change.
+        let mut ahead = direction;
         let driven_speed = |point: &Point| {
             let of = |vector| family.own(vector)[DriveProblem::DRIVEN_SPEED];
             [of(&point.z), of(&point.tangent), point.arclength]
         };
-        while let Some(point) = branch.next() {
+        while let Some(mut point) = branch.next() {
+            if !family.moves_cuts_only(&point.tangent) {
+                ahead = onward(&point);
+            } else if point.kind == Kind::LimitPoint {
+                // Not of the load, but of the way of a cut.
+                point.kind = Kind::Regular;
+            }
             let solution = branch.system().family.solution(&point.z);
             last = *solution.stats();
             let here = Solved {
@@ -181,10 +181,11 @@ impl Tracer<'_> {
             };
             if let Some((passed, solved)) = &before
                 && self.refinements < MAX_REFINEMENTS
-                && lowest_between(driven_speed(passed), driven_speed(&point))
-                    < MARGIN / REFINEMENT.powi(self.refinements)
+                && (self.has_other_zones(&point, &here)
+                    || lowest_between(driven_speed(passed), driven_speed(&point))
+                        < MARGIN / REFINEMENT.powi(self.refinements))
             {
-                // The driven pulley may have stood still in between: once more, in shorter steps.
+                // What happens in between is not what is seen: once more, in shorter steps.
                 self.convergence.count(&last);
                 self.refinements += 1;
                 self.before += passed.arclength;
@@ -195,16 +196,6 @@ impl Tracer<'_> {
                 };
             }
             let effect = branch.system().smoothing_effect(&point.z);
-            let ahead = match point.kind {
-                // A step may have passed the place where a zone appears: its state is none, but a guess.
-                Kind::Regular => Some(onward(&point)),
-                // Not of the load, but of the way of a cut.
-                Kind::LimitPoint if family.moves_cuts_only(&point.tangent) => {
-                    let before = before.as_ref().map(|(point, _)| onward(point));
-                    Some(before.unwrap_or(direction))
-                }
-                _ => None,
-            };
             let outcome = self.take(&point, &here, effect, ahead);
             progress(self.share(self.value(point.lambda())), "tracing");
             if let Some(end) = outcome {
@@ -217,15 +208,14 @@ impl Tracer<'_> {
         PieceEnd::Branch(self.end(branch.into_stop()))
     }
 
-    /// Takes in a point of the branch with its solution, the relative effect of ℓ or ε on it and, if it counts only
-    /// as long as the zones are the same, the direction in which the branch goes on. Returns an end if the piece
-    /// ends there.
+    /// Takes in a point of the branch with its solution, the relative effect of ℓ or ε on it, and the
+    /// direction in which the branch goes on. Returns an end if the piece ends there.
     fn take(
         &mut self,
         point: &Point,
         here: &Solved,
         effect: Option<f64>,
-        ahead: Option<Direction>,
+        ahead: Direction,
     ) -> Option<PieceEnd> {
         let drive = self.drive_at(self.value(point.lambda()));
         self.convergence.continuation_steps += 1;
@@ -235,22 +225,17 @@ impl Tracer<'_> {
         if here.driven_speed() < 0.0 && kind != Some(EventKind::GrossSlip(Pulley::Driven)) {
             return None;
         }
-        if let Some(direction) = ahead
-            && here.problem.has_junctions()
-            && !Cut::of(here).is_kept()
-        {
-            return Some(self.next_piece(point, here.clone(), &drive, direction));
+        // A step may have passed the place where a zone appears: its state is none, but a guess.
+        let is_guess = point.kind == Kind::Regular;
+        if is_guess && here.problem.has_junctions() && !self.is_kept(here) {
+            return Some(self.next_piece(point, here, &drive, ahead));
         }
-        let restart = match point.kind {
-            Kind::Event(RATIO) => point.arclength > AHEAD,
-            Kind::Event(index) => index >= FIRST_ZONE,
-            _ => false,
-        };
+        let restart = matches!(point.kind, Kind::Event(index) if index >= FIRST_ZONE);
         if let Err(error) = state.verified() {
             let cause = error.to_string();
             return Some(match restart {
                 // The next piece begins with a state that is solved anew, and checked.
-                true => self.next_piece(point, here.clone(), &drive, onward(point)),
+                true => self.next_piece(point, here, &drive, ahead),
                 false => PieceEnd::Branch(BranchEnd::NotConverged { cause }),
             });
         }
@@ -268,21 +253,40 @@ impl Tracer<'_> {
         };
         match end {
             Some(end) => Some(PieceEnd::Branch(end)),
-            None => restart.then(|| self.next_piece(point, here.clone(), &drive, onward(point))),
+            None => restart.then(|| self.next_piece(point, here, &drive, ahead)),
         }
+    }
+
+    /// Whether the zones of a state are its segments, but for cuts that Newton's method refused.
+    fn is_kept(&self, here: &Solved) -> bool {
+        let cut = Cut::of(here);
+        cut.is_kept() || self.refused.as_ref() == Some(&cut.regimes())
+    }
+
+    /// Whether a point at which something happens that is no change of zones is found with zones that have changed
+    /// on the way to it.
+    fn has_other_zones(&self, point: &Point, here: &Solved) -> bool {
+        let happens = match point.kind {
+            Kind::LimitPoint => true,
+            Kind::Event(index) => index < FIRST_ZONE,
+            _ => false,
+        };
+        happens && here.problem.has_junctions() && !self.is_kept(here)
     }
 
     /// The next piece, from a point whose state is cut anew into zones.
     fn next_piece(
         &mut self,
         point: &Point,
-        here: Solved,
+        here: &Solved,
         drive: &Drive,
         direction: Direction,
     ) -> PieceEnd {
-        let mut path = Path::new(drive, self.tolerance);
-        match path.keep_zones(here, Effort::Full) {
+        match Path::new(drive, self.tolerance).with_other_zones(here) {
             Ok(next) => {
+                let cut = Cut::of(&next);
+                self.refused = (!cut.is_kept()).then(|| cut.regimes());
+                self.refinements = 0;
                 self.before += point.arclength;
                 PieceEnd::Next {
                     solved: Box::new(next),

@@ -11,8 +11,7 @@ use web_time::Instant;
 /// The steady state of a V-belt drive, from nothing but the drive.
 pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
-    let mut path = Path::new(drive, options.tolerance).with_direction();
-    let found = path.find(path.target());
+    let (path, found) = find(drive, options.tolerance);
     conclude(path, found, start)
 }
 

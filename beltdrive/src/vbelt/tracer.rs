@@ -4,14 +4,13 @@
 //! segments of the boundary value problem, stay the same. Where a zone vanishes or appears, the
 //! states are cut anew into zones and the next piece begins.
 //!
-//! Along the branch the direction of Coulomb friction is a state that follows the slip over a fixed length ℓ, and
-//! contacts are cut where the belt breaks away and where it turns to be lifted: fronts that move with the load, and
-//! that Newton's method follows only as ends of segments. A cut that is seen no longer, or elsewhere, is one more
-//! change of zones. The direction of EPP friction is that of the slip normalised with a fixed ε, smaller where the
-//! belt slips everywhere, larger near no load, where places at which it breaks loose move with the load the more
-//! abruptly the smaller ε is. Every labelled point is located once more with ℓ/4 or ε/4 on the halved mesh: its
-//! error follows from the difference.
+//! Along the branch the direction of Coulomb and EPP friction is a state that follows the slip over a fixed length ℓ,
+//! and contacts are cut where the belt breaks away and where it turns to be lifted: fronts that move with the load,
+//! and that Newton's method follows only as ends of segments. A cut that is seen no longer, or elsewhere, is one more
+//! change of zones. Every labelled point is located once more with ℓ/4 on the halved mesh: its error follows from the
+//! difference. A branch from a state whose direction is normalised is followed in the same way with a fixed ε.
 
+use super::Regime;
 use super::path::Solved;
 use super::piece::{PieceEnd, WHOLE};
 use super::solve::is_crossed;
@@ -51,8 +50,10 @@ pub(super) struct Tracer<'d> {
     pub(super) convergence: TraceConvergence,
     /// Arclength of the pieces before.
     pub(super) before: f64,
-    /// How often the steps were shortened because the driven pulley may have stood still.
+    /// How often the steps were shortened since the zones have changed.
     pub(super) refinements: i32,
+    /// Zones that the last state shows and Newton's method refused.
+    pub(super) refused: Option<Vec<Vec<Regime>>>,
     /// The last state that is no limit point, and the value of the entry there.
     pub(super) near: Option<(f64, Solved)>,
     /// The value at which both spans have the same tension, where it is known.
@@ -82,6 +83,7 @@ impl<'d> Tracer<'d> {
             },
             before: 0.0,
             refinements: 0,
+            refused: None,
             near: None,
             no_load: match key {
                 _ if is_crossed(drive) => None,

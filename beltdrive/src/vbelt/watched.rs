@@ -4,19 +4,15 @@ use super::curve::Curve;
 use super::path::Solved;
 use super::tracer::Tracer;
 use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, INCLINATION, PENETRATION, Regime};
-use crate::{EventKind, FrictionLaw, Pulley, ZoneKind};
+use crate::{EventKind, Pulley, ZoneKind};
 use continuation::{Branch, Kind, Point, System};
 use std::f64::consts::FRAC_PI_2;
-
-/// ℓ or ε changes where the tight tension is one of these multiples of the slack one.
-pub(super) const RATIOS: [f64; 2] = [3.0, 10.0];
 
 /// Event functions of every piece, by their number; those of the zones follow.
 const OVERHANG: [usize; 2] = [0, 1];
 const DRIVEN_STOPS: usize = 2;
-pub(super) const RATIO: usize = 3;
-const BELT_HEIGHT: [usize; 2] = [4, 5];
-pub(super) const FIRST_ZONE: usize = 6;
+const BELT_HEIGHT: [usize; 2] = [3, 4];
+pub(super) const FIRST_ZONE: usize = 5;
 
 impl Tracer<'_> {
     /// Adds the event functions to a piece of the branch.
@@ -34,18 +30,6 @@ impl Tracer<'_> {
         let overhang = |exit: usize| {
             move |curve: &Curve<'_>, point: &Point| {
                 curve.family.end(&point.z, exit)[INCLINATION] - FRAC_PI_2
-            }
-        };
-        let (drive, key, unit) = (self.drive.clone(), self.key, self.unit());
-        let ratio = move |_: &Curve<'_>, point: &Point| {
-            let mut drive = drive.clone();
-            key.set(&mut drive, point.lambda() * unit);
-            match drive.law {
-                FrictionLaw::Bristle { .. } => 1.0,
-                _ => {
-                    let ratio = drive.load.tight.value() / drive.load.slack.value();
-                    RATIOS.iter().map(|change| ratio / change - 1.0).product()
-                }
             }
         };
         let height = self.drive.belt.v().height;
@@ -69,7 +53,6 @@ impl Tracer<'_> {
             .event(overhang(exits[DRIVEN]))
             .event(overhang(exits[DRIVER]))
             .event(move |curve, point| parameter(curve, point, DriveProblem::DRIVEN_SPEED))
-            .event(ratio)
             .event(sunk(DRIVEN))
             .event(sunk(DRIVER));
         if problem.has_junctions() {

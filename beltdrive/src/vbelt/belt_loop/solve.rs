@@ -24,7 +24,7 @@ struct Found<'l> {
 
 /// The steady state of a loop with a V-belt.
 pub(crate) fn solve(belt_loop: &BeltLoop, tolerance: f64) -> Result<LoopState, LoopError> {
-    let mut search = Search::new(belt_loop, tolerance).with_direction();
+    let mut search = Search::new(belt_loop, tolerance);
     let Found {
         at_rest,
         rest,
@@ -38,7 +38,7 @@ pub(crate) fn solve_with_margins(
     belt_loop: &BeltLoop,
     tolerance: f64,
 ) -> Result<LoopState, LoopError> {
-    let mut search = Search::new(belt_loop, tolerance).with_direction();
+    let mut search = Search::new(belt_loop, tolerance);
     let Found {
         at_rest,
         rest,

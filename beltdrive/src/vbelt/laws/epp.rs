@@ -123,7 +123,7 @@ mod tests {
     fn a_belt_that_sticks_is_that_of_a_normalised_direction() {
         // Soft friction: the belt on the driver sticks behind its elastic zone.
         let drive = kim(FrictionLaw::Epp { stiffness: 1e6 }, 0.25);
-        let mut path = Path::new(&drive, 1e-6).with_direction();
+        let mut path = Path::new(&drive, 1e-6);
         let asked = AtLoad {
             drive: &drive,
             tight: path.target(),

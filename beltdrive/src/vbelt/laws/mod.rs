@@ -161,14 +161,21 @@ impl<D> Path<'_, D> {
         asked: &A,
         start: Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        let follows = match (self.epp_has_direction, asked.law()) {
-            (_, FrictionLaw::Coulomb) => self.coulomb(asked, &start),
-            (true, _) => self.epp(asked, &start),
-            (false, _) => None,
-        };
-        match follows {
+        match self.sliding(asked, &start) {
             Some(solved) => Ok(solved),
             None => self.normalised(asked, start),
+        }
+    }
+
+    /// From bristles to Coulomb or EPP friction whose direction is a state.
+    fn sliding<A: Asked>(
+        &mut self,
+        asked: &A,
+        start: &Solved<A::Problem>,
+    ) -> Option<Solved<A::Problem>> {
+        match asked.law() {
+            FrictionLaw::Coulomb => self.coulomb(asked, start),
+            _ => self.epp(asked, start),
         }
     }
 
@@ -227,6 +234,14 @@ impl Path<'_> {
     pub(super) fn at_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
         let drive = self.drive;
         self.seek(&AtLoad { drive, tight })
+    }
+
+    /// The steady state at the load of the drive with the direction of friction as a state, from nothing.
+    pub(super) fn with_direction(&mut self) -> Option<Solved> {
+        let (drive, tight) = (self.drive, self.target());
+        let asked = AtLoad { drive, tight };
+        let start = self.cold(&asked, asked.softest(), Effort::Start).ok()?;
+        self.sliding(&asked, &start)
     }
 
     /// The steady state without load, both spans with the scaled tension `tight`. The traction of sliding friction

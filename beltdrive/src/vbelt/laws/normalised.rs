@@ -1,6 +1,6 @@
 //! Coulomb and EPP friction with a normalised direction, for drives whose state is not found with a direction
 //! of its own: loads so near to none (within 0.6 % on the drive of Kim 2009) that the slip of the turn changes
-//! its sense, and some of elastic friction. Branches are followed with it.
+//! its sense, and some of elastic friction.
 
 use super::finish::with_smoothing;
 use super::{Asked, RESOLVED, SMALL_STEP};

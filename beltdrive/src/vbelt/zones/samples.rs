@@ -15,6 +15,10 @@ const SAMPLES: usize = 8;
 const HOLDING: f64 = 0.98;
 /// Cosine of the direction, from straight down the groove, in which the belt slips until it begins to stick.
 const SINKING: f64 = -0.9;
+/// Share of friction by which it is below its limit where a belt that sticks comes to rest. As it reaches the limit
+/// the belt ceases to stick and slides at a speed that is zero but for an exponential, and the end of the zone moves
+/// along the pulley at a load that does not change: 37 steps of a branch.
+const RESTING: f64 = 3e-5;
 /// By how much the share of friction that turns, and that which breaks the belt away, pass zero where they are
 /// seen to. A limit of 20 453 N was found where the turn ended, of a drive that carries 24 698 N.
 pub(super) const CLEAR_TURN: f64 = 0.05;
@@ -58,6 +62,8 @@ pub(super) fn samples<P: BeltProblem>(
         if length <= 0.0 {
             continue;
         }
+        let is_at_rest = problem.regime(segment) == Regime::Stick
+            && holds(groove, solution.start(segment), omega, flow);
         let mut y = [0.0; MAX_STATES];
         let y = &mut y[..solution.segments()[segment].states];
         let inside = solution.mesh(segment).windows(2).flat_map(|pair| {
@@ -81,7 +87,7 @@ pub(super) fn samples<P: BeltProblem>(
                     let turns = (last.direction - direction) / TAU;
                     direction + turns.round() * TAU
                 }),
-                sticks: contact.regime == Regime::Stick || is_held(groove.law, share),
+                sticks: is_at_rest || is_held(groove.law, share),
                 share,
             });
         }
@@ -91,6 +97,12 @@ pub(super) fn samples<P: BeltProblem>(
         keep_first_stick(&mut samples, loose);
     }
     samples
+}
+
+/// Whether friction is elastic where the belt comes to rest.
+fn holds(groove: &Groove, y: &[f64], omega: f64, flow: f64) -> bool {
+    let friction = Contact::new(groove, Regime::Elastic, y, omega, flow).friction();
+    limit_excess(groove, y, omega, flow) < -RESTING * friction
 }
 
 /// Whether bristles are seen to hold the belt.

@@ -1,0 +1,26 @@
+//! How a branch goes on where its friction zones change.
+
+use super::path::{Effort, Path, Solved, Stuck};
+
+/// The constants of a drive differ by less than this share of 1 + |value| between a state with zones that it has
+/// no longer and the one that has others there. Most differ by less than 1e-6.
+const SAME: f64 = 1e-3;
+
+impl Path<'_> {
+    /// A solution with its zones found anew. Where Newton's method does not come from the old ones to the new, as
+    /// where the belt that sticks begins to slip elastically behind, the state is sought from nothing.
+    pub(super) fn with_other_zones(&mut self, here: &Solved) -> Result<Solved, Stuck> {
+        self.keep_zones(here.clone(), Effort::Full)
+            .or_else(|stuck| self.anew(here).ok_or(stuck))
+    }
+
+    /// The state of the drive from nothing, if it is `here` but for the zones.
+    fn anew(&mut self, here: &Solved) -> Option<Solved> {
+        let solved = self.with_direction()?;
+        let pairs = solved.constants().into_iter().zip(here.constants());
+        let change = pairs
+            .map(|(one, other)| (one - other).abs() / (1.0 + other.abs()))
+            .fold(0.0, f64::max);
+        (change <= SAME).then_some(solved)
+    }
+}

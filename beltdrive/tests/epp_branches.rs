@@ -1,0 +1,157 @@
+//! Branches and limits of EPP friction, along which the belt begins and ceases to stick, against single states.
+
+use beltdrive::input::Key;
+use beltdrive::{
+    Belt, BeltKind, BranchEnd, Drive, EventKind, FrictionLaw, Load, RangeEnd, SolveError,
+    SolveOptions, SpanTension, VBelt, examples, input, limits, solve, trace,
+};
+
+/// The drive of Kim (2009) with EPP friction.
+fn kim() -> Drive {
+    let example = examples::find("kim2009-epp").unwrap();
+    input::parse(example.name, example.text, &[]).unwrap()
+}
+
+/// Numbers of a drive, SI.
+struct Numbers {
+    belt: [f64; 4],
+    friction: [f64; 2],
+    /// Radius and speed of the driver, radius of the driven pulley, centre distance.
+    pulleys: [f64; 4],
+    /// Tractive tensions.
+    load: [f64; 2],
+}
+
+impl Numbers {
+    fn drive(&self) -> Drive {
+        let [
+            mass_per_length,
+            axial_stiffness,
+            radial_stiffness,
+            half_angle,
+        ] = self.belt;
+        let [friction_coefficient, stiffness] = self.friction;
+        let [driver_radius, driver_speed, driven_radius, centre_distance] = self.pulleys;
+        let [slack, tight] = self.load.map(SpanTension::Tractive);
+        Drive {
+            title: None,
+            belt: Belt {
+                ribs: 1,
+                mass_per_length,
+                axial_stiffness,
+                kind: BeltKind::V(VBelt {
+                    radial_stiffness,
+                    half_angle,
+                    height: None,
+                }),
+            },
+            friction_coefficient,
+            law: FrictionLaw::Epp { stiffness },
+            driver_radius,
+            driver_speed,
+            driven_radius,
+            centre_distance,
+            load: Load { slack, tight },
+        }
+    }
+}
+
+/// The same drive at another tight tension.
+fn at(drive: &Drive, tight: f64) -> Drive {
+    let mut drive = drive.clone();
+    drive.load.tight = SpanTension::Tractive(tight);
+    drive
+}
+
+fn close(found: f64, expected: f64, relative: f64) {
+    let deviation = (found / expected - 1.0).abs();
+    assert!(
+        deviation <= relative,
+        "{found} for {expected}: {deviation:.1e}"
+    );
+}
+
+/// The largest load, which is one for the search of single states too.
+fn assert_limit(drive: &Drive, expected: f64) {
+    let options = SolveOptions::default();
+    let largest = limits(drive, &Key::load(drive), &options, &mut |_, _| {})
+        .unwrap()
+        .largest;
+    close(largest.value, expected, 1e-6);
+    let slack = drive.load.slack.value();
+    let load = |share: f64| slack + share * (largest.value - slack);
+    for share in [0.5, 0.9, 0.99] {
+        solve(&at(drive, load(share)), &options).unwrap();
+    }
+    for share in [1.003, 1.05] {
+        let Err(SolveError::NoSteadyState { limit, reason, .. }) =
+            solve(&at(drive, load(share)), &options)
+        else {
+            panic!("a load beyond the limit {}", largest.value);
+        };
+        // That search keeps the zones of a state below the limit.
+        close(limit, largest.value, 1e-4);
+        assert_eq!(RangeEnd::Limit(reason), largest.reason);
+    }
+}
+
+#[test]
+fn a_branch_from_near_no_load_takes_few_steps() {
+    // With a normalised direction 132 steps and three times the work.
+    let drive = at(&kim(), 105.0);
+    let options = SolveOptions::default();
+    let range = [105.0, 9000.0];
+    let branch = trace(&drive, &Key::load(&drive), range, &options, &mut |_, _| {}).unwrap();
+    assert_eq!(branch.end, BranchEnd::Returned);
+    let steps = branch.convergence.continuation_steps;
+    assert!(steps <= 80, "{steps}");
+    let mut events = branch.events.iter();
+    let fold = events.find(|event| event.kind == EventKind::LimitPoint);
+    close(fold.unwrap().point.value, 8221.0148, 1e-8);
+}
+
+#[test]
+fn a_belt_that_sticks_at_rest_does_so_along_the_branch() {
+    // On the driven pulley it sticks up to the load 2130 N, and from 1350 N on begins to slip elastically.
+    let drive = Numbers {
+        belt: [0.096_129_815, 38_683.875, 1_366_761.3, 0.340_363_36],
+        friction: [0.500_608_44, 1.432_211_6e7],
+        pulleys: [0.265_059_64, 61.912_15, 0.131_557_19, 1.399_316_9],
+        load: [559.833_99, 726.739_9],
+    }
+    .drive();
+    let options = SolveOptions::default();
+    let range = [726.739_9, 3000.0];
+    let branch = trace(&drive, &Key::load(&drive), range, &options, &mut |_, _| {}).unwrap();
+    assert_eq!(branch.end, BranchEnd::Target);
+    for point in branch.points.iter().step_by(6) {
+        let state = solve(&at(&drive, point.value), &options).unwrap();
+        let speeds = [point.state.driven.angular_speed, state.driven.angular_speed];
+        close(speeds[0], speeds[1], 1e-6);
+        close(point.state.driven.wrap_angle, state.driven.wrap_angle, 1e-6);
+    }
+    assert_limit(&drive, 13_329.327);
+}
+
+#[test]
+fn stiff_friction_has_the_limit_of_single_states() {
+    let drive = Numbers {
+        belt: [0.25, 1e5, 4e6, 13_f64.to_radians()],
+        friction: [0.35, 5e9],
+        pulleys: [0.048, 314.159_265, 0.048, 0.2],
+        load: [200.0, 600.0],
+    };
+    assert_limit(&drive.drive(), 1_995.054_28);
+}
+
+#[test]
+fn a_belt_that_rests_only_as_long_as_friction_is_elastic_has_the_limit_of_single_states() {
+    // On the driver it sticks no longer from 188.866 N on, where friction reaches its limit as the belt comes to rest.
+    let drive = Numbers {
+        belt: [0.167_144_42, 117_765.13, 876_186.71, 0.345_874_07],
+        friction: [0.752_549_61, 1.822_946_4e7],
+        pulleys: [0.131_833_79, 51.141_625, 0.240_252_59, 2.025_831_5],
+        load: [91.462_678, 115.961_25],
+    };
+    assert_limit(&drive.drive(), 3_870.221_8);
+}
