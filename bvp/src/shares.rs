@@ -13,6 +13,11 @@ pub(crate) const UNNOTICED: f64 = 0.1;
 /// lost.
 pub(crate) const INVISIBLE: f64 = AIM * UNNOTICED;
 
+/// What fewer than two digits show. With less than these a solution is as good as unknown, as where its rounding is
+/// more, and with these it is a guess; beside what is larger by more, a state is small, the defect of an interval is
+/// not one of the largest, and a correction does not show.
+pub(crate) const TWO_DIGITS: f64 = 1e-2;
+
 /// A part of this share or less is as good as none: three digits of what it is compared with do not show it.
 pub(crate) const NEGLIGIBLE: f64 = 1e-3;
 

@@ -1,7 +1,7 @@
 //! Mesh selection: refine, coarsen and redistribute from the defects.
 
 use crate::discretisation::mesh::{Mesh, ceil, equidistribute, split};
-use crate::shares::AIM;
+use crate::shares::{AIM, TWO_DIGITS};
 
 /// With a larger relative defect than this an interval does not resolve the solution: no power law holds
 /// yet, and it is halved at least.
@@ -15,8 +15,6 @@ const SMALLEST_CUT: f64 = 0.2;
 /// Where an interval is not shorter than this share of the one before, its order does not show: with 1 one
 /// more of 600 random problems with jumps was solved wrongly.
 const SHORTER: f64 = 0.7;
-/// Rough intervals count if their local defect is at least this share of the largest.
-const ROUGH: f64 = 1e-2;
 /// Neighbouring intervals may differ in length by about this factor. With 3 one of 28 branches of the
 /// perturbed problem of Bratu ended early.
 pub(crate) const GRADING: f64 = 2.5;
@@ -74,7 +72,7 @@ pub(crate) fn next_mesh(
 /// there are any. `before` are an earlier mesh and the defects there, which should be ∝ hᵐ.
 ///
 /// An interval is rough if it is θ times as long as the one before at its place and has more than θ^`least`
-/// times its defect.
+/// times its defect, and that shows beside the largest.
 pub(crate) fn amplify_rough(
     defects: &mut [Vec<f64>],
     mesh: &Mesh,
@@ -95,7 +93,7 @@ pub(crate) fn amplify_rough(
             }
             let share = (pair[1] - pair[0]) / (old_nodes[j + 1] - old_nodes[j]);
             let slow = *defect > old[j] * share.powi(least);
-            if share < SHORTER && slow && *defect > ROUGH * largest {
+            if share < SHORTER && slow && *defect > TWO_DIGITS * largest {
                 *defect *= cut;
                 any = true;
             }

@@ -31,22 +31,17 @@ use crate::kernels::dense::dot;
 use crate::kernels::random::Signs;
 use crate::newton::collocation::{Collocation, gather_ends};
 use crate::problem::problem::Segment;
-use crate::shares::{INVISIBLE, MODERATE, ONE_SAMPLE};
+use crate::shares::{INVISIBLE, MODERATE, ONE_SAMPLE, TWO_DIGITS};
 
 /// The unit roundoff u of double precision.
 pub(crate) const UNIT_ROUNDOFF: f64 = 0.5 * f64::EPSILON;
 
-/// With a larger rounding error the matrix is singular to rounding, and no digit of a solution is
-/// known, whatever the tolerance. Measured for singularly perturbed problems whose condition number
-/// exceeds 1e16: at least 0.04 over seven sets of signs, while u |A⁻¹| |A| |z| alone gives 6e-7 to
-/// 9e-5. Of the reference problems none exceeds 1e-8.
-pub(crate) const NO_DIGIT: f64 = 1e-2;
-
-/// Rounding is measured relative to no less than this share of the largest state of a component.
-const SMALL_STATE: f64 = 0.01;
-
 /// Whether a solution within the tolerance by all other measures may be nothing but rounding. A rounding error
 /// that is not a number exceeds everything.
+///
+/// With a rounding error that leaves no two digits the matrix is singular to rounding, whatever the tolerance.
+/// Measured for singularly perturbed problems whose condition number exceeds 1e16: at least 0.04 over seven sets of
+/// signs, while u |A⁻¹| |A| |z| alone gives 6e-7 to 9e-5. Of the reference problems none exceeds 1e-8.
 ///
 /// The rounding measured is a sample of one set of signs. Where it shows, the amplification a times the unit
 /// roundoff must be within the tolerance, too; where it does not, only slopes in thin layers are amplified, on
@@ -57,7 +52,7 @@ const SMALL_STATE: f64 = 0.01;
 /// measured is at most 1.8 tolerances over seven sets of signs, and at most 0.02 but for one problem, the
 /// spike T09c.
 pub(crate) fn exceeds(rounding: f64, a: f64, tolerance: f64) -> bool {
-    let allowed = (ONE_SAMPLE * tolerance).min(NO_DIGIT);
+    let allowed = (ONE_SAMPLE * tolerance).min(TWO_DIGITS);
     let agreed = rounding > INVISIBLE * tolerance && a * UNIT_ROUNDOFF > tolerance;
     rounding.is_nan() || rounding > allowed || agreed
 }
@@ -145,7 +140,7 @@ impl Collocation<'_> {
 /// The largest entry of a correction relative to 1 + |x|, and to a share of the largest |x| of its component
 /// on the segment: where a state is far smaller than elsewhere, rounding elsewhere is what counts.
 fn norm_by_component(segments: &[Segment], x: &Iterate, correction: &Iterate) -> f64 {
-    let of_state = |y: &Component<'_>, i| 1.0 + SMALL_STATE * y.largest + y.at(i).abs();
+    let of_state = |y: &Component<'_>, i| 1.0 + TWO_DIGITS * y.largest + y.at(i).abs();
     largest_ratio(segments, x, correction, of_state, |p| 1.0 + p.abs())
 }
 

@@ -16,7 +16,7 @@ use crate::newton_matrix::singular::Singular;
 use crate::problem::unknown::Unknown;
 use crate::result::quality::{Direction, GlobalErrors, Samples};
 use crate::result::stats::Stats;
-use crate::shares::{NEGLIGIBLE, ONE_SAMPLE};
+use crate::shares::{NEGLIGIBLE, ONE_SAMPLE, TWO_DIGITS};
 
 /// Simplified corrections that shrink at least this much per step keep the Jacobian: three such
 /// steps gain more than one new linearisation and cost less.
@@ -24,11 +24,6 @@ const KEEP_JACOBIAN_BELOW: f64 = 0.25;
 
 /// The shortest damped step: below it the path of the iteration has ended at a singular Jacobian.
 const SMALLEST_DAMPING: f64 = 1e-5;
-
-/// Corrections this many times the stopping tolerance that no longer shrink, or not as fast as those
-/// of Newton's method do so near a solution, are rounding, unless they are larger than half of the digits:
-/// rounding amplified by more is not told from a failure to converge.
-const ROUNDING_FACTOR: f64 = 100.0;
 
 /// Why the iteration stopped short.
 #[derive(Clone, Debug, PartialEq)]
@@ -109,7 +104,10 @@ impl Newton {
         let mut fresh = true;
         let mut size = norm(x, &self.delta);
         let mut damping = 1.0;
-        let rounding = (ROUNDING_FACTOR * tolerance).min(f64::EPSILON.sqrt());
+        // Corrections within two digits of the tolerance that no longer shrink, or not as fast as those of
+        // Newton's method do so near a solution, are rounding, unless they are larger than half of the digits:
+        // rounding amplified by more is not told from a failure to converge.
+        let rounding = (tolerance / TWO_DIGITS).min(f64::EPSILON.sqrt());
         for _ in 0..max_steps {
             if !size.largest.is_finite() {
                 return Err(Failure::Ends(collocation.dependence()));

@@ -3,7 +3,6 @@
 
 use crate::accuracy::amplification::is_open;
 use crate::accuracy::defect::defects;
-use crate::accuracy::rounding::NO_DIGIT;
 use crate::discretisation::iterate::{Iterate, NonFinite};
 use crate::discretisation::mesh::{Mesh, intervals};
 use crate::discretisation::tableau::Tableau;
@@ -14,16 +13,12 @@ use crate::result::error::Error;
 use crate::result::quality::{Direction, Quality, Samples};
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
-use crate::shares::{INVISIBLE, NEGLIGIBLE};
+use crate::shares::{INVISIBLE, NEGLIGIBLE, TWO_DIGITS};
 use crate::solver::failure::{ill_conditioned, numerical};
 use crate::solver::options::{Control, Options};
 use crate::solver::transfer::transfer;
 use std::sync::Arc;
 use web_time::Instant;
-
-/// The share of the tolerance at which Newton's method stops where the error is not estimated: with an
-/// estimate what is left of its corrections is in it.
-const UNESTIMATED: f64 = 0.01;
 
 /// A condition whose residual is larger than allowed.
 struct Violation {
@@ -228,7 +223,7 @@ impl<'a> Discretised<'a> {
     pub(crate) fn failed(&mut self, failure: Failure, x: Iterate) -> Error {
         let rounding = match failure {
             // Corrections no larger than that are rounding.
-            Failure::NoConvergence { correction, .. } if correction <= NO_DIGIT => {
+            Failure::NoConvergence { correction, .. } if correction <= TWO_DIGITS => {
                 Some(self.collocation.rounding(&x)).filter(|&rounding| rounding >= correction)
             }
             _ => None,
@@ -306,9 +301,10 @@ impl<'a> Discretised<'a> {
     /// How small corrections are to be, no less than what rounding permits.
     fn wanted(&self) -> f64 {
         let fraction = match self.estimates() {
+            // What is left of the corrections is in the estimate.
             true => INVISIBLE,
-            false => UNESTIMATED,
+            false => TWO_DIGITS,
         };
-        (fraction * self.options.tolerance).max(100.0 * f64::EPSILON)
+        (fraction * self.options.tolerance).max(f64::EPSILON / TWO_DIGITS)
     }
 }

@@ -6,10 +6,11 @@ use crate::problem::held::Held;
 use crate::problem::problem::Segment;
 use crate::result::error::Error;
 use crate::result::solution::Solution;
+use crate::shares::TWO_DIGITS;
 use crate::solver::options::Options;
 use crate::solver::solver::solve_held;
 use crate::solver::statement::check_statement;
-use crate::solver::stepping::{LOOSE, Stalled, cost, follow, on_the_way};
+use crate::solver::stepping::{Stalled, cost, follow, on_the_way};
 use std::f64::consts::LN_10;
 
 /// A given parameter of a problem, with a value for which the problem is easy and the one for which
@@ -170,8 +171,8 @@ pub fn solve_embedded(
             best,
         })
     };
-    match way(LOOSE) {
-        Err(Error::Unreached { .. }) if options.tolerance < LOOSE => way(options.tolerance),
+    match way(TWO_DIGITS) {
+        Err(Error::Unreached { .. }) if options.tolerance < TWO_DIGITS => way(options.tolerance),
         result => result,
     }
 }

@@ -18,8 +18,9 @@ use crate::problem::problem::Ends;
 use crate::result::error::Error;
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
+use crate::shares::TWO_DIGITS;
 use crate::solver::options::Options;
-use crate::solver::stepping::{LOOSE, follow, on_the_way};
+use crate::solver::stepping::{follow, on_the_way};
 use crate::solver::straight::Straight;
 
 /// A solver of boundary value problems.
@@ -38,7 +39,7 @@ pub(crate) fn rough_solution(
     let options = Options {
         // The equations are in units already.
         absolute: vec![],
-        ..on_the_way(options, LOOSE)
+        ..on_the_way(options, TWO_DIGITS)
     };
     let solve_at = |lambda: f64, guess: &dyn Guess| {
         solve(&Homotopy::new(equations, &line, lambda), guess, &options)

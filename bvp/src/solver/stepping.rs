@@ -22,8 +22,6 @@ const SMALLEST_STEP: f64 = 1e-4;
 const EASY: usize = 7;
 /// Largest number of Newton steps on one mesh: with more, half the step is the cheaper way.
 const NEWTON_STEPS: usize = 30;
-/// The relative defect with which a solution on the way is good enough as a guess.
-pub(crate) const LOOSE: f64 = 1e-2;
 
 /// The end of a path before its goal.
 pub(crate) struct Stalled {
