@@ -28,6 +28,10 @@ pub(crate) const MODERATE: f64 = 1e6;
 /// layer. With 2, problems with singular ends took 12 % more factorisations, and 8 of 503 were lost.
 pub(crate) const PARTS: usize = 4;
 
+/// How many parts of a segment are told apart: by a look at so many places at least, which costs as much as four to
+/// five intervals, and by forcings of so many groups of intervals at most.
+pub(crate) const PLACES: usize = 64;
+
 /// A size known from one sample, as from one direction or one place, may be larger by this factor.
 pub(crate) const ONE_SAMPLE: f64 = 10.0;
 

@@ -23,10 +23,7 @@ use crate::problem::equations::Equations;
 use crate::problem::held::Held;
 use crate::result::quality::Defects;
 use crate::result::stats::Stats;
-use crate::shares::{AIM, ONE_SAMPLE, PARTS, SPACINGS, UNNOTICED};
-
-/// Random places of a segment, at least. With as many the look costs as much as four to five intervals.
-const PLACES: usize = 64;
+use crate::shares::{AIM, ONE_SAMPLE, PARTS, PLACES, SPACINGS, UNNOTICED};
 
 /// The places looked at so far.
 #[derive(Clone, Debug)]

@@ -8,9 +8,6 @@
 use crate::kernels::dense::max_or_nan;
 use crate::shares::MODERATE;
 
-/// Sweeps over all states: the method converges by the length of the path from state to state.
-const SWEEPS: usize = 8;
-
 /// Balances \[Γ P\], n × (n + k) per interval, in place, if that is needed, and writes the units D, n numbers:
 /// rows are divided by them, columns of states multiplied. Returns whether it was needed: units whose ratio is
 /// moderate are left alone, as intervals differ in what is best for them. `sizes` is a
@@ -25,7 +22,8 @@ pub(super) fn balance(blocks: &mut [f64], k: usize, units: &mut [f64], sizes: &m
     if !may_differ(sizes, n) {
         return false;
     }
-    for _ in 0..SWEEPS {
+    // A unit goes one state farther with every sweep, and no path from state to state is longer than n.
+    for _ in 0..n {
         let mut steady = true;
         for i in 0..n {
             let others = || (0..n).filter(|&j| j != i);

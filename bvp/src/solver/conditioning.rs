@@ -26,13 +26,11 @@ use crate::result::quality::Quality;
 use crate::result::restored::{divided, restored_error};
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
+use crate::shares::PLACES;
 use crate::solver::failure::numerical;
 use crate::solver::options::Options;
 use crate::solver::statement::{check_statement, first_mesh, in_units};
 use std::sync::Arc;
-
-/// Groups of neighbouring intervals of a segment over which forcings are constant, at most.
-const GROUPS: usize = 64;
 
 /// How sensitive a problem is at a solution. All norms are maximum norms over states and parameters,
 /// absolute and in the units of the problem or, if the solution was found with
@@ -169,7 +167,7 @@ fn forcing_responses(collocation: &mut Collocation<'_>) -> Iterate {
         let n = collocation.equations.segments()[segment].states;
         let size = collocation.tableau.stages * n;
         let intervals = residual.equations[segment].stages.len() / size;
-        let group = intervals.div_ceil(GROUPS);
+        let group = intervals.div_ceil(PLACES);
         for first in (0..intervals).step_by(group) {
             let last = (first + group).min(intervals);
             for state in 0..n {

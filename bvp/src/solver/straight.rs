@@ -8,9 +8,6 @@ use crate::problem::guess::Guess;
 use crate::problem::held::Held;
 use crate::problem::problem::{Ends, Segment};
 
-/// Iterations of Gauss and Newton: linear conditions take one.
-const ITERATIONS: usize = 5;
-
 /// Straight lines between end states that meet the conditions.
 ///
 /// The end states z are those of Gauss's and Newton's method from zero, with the parameters p₀ of
@@ -33,8 +30,14 @@ impl<'a> Straight<'a> {
         let mut parameters = vec![0.0; equations.parameters()];
         guess.parameters(&mut parameters);
         let mut ends = vec![0.0; segments.iter().map(|segment| 2 * segment.states).sum()];
-        for _ in 0..ITERATIONS {
-            shortest_change(equations, &mut ends, &parameters)?;
+        // Near a solution changes halve at least, as they do near a double one.
+        let mut before = f64::INFINITY;
+        loop {
+            let change = shortest_change(equations, &mut ends, &parameters)?;
+            if change > 0.5 * before || change == 0.0 {
+                break;
+            }
+            before = change;
         }
         Some(Self {
             segments,
@@ -76,8 +79,10 @@ impl Guess for Straight<'_> {
     }
 }
 
-/// One iteration of Gauss's and Newton's method; `None` where its result is not finite.
-fn shortest_change(equations: &Held<'_>, ends: &mut [f64], p: &[f64]) -> Option<()> {
+/// One iteration of Gauss's and Newton's method; returns the largest change, `None` where the result is not
+/// finite.
+fn shortest_change(equations: &Held<'_>, ends: &mut [f64], p: &[f64]) -> Option<f64> {
+    let before = ends.to_vec();
     let (count, columns) = (equations.condition_count(), ends.len() + p.len());
     let (mut g, mut jacobian) = (vec![0.0; count], vec![0.0; count * columns]);
     let at = Ends::new(equations.segments(), ends);
@@ -117,7 +122,8 @@ fn shortest_change(equations: &Held<'_>, ends: &mut [f64], p: &[f64]) -> Option<
             add_scaled(ends, -factor, of_ends);
         }
     }
-    all_finite(ends).then_some(())
+    let changes = ends.iter().zip(&before).map(|(end, before)| end - before);
+    all_finite(ends).then(|| changes.fold(0.0, |m: f64, change| m.max(change.abs())))
 }
 
 #[cfg(test)]
