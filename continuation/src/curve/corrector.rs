@@ -10,7 +10,7 @@
 //!
 //! with one more linear condition c z = κ: a plane across the tangent (pseudo-arclength, Keller
 //! 1977) or a prescribed λ. As long as the corrections contract fast, the linearisation is kept
-//! (chord steps).
+//! (chord steps). What is left where they no longer do is rounding only if a new linearisation agrees.
 
 use crate::curve::metric::Metric;
 use crate::difficulty::Difficulty;
@@ -128,6 +128,8 @@ impl Corrector {
         };
         // The length of the correction before, unless it is no measure for the next one.
         let (mut before, mut keep) = (None, false);
+        // A correction by an old linearisation that may be rounding.
+        let mut doubted: Option<Vec<f64>> = None;
         for step in 0..limit {
             self.evaluate(system, z)?;
             if !keep {
@@ -139,18 +141,28 @@ impl Corrector {
             if step == 1 {
                 report.contraction = ratio.unwrap_or(1.0);
             }
+            if let Some(chord) = doubted.take() {
+                let both = self.particular.iter().zip(&chord);
+                let apart: Vec<f64> = both.map(|(new, old)| new - old).collect();
+                // By the old linearisation, too, corrections would have shrunk: what is left is rounding.
+                if metric.norm(&apart) < KEEP_BELOW * length {
+                    return Ok(report);
+                }
+            }
             if let Some(last) = before
                 && length > CONTRACTION * last
             {
-                if last <= ROUNDING.max(ROUNDING_FACTOR * wanted) {
+                let small = last <= ROUNDING.max(ROUNDING_FACTOR * wanted);
+                if keep {
+                    // The linearisation may be too old: another one at the same point.
+                    doubted = small.then(|| self.particular.clone());
+                    (before, keep) = (None, false);
+                    continue;
+                }
+                if small {
                     return Ok(report);
                 }
-                if !keep {
-                    return Err(no_convergence(length, step + 1, wanted));
-                }
-                // The linearisation is too old: another one at the same point.
-                (before, keep) = (None, false);
-                continue;
+                return Err(no_convergence(length, step + 1, wanted));
             }
             let (lambda, [low, high]) = (z[n] + self.particular[n], self.bounds);
             if lambda < low || lambda > high {
@@ -181,6 +193,8 @@ impl Corrector {
             before = Some(length);
         }
         match before {
+            // No step is left for another linearisation.
+            None if doubted.is_some() => Ok(report),
             Some(length) if length <= ROUNDING && matches!(accuracy, Accuracy::Rounding) => {
                 Ok(report)
             }

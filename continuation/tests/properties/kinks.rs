@@ -1,9 +1,9 @@
-//! Branch points beside kinks of G, where its equations switch, and beside limit points.
+//! Branch points beside kinks of G, where its equations switch, and beside limit points, and a start beside a bend.
 
 use crate::systems::pitchfork;
 use crate::{assert_close, of, trace};
 use continuation::Direction::{Decreasing, Increasing};
-use continuation::{DenseSystem, Kind, Options};
+use continuation::{Branch, DenseSystem, Kind, Options};
 
 /// The positive part of u and its derivative.
 fn positive(u: f64) -> [f64; 2] {
@@ -105,4 +105,22 @@ fn a_branch_that_turns_at_a_pitchfork_has_no_limit_point_there() {
     let options = Options::within(-1.0, 2.0);
     let (points, _) = trace(&mut pitchfork(0.0), &[1.0, 1.0], Decreasing, &options);
     assert!(of(&points, Kind::LimitPoint).is_empty());
+}
+
+#[test]
+fn a_start_is_exact_where_the_jacobian_changes_on_its_last_steps() {
+    // Steps by the Jacobian of the guess did not contract in the end, and were taken for rounding at 1.4e-9.
+    let width = 1e-9;
+    let mut system = DenseSystem::new(1, &[0.0], 0, move |x, p, g| {
+        let from = x[0] - 1.0;
+        g[0] = from + 1.5 * width * (from / width).tanh() - p[0];
+    })
+    .with_jacobian(move |x, _, j| {
+        j[0] = 1.0 + 1.5 / ((x[0] - 1.0) / width).cosh().powi(2);
+        j[1] = -1.0;
+    });
+    let options = Options::within(-1.0, 1.0);
+    let mut branch = Branch::new(&mut system, &[1.0005, 0.0], Increasing, &options).unwrap();
+    let first = branch.next().unwrap();
+    assert!((first.z[0] - 1.0).abs() < 1e-15, "{:e}", first.z[0] - 1.0);
 }
