@@ -8,3 +8,4 @@ pub(crate) mod global_error;
 pub(crate) mod layers;
 pub(crate) mod mesh_selection;
 pub(crate) mod rounding;
+mod segment_look;

@@ -1,21 +1,14 @@
 //! The coefficients of the schemes: nodes, weights and the polynomials behind them.
 
-use crate::discretisation::scheme::MAX_STAGES;
-use crate::discretisation::scheme::Scheme;
-use crate::kernels::dense::{add_product, add_scaled};
-use std::f64::consts::PI;
+use crate::discretisation::lagrange::{Basis, lagrange_slopes};
+use crate::discretisation::quadrature::{Quadrature, gauss, lobatto_points};
+use crate::discretisation::scheme::{MAX_STAGES, Scheme};
+use crate::kernels::dense::add_product;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
 /// The number of powers of the stage matrix that are stored.
 pub(crate) const POWERS: usize = 4;
-
-/// A rule on \[0, 1\]: ∫ g ≈ Σ weights g(points).
-#[derive(Clone, Debug)]
-pub(crate) struct Quadrature {
-    pub(crate) points: Vec<f64>,
-    pub(crate) weights: Vec<f64>,
-}
 
 /// The coefficients of a [`Scheme`] and its collocation polynomial at the points the solver needs.
 ///
@@ -164,165 +157,11 @@ fn product(a: &[f64], b: &[f64], n: usize) -> Vec<f64> {
     c
 }
 
-/// Lagrange polynomials ℓₗ on the collocation points and their integrals βₗ(θ) = ∫₀^θ ℓₗ.
-#[derive(Clone, Debug)]
-struct Basis {
-    points: Vec<f64>,
-    /// 1 / Πⱼ (cₗ − cⱼ), j ≠ l.
-    scale: Vec<f64>,
-    /// The smallest Gauss rule that integrates ℓₗ exactly.
-    rule: Quadrature,
-}
-
-impl Basis {
-    fn new(points: Vec<f64>) -> Self {
-        let scale = (0..points.len())
-            .map(|l| {
-                let others = (0..points.len()).filter(|&j| j != l);
-                1.0 / others.map(|j| points[l] - points[j]).product::<f64>()
-            })
-            .collect();
-        let rule = gauss(points.len().div_ceil(2));
-        Self {
-            points,
-            scale,
-            rule,
-        }
-    }
-
-    /// ℓₗ(x) for all l.
-    #[inline(always)]
-    fn slopes(&self, x: f64, out: &mut [f64]) {
-        // Products of the factors to the left of l, then times those to its right.
-        let mut product = 1.0;
-        for (out, (c, scale)) in out.iter_mut().zip(self.points.iter().zip(&self.scale)) {
-            *out = scale * product;
-            product *= x - c;
-        }
-        product = 1.0;
-        for (out, c) in out.iter_mut().zip(&self.points).rev() {
-            *out *= product;
-            product *= x - c;
-        }
-    }
-
-    /// ∫₀^x ℓₗ for all l.
-    #[inline(always)]
-    fn values(&self, x: f64, out: &mut [f64]) {
-        let mut at_point = [0.0; MAX_STAGES + 1];
-        let at_point = &mut at_point[..out.len()];
-        out.fill(0.0);
-        for (t, weight) in self.rule.points.iter().zip(&self.rule.weights) {
-            self.slopes(t * x, at_point);
-            add_scaled(out, weight * x, at_point);
-        }
-    }
-
-    /// The coefficients of uᵏ, u = 2x − 1, in all ℓₗ, a row per power.
-    fn powers(&self) -> Vec<f64> {
-        let m = self.points.len();
-        let mut powers = vec![0.0; m * m];
-        for l in 0..m {
-            // Factors x − cⱼ = u/2 + ½ − cⱼ, one after the other.
-            let mut product = vec![self.scale[l]];
-            for c in (0..m).filter(|&j| j != l).map(|j| self.points[j]) {
-                let shifted = [&[0.0], &product[..]].concat();
-                product.push(0.0);
-                for (coefficient, before) in product.iter_mut().zip(shifted) {
-                    *coefficient = (0.5 - c) * *coefficient + 0.5 * before;
-                }
-            }
-            for (row, coefficient) in powers.chunks_exact_mut(m).zip(product) {
-                row[l] = coefficient;
-            }
-        }
-        powers
-    }
-
-    /// One row of `function` per point, row-major.
-    fn table(&self, points: &[f64], function: fn(&Self, f64, &mut [f64])) -> Vec<f64> {
-        let m = self.points.len();
-        let mut table = vec![0.0; points.len() * m];
-        for (row, &x) in table.chunks_exact_mut(m).zip(points) {
-            function(self, x, row);
-        }
-        table
-    }
-}
-
 /// The largest distance between neighbours among points.
 fn widest_gap(mut points: Vec<f64>) -> f64 {
     points.sort_by(f64::total_cmp);
     let gaps = points.windows(2).map(|pair| pair[1] - pair[0]);
     gaps.fold(0.0, f64::max)
-}
-
-/// ℓ'(x) of all Lagrange polynomials on `points`.
-fn lagrange_slopes(points: &[f64], x: f64) -> Vec<f64> {
-    let slope = |index: usize| -> f64 {
-        let without = |skip: usize| -> f64 {
-            (0..points.len())
-                .filter(|&j| j != index && j != skip)
-                .map(|j| (x - points[j]) / (points[index] - points[j]))
-                .product()
-        };
-        (0..points.len())
-            .filter(|&k| k != index)
-            .map(|k| without(k) / (points[index] - points[k]))
-            .sum()
-    };
-    (0..points.len()).map(slope).collect()
-}
-
-/// Legendre polynomials Pₙ₋₁(x) and Pₙ(x), n ≥ 1, by the three-term recurrence.
-fn legendre(n: usize, x: f64) -> (f64, f64) {
-    let (mut previous, mut current) = (1.0, x);
-    for k in 2..=n {
-        let k = k as f64;
-        let next = ((2.0 * k - 1.0) * x * current - (k - 1.0) * previous) / k;
-        (previous, current) = (current, next);
-    }
-    (previous, current)
-}
-
-/// The Gauss-Legendre rule with n points on \[0, 1\].
-pub(crate) fn gauss(n: usize) -> Quadrature {
-    let order = n as f64;
-    let mut rule = Quadrature {
-        points: Vec::with_capacity(n),
-        weights: Vec::with_capacity(n),
-    };
-    for i in (0..n).rev() {
-        // Tricomi's estimate of the root of Pₙ, polished by Newton's method.
-        let mut x = (PI * (i as f64 + 0.75) / (order + 0.5)).cos();
-        let mut slope = 1.0;
-        for _ in 0..6 {
-            let (previous, current) = legendre(n, x);
-            slope = order * (previous - x * current) / (1.0 - x * x);
-            x -= current / slope;
-        }
-        rule.points.push(0.5 * (1.0 + x));
-        rule.weights.push(1.0 / ((1.0 - x * x) * slope * slope));
-    }
-    rule
-}
-
-/// The Lobatto points on \[0, 1\]: both ends and the roots of P'ₙ₋₁, all of them roots of
-/// Pₙ − Pₙ₋₂, whose derivative is (2n − 1) Pₙ₋₁.
-fn lobatto_points(n: usize) -> Vec<f64> {
-    let interior = |i: usize| {
-        let mut x = -(PI * i as f64 / (n - 1) as f64).cos();
-        for _ in 0..8 {
-            let (p1, p) = legendre(n, x);
-            let (_, p2) = legendre(n - 2, x);
-            x -= (p - p2) / ((2 * n - 1) as f64 * p1);
-        }
-        0.5 * (1.0 + x)
-    };
-    let mut points = vec![0.0];
-    points.extend((1..n - 1).map(interior));
-    points.push(1.0);
-    points
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::layout::Layout;
 use crate::accuracy::defect::defects;
 use crate::discretisation::iterate::{Iterate, Residual};
 use crate::newton::collocation::{Collocation, gather_ends};
-use crate::newton::newton::Failure;
+use crate::newton::failure::Failure;
 use crate::problem::equations::Equations;
 use crate::problem::guess::Guess;
 use crate::problem::held::Held;

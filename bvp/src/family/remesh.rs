@@ -7,7 +7,7 @@ use crate::discretisation::mesh::{Mesh, halved, intervals, is_representable};
 use crate::discretisation::restriction::restrict;
 use crate::kernels::dense::max_or_nan;
 use crate::newton::collocation::Collocation;
-use crate::newton::newton::Failure;
+use crate::newton::failure::Failure;
 use crate::result::error::Error;
 use crate::result::quality::Quality;
 use crate::result::restored::restored_error;

@@ -2,6 +2,7 @@
 
 pub(crate) mod collocation;
 pub(crate) mod evaluation;
+pub(crate) mod failure;
 mod largest_correction;
 pub(crate) mod newton;
 pub(crate) mod norm;

@@ -7,13 +7,11 @@
 //! for Nonlinear Problems* (Springer 2004), algorithms NLEQ-ERR (section 3.3.3) and QNERR; a damped
 //! step that could have been longer is not repeated.
 
-use crate::discretisation::iterate::{Iterate, NonFinite, Residual};
-use crate::newton::collocation::{Collocation, LinearisationError};
+use crate::discretisation::iterate::{Iterate, Residual};
+use crate::newton::collocation::Collocation;
+use crate::newton::failure::Failure;
 use crate::newton::largest_correction::most_corrected;
 use crate::newton::norm::{Norm, norm, norm_of_sum};
-use crate::newton_matrix::dependence::Dependence;
-use crate::newton_matrix::singular::Singular;
-use crate::problem::unknown::Unknown;
 use crate::result::quality::{Direction, GlobalErrors, Samples};
 use crate::result::stats::Stats;
 use crate::shares::{NEGLIGIBLE, ONE_SAMPLE, TWO_DIGITS};
@@ -24,36 +22,6 @@ const KEEP_JACOBIAN_BELOW: f64 = 0.25;
 
 /// The shortest damped step: below it the path of the iteration has ended at a singular Jacobian.
 const SMALLEST_DAMPING: f64 = 1e-5;
-
-/// Why the iteration stopped short.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Failure {
-    NonFinite(NonFinite),
-    /// The states of this node are not determined by their neighbours.
-    Node {
-        segment: usize,
-        node: usize,
-    },
-    /// The conditions do not determine the ends and the parameters.
-    Ends(Dependence),
-    /// Steps or damping exhausted; the size of the last correction and where it is largest.
-    NoConvergence {
-        correction: f64,
-        largest: Option<Unknown>,
-    },
-}
-
-impl From<LinearisationError> for Failure {
-    fn from(error: LinearisationError) -> Self {
-        match error {
-            LinearisationError::NonFinite(what) => Self::NonFinite(what),
-            LinearisationError::Singular(Singular::Node { segment, node }) => {
-                Self::Node { segment, node }
-            }
-            LinearisationError::Singular(Singular::Ends) => Self::Ends(Dependence::default()),
-        }
-    }
-}
 
 /// The buffers of the iteration, and what it learns.
 pub(crate) struct Newton {

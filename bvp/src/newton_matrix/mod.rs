@@ -8,3 +8,4 @@ pub(crate) mod derivative_states;
 pub(crate) mod end_system;
 pub(crate) mod singular;
 pub(crate) mod stage_system;
+pub(crate) mod transitions;

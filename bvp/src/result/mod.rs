@@ -1,6 +1,7 @@
 //! What the solver returns.
 
 pub(crate) mod error;
+mod messages;
 pub(crate) mod quality;
 pub(crate) mod report;
 pub(crate) mod restored;

@@ -17,7 +17,7 @@
 use crate::discretisation::iterate::{Iterate, Residual, SegmentIterate};
 use crate::kernels::dense::max_or_nan;
 use crate::newton::collocation::Collocation;
-use crate::newton::newton::Failure;
+use crate::newton::failure::Failure;
 use crate::problem::equations::Equations;
 use crate::problem::held::Held;
 use crate::problem::problem::Segment;

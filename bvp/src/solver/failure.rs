@@ -3,7 +3,7 @@
 use crate::accuracy::rounding::UNIT_ROUNDOFF;
 use crate::discretisation::iterate::NonFinite;
 use crate::discretisation::mesh::{Mesh, intervals, is_representable};
-use crate::newton::newton::Failure;
+use crate::newton::failure::Failure;
 use crate::newton_matrix::dependence::Dependence;
 use crate::result::error::Error;
 use crate::result::solution::Solution;

@@ -1,0 +1,278 @@
+//! A look at the right-hand side on one segment, at places where no mesh has looked.
+
+use crate::discretisation::iterate::{Interval, Iterate};
+use crate::discretisation::powers::Powers;
+use crate::discretisation::tableau::Tableau;
+use crate::kernels::dense::max_or_nan;
+use crate::kernels::few::Few;
+use crate::problem::equations::Equations;
+use crate::problem::held::Held;
+use crate::result::stats::Stats;
+use crate::shares::{AIM, ONE_SAMPLE, SPACINGS, UNNOTICED};
+
+/// A solution on one segment, what is allowed of its defect, and what is found.
+pub(super) struct SegmentLook<'a> {
+    pub(super) equations: &'a Held<'a>,
+    pub(super) t: &'a Tableau,
+    pub(super) x: &'a Iterate,
+    pub(super) index: usize,
+    pub(super) nodes: &'a [f64],
+    /// The local defects of its intervals.
+    pub(super) local: &'a [f64],
+    pub(super) tolerance: f64,
+    pub(super) found: &'a mut Vec<(usize, f64)>,
+    /// The intervals with an unseen defect.
+    pub(super) cut: Vec<usize>,
+    pub(super) powers: &'a mut Powers,
+    pub(super) stats: &'a mut Stats,
+}
+
+impl<'a> SegmentLook<'a> {
+    /// Looks at all intervals next to their nodes and at these shares of their lengths. Its stages m and
+    /// states n are known to the compiler.
+    #[inline(always)]
+    pub(super) fn everywhere(&mut self, size: [usize; 2], places: &[f64]) {
+        let slope = self.largest_slope(size);
+        let mut values = Few::zeros(3 * size[1]);
+        let mut at = At::new(size[1], &mut values);
+        for i in 0..self.nodes.len() - 1 {
+            let interval = self.interval(size, i);
+            self.powers.expand(size, self.t, &interval);
+            let mut unseen = self.is_unseen_near_nodes(size, i, &interval, slope, &mut at);
+            for &theta in places {
+                if self.is_unseen_at(size, i, &interval, theta, &mut at) {
+                    unseen = true;
+                    self.found.push((self.index, interval.place(theta)));
+                }
+            }
+            if unseen {
+                self.cut.push(i);
+            }
+        }
+    }
+
+    /// Looks next to both nodes of interval i.
+    #[inline(always)]
+    fn is_unseen_near_nodes(
+        &mut self,
+        size: [usize; 2],
+        i: usize,
+        interval: &Interval<'_>,
+        slope: f64,
+        at: &mut At<'_>,
+    ) -> bool {
+        let nearest = self.nearest(i, slope);
+        let first = self.t.defect_rule.points[0].max(2.0 * nearest);
+        let mut unseen = false;
+        for right in [false, true] {
+            let theta = if right { 1.0 - nearest } else { nearest };
+            let defect = self.defect(size, interval, theta, at);
+            let jumps = self.is_unseen(interval.h * first * defect, self.local[i]);
+            let grows = interval.h * nearest * at.rate() > 2.0 * UNNOTICED * self.tolerance;
+            if jumps || grows {
+                let sum = self.near_node(interval, right, [first, nearest]);
+                if sum > AIM * self.tolerance && (grows || sum > self.local[i]) {
+                    unseen = true;
+                    self.found.push((self.index, interval.place(theta)));
+                }
+            }
+        }
+        unseen
+    }
+
+    /// The integral of the defect beside the left or right node of an interval, over the shares of it up to
+    /// the first one: down to the nearest by the rungs of a ladder, each of which does not show in the one
+    /// before, beyond it that of the right-hand side by the power law of the last two.
+    #[inline(never)]
+    fn near_node(
+        &mut self,
+        interval: &Interval<'_>,
+        right: bool,
+        [first, nearest]: [f64; 2],
+    ) -> f64 {
+        let mut at = |distance: f64| {
+            let theta = if right { 1.0 - distance } else { distance };
+            self.unexplained(interval, theta)
+        };
+        let (mut sum, mut power, mut last) = (0.0, 0.0f64, first);
+        let [mut defect, mut rate] = at(first);
+        while last > nearest {
+            let distance = (UNNOTICED * last).max(nearest);
+            let before = rate;
+            [defect, rate] = at(distance);
+            sum += (last - distance) * defect;
+            power = (rate / before).ln() / (last / distance).ln();
+            last = distance;
+        }
+        // What is steeper than nearly the power −1 is the little that is not explained beside a mapped
+        // infinite end.
+        let beyond = match power > 0.0 {
+            true => rate * power / (1.0 - power).max(UNNOTICED),
+            false => 0.0,
+        };
+        interval.h * (sum + nearest * (defect + beyond))
+    }
+
+    /// Looks where something was found before.
+    pub(super) fn again(&mut self) {
+        let size = self.size();
+        for which in 0..self.found.len() {
+            let (index, s) = self.found[which];
+            if index != self.index {
+                continue;
+            }
+            let behind = self.nodes.partition_point(|&node| node <= s);
+            let i = behind.clamp(1, self.nodes.len() - 1) - 1;
+            if !self.cut.contains(&i) {
+                let interval = self.interval(size, i);
+                self.powers.expand(size, self.t, &interval);
+                let theta = (s - self.nodes[i]) / interval.h;
+                let mut values = Few::zeros(3 * size[1]);
+                let at = &mut At::new(size[1], &mut values);
+                if self.is_unseen_at(size, i, &interval, theta, at) {
+                    self.cut.push(i);
+                }
+            }
+        }
+    }
+
+    /// Whether the defect at a place of interval i is neither that of the polynomials nor harmless. As much
+    /// of the interval may have it as there is between the points at which it has been seen.
+    ///
+    /// That of the polynomials is larger than its root mean square over the interval by less than the factor
+    /// of one sample: Legendre's of degree m ≤ 7 is √(2m + 1) < 4 times that at its ends, and the next ones
+    /// are beside it.
+    #[inline(always)]
+    fn is_unseen_at(
+        &mut self,
+        size: [usize; 2],
+        i: usize,
+        interval: &Interval<'_>,
+        theta: f64,
+        at: &mut At<'_>,
+    ) -> bool {
+        let gap = self.t.widest_gap;
+        let expected = gap * ONE_SAMPLE * self.local[i];
+        let defect = self.defect(size, interval, theta, at);
+        self.is_unseen(gap * interval.h * defect, expected) && {
+            let [defect, _] = self.unexplained(interval, theta);
+            self.is_unseen(gap * interval.h * defect, expected)
+        }
+    }
+
+    /// Whether an addition to the solution is more than is allowed and than is expected.
+    fn is_unseen(&self, addition: f64, expected: f64) -> bool {
+        addition > AIM * self.tolerance && addition > expected
+    }
+
+    /// The numbers of stages m and of states n.
+    pub(super) fn size(&self) -> [usize; 2] {
+        let states = self.x.segments[self.index].nodes.len();
+        [self.t.stages, states / self.nodes.len()]
+    }
+
+    #[inline(always)]
+    fn interval(&self, size: [usize; 2], i: usize) -> Interval<'a> {
+        let x = &self.x.segments[self.index];
+        Interval::new(x, size, i, &self.nodes[i..i + 2])
+    }
+
+    /// How near to the nodes of interval i a jump by as much as the largest slope is harmless, as a share of
+    /// the interval: no nearer than places are told apart, and no farther than the middle.
+    fn nearest(&self, i: usize, slope: f64) -> f64 {
+        let (left, right) = (self.nodes[i], self.nodes[i + 1]);
+        let spacing = f64::EPSILON * left.abs().max(right.abs());
+        let h = right - left;
+        let harmless =
+            (UNNOTICED * self.tolerance / slope / h).min(0.5 * self.t.defect_rule.points[0]);
+        harmless.max(SPACINGS * spacing / h).min(0.5)
+    }
+
+    /// The largest |dy/ds| / (1 + |y|) at the collocation points of the segment, at least that of a state
+    /// that changes by one.
+    #[inline(always)]
+    fn largest_slope(&self, size: [usize; 2]) -> f64 {
+        let least = 1.0 / (self.nodes[self.nodes.len() - 1] - self.nodes[0]);
+        let intervals = (0..self.nodes.len() - 1).map(|i| self.interval(size, i));
+        intervals.fold(least, |m, interval| {
+            m.max(interval.largest_relative_slope())
+        })
+    }
+
+    /// The largest defect and the largest right-hand side at a place of the interval, relative to 1 + |y|,
+    /// less what an error of the states within the tolerance makes of the right-hand side: next to a singular
+    /// end that is much.
+    #[inline(never)]
+    fn unexplained(&mut self, interval: &Interval<'_>, theta: f64) -> [f64; 2] {
+        let [m, n] = self.size();
+        let mut values = Few::zeros(3 * n);
+        let At { y, f, slope } = At::new(n, &mut values);
+        let u = 2.0 * theta - 1.0;
+        self.powers.state([m, n], u, y);
+        self.powers.slope([m, n], u, slope);
+        let columns = n + self.x.p.len();
+        let (mut jacobian, s) = (vec![0.0; n * columns], interval.place(theta));
+        self.equations
+            .rhs_jacobian(self.index, s, y, &self.x.p, f, &mut jacobian);
+        self.stats.jacobian_evaluations += 1;
+        let rows = jacobian.chunks_exact(columns);
+        let each = slope.iter().zip(&*f).zip(&*y).zip(rows);
+        let largest = each.fold([0.0f64; 2], |largest, (((slope, f), y_own), row)| {
+            let terms = row.iter().zip(&*y);
+            let explained: f64 = terms.map(|(j, y)| j.abs() * (1.0 + y.abs())).sum();
+            let sizes = [(slope - f).abs(), f.abs()];
+            let sizes = sizes.map(|size| (size - self.tolerance * explained) / (1.0 + y_own.abs()));
+            [0, 1].map(|i| largest[i].max(sizes[i]))
+        });
+        largest.map(|size| if size.is_finite() { size } else { 0.0 })
+    }
+
+    /// The largest defect at a place of the interval relative to 1 + |y|; zero where it is not finite.
+    #[inline(always)]
+    fn defect(
+        &mut self,
+        size: [usize; 2],
+        interval: &Interval<'_>,
+        theta: f64,
+        at: &mut At<'_>,
+    ) -> f64 {
+        let At { y, f, slope } = at;
+        let u = 2.0 * theta - 1.0;
+        self.powers.state(size, u, y);
+        self.powers.slope(size, u, slope);
+        f.fill(f64::NAN);
+        let s = interval.place(theta);
+        self.equations.evaluate_rhs(self.index, s, y, &self.x.p, f);
+        self.stats.rhs_evaluations += 1;
+        let defects = slope.iter().zip(&**f).zip(&**y);
+        let largest = defects.fold(0.0f64, |m, ((slope, f), y)| {
+            max_or_nan(m, (slope - f).abs() / (1.0 + y.abs()))
+        });
+        if largest.is_finite() { largest } else { 0.0 }
+    }
+}
+
+/// A state at one place, its right-hand side and its slope.
+struct At<'a> {
+    y: &'a mut [f64],
+    f: &'a mut [f64],
+    slope: &'a mut [f64],
+}
+
+impl<'a> At<'a> {
+    /// Room for n states in 3n numbers.
+    #[inline(always)]
+    fn new(n: usize, values: &'a mut [f64]) -> Self {
+        let (y, rest) = values.split_at_mut(n);
+        let (f, slope) = rest.split_at_mut(n);
+        let (y, f, slope) = (&mut y[..n], &mut f[..n], &mut slope[..n]);
+        Self { y, f, slope }
+    }
+
+    /// The largest |f| relative to 1 + |y|.
+    #[inline(always)]
+    fn rate(&self) -> f64 {
+        let rates = self.f.iter().zip(&*self.y);
+        rates.fold(0.0, |m, (f, y)| m.max(f.abs() / (1.0 + y.abs())))
+    }
+}
