@@ -129,11 +129,9 @@ impl Path<'_> {
         self.classify(solved)
     }
 
-    /// A state at the scaled tight tension `target` from which the branch can be followed up to its limit,
-    /// unless that is hard to find.
-    pub(super) fn below_limit(&mut self, target: f64) -> Option<Solved> {
-        let solved = self.start(target).ok()?;
-        (solved.driven_speed() > 0.0 && self.is_before_limit(&solved)).then_some(solved)
+    /// Whether the branch can be followed from a state up to its limit.
+    pub(super) fn is_below_limit(&mut self, solved: &Solved) -> bool {
+        solved.driven_speed() > 0.0 && self.is_before_limit(solved)
     }
 
     /// Whether the tension rises with the contact length of the driver, as it does from no load to

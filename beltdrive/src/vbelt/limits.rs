@@ -17,9 +17,9 @@ use web_time::Instant;
 /// How far a load is lowered, in logarithms of its ratio to the slack tension, where the drive does
 /// not carry it.
 const EASIER: [f64; 6] = [0.8, 0.6, 0.4, 0.25, 0.15, 0.08];
-/// Multiples of the slack tension at which a branch begins whose own load is less than the last of them: nearer to
-/// no load the belt hardly slips, and states are hard to find and to follow.
-const HEAVIER: [f64; 3] = [2.0, 1.5, 1.2];
+/// Multiples of the slack tension at which a branch may begin in place of the load of the drive, and first does if that
+/// is less than the last of them: nearer to no load the belt hardly slips, and states are hard to find and to follow.
+const HEAVIER: [f64; 4] = [2.0, 3.0, 1.5, 1.2];
 /// Below this multiple of the slack tension a branch is left to the state without load.
 const LIGHT: f64 = 3.0;
 /// An upper end is sought up to this multiple of the value in the drive, and from there again.
@@ -112,16 +112,25 @@ pub(super) fn first_state(
     let load = Key::load(drive);
     if *key == load {
         let ratio = load.get(drive) / drive.load.slack.value();
-        let is_light = (1.0..HEAVIER[2]).contains(&ratio);
-        let heavier = HEAVIER.into_iter().filter(|_| is_light);
-        let easier = EASIER.map(|share| ratio.powf(share));
-        for ratio in heavier.chain([ratio]).chain(easier) {
+        let own = [ratio]
+            .into_iter()
+            .chain(EASIER.map(|share| ratio.powf(share)));
+        let ratios: Vec<f64> = match (1.0..HEAVIER[3]).contains(&ratio) {
+            true => HEAVIER.into_iter().chain(own).collect(),
+            false => own.chain(HEAVIER).collect(),
+        };
+        // A normalised direction is harder to follow.
+        let searches = [true, false]
+            .map(|has_direction| ratios.iter().map(move |&ratio| (has_direction, ratio)));
+        for (has_direction, ratio) in searches.into_iter().flatten() {
             let mut first = drive.clone();
             load.set(&mut first, drive.load.slack.value() * ratio);
             let mut path = Path::new(&first, tolerance);
-            let Some(solved) =
-                path.below_limit(first.load.tight.value() / path.scales().units.force)
-            else {
+            let found = match has_direction {
+                true => path.with_direction(),
+                false => path.start(),
+            };
+            let Some(solved) = found.filter(|solved| path.is_below_limit(solved)) else {
                 continue;
             };
             // No load makes the belt slower.

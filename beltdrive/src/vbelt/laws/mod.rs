@@ -236,9 +236,12 @@ impl Path<'_> {
         self.seek(&AtLoad { drive, tight })
     }
 
-    /// The steady state at the load of the drive with the direction of friction as a state, from nothing.
+    /// The steady state of a drive with Coulomb or EPP friction with its direction as a state, if it is found.
     pub(super) fn with_direction(&mut self) -> Option<Solved> {
         let (drive, tight) = (self.drive, self.target());
+        if let FrictionLaw::Bristle { .. } = drive.law {
+            return None;
+        }
         let asked = AtLoad { drive, tight };
         let start = self.cold(&asked, asked.softest(), Effort::Start).ok()?;
         self.sliding(&asked, &start)
@@ -256,14 +259,15 @@ impl Path<'_> {
         self.normalised(&asked, start)
     }
 
-    /// The steady state as by [`Path::at_load`], but with the shortest ℓ or smallest ε that was reached where its
+    /// The steady state of the drive, if it is found, with the shortest ℓ or smallest ε that was reached where its
     /// effect is not below the tolerance: good enough to follow a branch from it.
-    pub(super) fn start(&mut self, tight: f64) -> Result<Solved, Stuck> {
-        match self.at_load(tight) {
-            Err(Stuck {
-                last: Some(last), ..
-            }) if last.is_resolved(self.drive.law, self.tolerance) => Ok(*last),
-            outcome => outcome,
+    pub(super) fn start(&mut self) -> Option<Solved> {
+        match self.at_load(self.target()) {
+            Ok(solved) => Some(solved),
+            Err(stuck) => stuck
+                .last
+                .filter(|last| last.is_resolved(self.drive.law, self.tolerance))
+                .map(|last| *last),
         }
     }
 
