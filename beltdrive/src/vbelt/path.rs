@@ -14,6 +14,8 @@ const ROUGH_INTERVALS: usize = 500;
 /// Mesh intervals that a solution may have whose error is estimated. With 10 000 the estimate was out of reach
 /// for 2 of 20 elastic-plastic drives that hardly slip.
 const FINAL_INTERVALS: usize = 40_000;
+/// Mesh intervals that one may have whose error is estimated only where that costs little.
+const LIGHT_INTERVALS: usize = 4_000;
 
 /// How accurately a problem is solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +30,8 @@ pub(super) enum Effort {
     Full,
     /// To the tolerance asked for, with an estimate of the global error.
     Final,
+    /// As `Final`, where that costs little.
+    Light,
 }
 
 impl Effort {
@@ -42,7 +46,7 @@ impl Effort {
             Self::Start => (tolerance.max(1e-2), 4, 40),
             Self::Rough => (tolerance.max(1e-2), 4, 16),
             Self::Careful => (tolerance.max(1e-4), 5, 16),
-            Self::Full | Self::Final => (tolerance, 6, 30),
+            Self::Full | Self::Final | Self::Light => (tolerance, 6, 30),
         };
         Options {
             tolerance,
@@ -56,12 +60,13 @@ impl Effort {
                 Self::Rough | Self::Careful => ROUGH_INTERVALS,
                 Self::Start | Self::Full => Options::default().max_intervals,
                 Self::Final => FINAL_INTERVALS,
+                Self::Light => LIGHT_INTERVALS,
             },
             // A shorter step of the homotopy is a better answer to a failure than a finer mesh.
             retries: if self == Self::Start { 2 } else { 0 },
             control: match self {
                 // Integrals of friction need a small defect.
-                Self::Final => Control::Both,
+                Self::Final | Self::Light => Control::Both,
                 _ => Control::Defect,
             },
             ..Options::default()

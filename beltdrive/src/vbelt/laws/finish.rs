@@ -54,8 +54,18 @@ impl<D> Path<'_, D> {
         }
     }
 
-    /// Solves to the tolerance, and smooths less until the effect of that is below that.
+    /// Solves to the tolerance with an estimate of the error, and smooths less until the effect of that is below
+    /// the tolerance.
     pub(in crate::vbelt) fn finish<P: BeltProblem>(
+        &mut self,
+        rough: Solved<P>,
+    ) -> Result<Solved<P>, Stuck<P>> {
+        let solved = self.resolve(rough)?;
+        self.with_estimate(solved)
+    }
+
+    /// Solves to the tolerance, and smooths less until the effect of that is below the tolerance.
+    pub(super) fn resolve<P: BeltProblem>(
         &mut self,
         rough: Solved<P>,
     ) -> Result<Solved<P>, Stuck<P>> {
@@ -80,11 +90,11 @@ impl<D> Path<'_, D> {
             // the larger, one ninth is that of the smaller.
             self.smoothing_effect = change / 0.9;
             if self.smoothing_effect <= share * self.tolerance {
-                return self.with_estimate(here);
+                return Ok(here);
             }
             self.smoothing_effect = change / 9.0;
             if self.smoothing_effect <= share * self.tolerance || smoothing <= SMALLEST {
-                return self.with_estimate(finer);
+                return Ok(finer);
             }
             here = finer;
         }

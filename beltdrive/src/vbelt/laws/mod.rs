@@ -256,7 +256,7 @@ impl Path<'_> {
             return self.seek(&asked);
         }
         let start = self.cold(&asked, asked.softest(), Effort::Start)?;
-        self.normalised(&asked, start)
+        self.normalised_roughly(&asked, start)
     }
 
     /// The steady state of the drive, if it is found, with the shortest ℓ or smallest ε that was reached where its

@@ -20,18 +20,50 @@ impl<D> Path<'_, D> {
         asked: &A,
         start: Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        self.normalised_to(asked, start, Self::finish)
+    }
+
+    /// The law of the drive with a normalised direction and the smallest ε that is reached where its effect is not
+    /// below the tolerance, with an estimate of the error where that costs little.
+    pub(super) fn normalised_roughly<A: Asked>(
+        &mut self,
+        asked: &A,
+        start: Solved<A::Problem>,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        self.normalised_to(asked, start, |path, sharp| {
+            let solved = match path.resolve(sharp) {
+                Err(Stuck {
+                    last: Some(last), ..
+                }) if last.is_resolved(asked.law(), path.tolerance) => *last,
+                outcome => outcome?,
+            };
+            let estimated = path.again(solved.clone(), Effort::Light);
+            Ok(estimated.unwrap_or(solved))
+        })
+    }
+
+    fn normalised_to<A: Asked>(
+        &mut self,
+        asked: &A,
+        start: Solved<A::Problem>,
+        finish: impl Fn(&mut Self, Solved<A::Problem>) -> Result<Solved<A::Problem>, Stuck<A::Problem>>,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
         let entered = self.enter_normalised(asked, start)?;
         if let FrictionLaw::Coulomb = asked.law() {
             let sharp = self.lower_epsilon(entered, RESOLVED)?;
-            return self.finish(sharp);
+            return finish(self, sharp);
         }
-        self.epp_by_zones(asked, &entered)
+        let zones = self.epp_by_zones(asked, &entered);
+        zones
+            .and_then(|sharp| finish(self, sharp))
             .or_else(|stuck| {
                 let other = self.epp_at_last(asked, &entered);
+                let other = other.and_then(|sharp| finish(self, sharp));
                 self.farther(asked.law(), stuck, other)
             })
             .or_else(|stuck| {
                 let other = self.epp_as_a_whole(asked, &entered);
+                let other = other.and_then(|sharp| finish(self, sharp));
                 self.farther(asked.law(), stuck, other)
             })
     }
@@ -65,8 +97,7 @@ impl<D> Path<'_, D> {
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
         let blended = self.blend(asked, unblended.clone())?;
         let split = self.split_zones(blended, Effort::Rough)?;
-        let sharp = self.lower_epsilon(split, RESOLVED)?;
-        self.finish(sharp)
+        self.lower_epsilon(split, RESOLVED)
     }
 
     /// Coulomb friction sharpened first, then EPP friction and its zones.
@@ -77,8 +108,7 @@ impl<D> Path<'_, D> {
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
         let sharp = self.lower_epsilon(unblended.clone(), RESOLVED)?;
         let blended = self.blend(asked, sharp)?;
-        let split = self.split_zones(blended, Effort::Rough)?;
-        self.finish(split)
+        self.split_zones(blended, Effort::Rough)
     }
 
     /// EPP friction across its kinks, which costs mesh intervals but needs no zones.
@@ -88,8 +118,7 @@ impl<D> Path<'_, D> {
         unblended: &Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
         let blended = self.blend(asked, unblended.clone())?;
-        let sharp = self.lower_epsilon(blended, RESOLVED)?;
-        self.finish(sharp)
+        self.lower_epsilon(blended, RESOLVED)
     }
 
     /// EPP friction at the same ε, by growing its share.
