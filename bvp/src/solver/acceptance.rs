@@ -93,7 +93,7 @@ impl Acceptance {
         }
         let in_all = problem.collocation.amplification_in_all(a, &solution.x);
         if is_high(in_all) || problem.collocation.is_suspect() {
-            self.refuse_rounding(problem, solution, a)?;
+            self.refuse_rounding(problem, solution, in_all)?;
         }
         if is_open(a) && problem.rounds(solution) {
             let direction = problem.amplified(&solution.x);
