@@ -16,6 +16,7 @@ mod carried;
 mod chart;
 mod closure;
 mod contact;
+mod cubic;
 mod curve;
 mod drive_problem;
 mod family;
