@@ -76,3 +76,38 @@ fn amplified_rounding_is_seen() {
     }
     assert!(score.solved >= 30, "{score:?}");
 }
+
+/// y' = λ (y − cos ωs) − ω sin ωs, y(0) = 1, with the solution cos ωs.
+struct Wave;
+
+impl Wave {
+    const RATE: f64 = 16.367_329_863_713_785;
+    const WAVE: f64 = 1.549_479_386_122_248_4;
+    const LENGTH: f64 = 2.544_885_782_333_507_6;
+}
+
+impl Problem for Wave {
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::on(1, 0.0, Self::LENGTH)]
+    }
+
+    fn rhs<T: Real>(&self, _segment: usize, s: T, y: &[T], _p: &[T], dy: &mut [T]) {
+        let (sin, cos) = (s * Self::WAVE).sin_cos();
+        dy[0] = (y[0] - cos) * Self::RATE - sin * Self::WAVE;
+    }
+
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+        r[0] = at.start(0)[0] - 1.0;
+    }
+}
+
+/// Growth by 1e18 on a mesh that is coarse at the start: an end of -1.5e8 in place of -0.7 was accepted.
+#[test]
+fn a_solution_that_has_grown_from_rounding_is_refused() {
+    let outcome = solve(&Wave, &Constant::new([0.0]), &Options::to(1e-3));
+    assert!(
+        outcome.is_err(),
+        "{:?}",
+        outcome.map(|found| found.end(0)[0])
+    );
+}
