@@ -256,3 +256,48 @@ fn a_resonance_that_a_load_hardly_shows_is_refused() {
         }
     }
 }
+
+/// y' = −(c/s) (y − u/ε), where u = p − w is a small difference: y feels a change of p a hundred times, and what a
+/// forced condition leaves at s = 0 decays as s^(−c), which no mesh resolves. The solution y = 1 is isolated.
+struct StiffSingularEnd;
+
+impl Problem for StiffSingularEnd {
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(2)]
+    }
+
+    fn parameters(&self) -> usize {
+        1
+    }
+
+    fn rhs<T: Real>(&self, _: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
+        dy[0] = T::ZERO;
+        dy[1] = ((p[0] - y[0]) * 100.0 - y[1]) * 40.0 / s;
+    }
+
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]) {
+        let y = at.start(0);
+        r[0] = p[0] - 1.0;
+        r[1] = y[0] - 0.99;
+        r[2] = y[1] - (p[0] - y[0]) * 100.0;
+    }
+}
+
+#[test]
+fn a_layer_that_no_mesh_resolves_at_a_singular_end_is_no_direction_of_a_family() {
+    let guess = Constant {
+        states: vec![vec![0.9, 0.5]],
+        parameters: vec![1.0],
+    };
+    for tolerance in [1e-3, 1e-6] {
+        let options = Options {
+            tolerance,
+            ..Options::default()
+        };
+        let solution = solve(&StiffSingularEnd, &guess, &options).unwrap();
+        let mut y = [0.0; 2];
+        solution.state(0, 0.3, &mut y);
+        assert!((y[1] - 1.0).abs() < tolerance, "{}", y[1]);
+        assert!(solution.stats().factorisations <= 5);
+    }
+}
