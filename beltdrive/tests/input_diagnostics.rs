@@ -67,7 +67,7 @@ fn unknown_tables_and_keys() {
        |
     13 | lwa = "coulomb"
        | ^^^
-    expected: one of `law`, `coefficient`, `stiffness`, `bristle_stiffness`, `velocity`
+    expected: one of `law`, `coefficient`, `stiffness`, `bristle_stiffness`, `velocity`, `epp`
     help: did you mean `law`?
     "#);
     assert_snapshot!(error("[groove]", "half_angle = 0.3\n[groove]"), @r#"
@@ -229,7 +229,7 @@ fn overrides() {
       |
     1 | --set friction.lwa=coulomb
       |                ^^^
-    expected: one of `law`, `coefficient`, `stiffness`, `bristle_stiffness`, `velocity`
+    expected: one of `law`, `coefficient`, `stiffness`, `bristle_stiffness`, `velocity`, `epp`
     help: did you mean `law`?
     "#);
     assert_snapshot!(override_error(&["groove.half_angle=17 deg", "frction.law = epp"]), @r"

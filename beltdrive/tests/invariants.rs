@@ -5,9 +5,10 @@ use beltdrive::{
 };
 use std::f64::consts::PI;
 
-const LAWS: [FrictionLaw; 3] = [
+const LAWS: [FrictionLaw; 4] = [
     FrictionLaw::Coulomb,
     FrictionLaw::Epp { stiffness: 8e6 },
+    FrictionLaw::VectorEpp { stiffness: 8e6 },
     FrictionLaw::Bristle { stiffness: 2000.0 },
 ];
 
@@ -125,6 +126,9 @@ fn a_drive_in_other_units_is_the_same_drive() {
         }
         scaled.law = match drive.law {
             FrictionLaw::Coulomb => FrictionLaw::Coulomb,
+            FrictionLaw::VectorEpp { stiffness } => FrictionLaw::VectorEpp {
+                stiffness: stiffness * force / length.powi(2),
+            },
             FrictionLaw::Epp { stiffness } => FrictionLaw::Epp {
                 stiffness: stiffness * force / (length * length),
             },

@@ -150,6 +150,12 @@ fn epp_friction() {
 }
 
 #[test]
+fn vector_friction() {
+    let law = FrictionLaw::VectorEpp { stiffness: 8e6 };
+    assert_eq!(survey(law, 40, 20_260_004), 0);
+}
+
+#[test]
 fn a_belt_that_sticks_up_to_its_exit_slips_at_the_very_end() {
     // Where it leaves it presses no longer. The slip zones are shorter than the distance of two looks at the
     // friction; without them the normal force at the exits is negative.
@@ -173,5 +179,6 @@ fn full_score() {
         survey(FrictionLaw::Coulomb, 200, seed);
         survey(FrictionLaw::Bristle { stiffness: 2000.0 }, 200, seed + 1);
         survey(FrictionLaw::Epp { stiffness: 8e6 }, 100, seed + 2);
+        survey(FrictionLaw::VectorEpp { stiffness: 8e6 }, 100, seed + 3);
     }
 }

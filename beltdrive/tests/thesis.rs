@@ -134,6 +134,79 @@ fn elastic_friction_in_front_of_a_lock_zone_is_found_exactly() {
 }
 
 #[test]
+fn vector_friction_sticks_where_an_independent_prototype_found_it() {
+    // Of a prototype with 4-stage Gauss collocation: constants, and where friction is elastic.
+    let law = FrictionLaw::VectorEpp { stiffness: 8.1e6 };
+    type Arcs = &'static [[f64; 2]];
+    let cases: [(f64, [f64; 4], [Arcs; 2], usize); 3] = [
+        (
+            700.0,
+            [102.69881236, 2.7681395843, 194.48953788, 197.90524804],
+            [&[], &[[41.9664, 93.7387]]],
+            75,
+        ),
+        (
+            200.0,
+            [104.41185800, 2.8090975629, 188.66912002, 189.25162326],
+            [&[[20.8627, 43.1404]], &[[26.8326, 132.0889]]],
+            110,
+        ),
+        (
+            105.0,
+            [104.70432766, 2.8169536927, 186.53399534, 186.57547144],
+            [
+                &[[20.518, 139.488], [181.033, 183.349]],
+                &[[20.913, 183.441]],
+            ],
+            100,
+        ),
+    ];
+    for (tight, expected, arcs, steps) in cases {
+        let state = state(law, tight);
+        let c = &state.convergence;
+        let stated = c.slip_normalisation_effect + c.error_estimate;
+        assert_constants(&state, expected, 2.0 * stated);
+        for (on, arcs) in [&state.driven, &state.driver].into_iter().zip(arcs) {
+            let elastic = on
+                .zones
+                .iter()
+                .filter(|zone| zone.kind == ZoneKind::Elastic);
+            let found: Vec<_> = elastic.map(|zone| [zone.from, zone.to]).collect();
+            assert_eq!(found.len(), arcs.len());
+            for (found, known) in found.as_flattened().iter().zip(arcs.as_flattened()) {
+                let found = found.to_degrees();
+                assert!((found - known).abs() < 1e-3, "{found} {known} at {tight} N");
+            }
+        }
+        let newton = c.newton_iterations;
+        assert!(newton <= steps, "{newton} at {tight} N");
+    }
+    // Down to no load, where both pulleys are alike.
+    for tight in [101.0, 100.5, 100.01, 100.0] {
+        let state = state(law, tight);
+        let apart = state.driver.wrap_angle - state.driven.wrap_angle;
+        assert!(apart.abs() < 2e-4 * (tight - 100.0) + 1e-9, "{apart}");
+        assert!(state.convergence.newton_iterations <= 150);
+    }
+}
+
+#[test]
+fn vector_friction_tends_to_coulomb_friction_as_its_stiffness_grows() {
+    // Wrap of the driver at 700 N less that of Coulomb friction, in degrees.
+    let apart = |stiffness: f64| {
+        let state = state(FrictionLaw::VectorEpp { stiffness }, 700.0);
+        state.driver.wrap_angle.to_degrees() - 198.28940019
+    };
+    let stiff = [1.6e7, 3.2e7, 6.4e7, 1.28e8];
+    let found = stiff.map(apart);
+    for (found, known) in found.into_iter().zip([-0.204, -0.105, -0.054, -0.027]) {
+        assert!((found - known).abs() < 0.02 * known.abs(), "{found}");
+    }
+    let order = (found[0] / found[3]).log2() / 3.0;
+    assert!((0.9..=1.05).contains(&order), "{order}");
+}
+
+#[test]
 fn soft_elastic_friction_holds_the_belt_on_both_pulleys() {
     let state = state(FrictionLaw::Epp { stiffness: 2e6 }, 200.0);
     for pulley in [&state.driven, &state.driver] {

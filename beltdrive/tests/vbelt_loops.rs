@@ -584,7 +584,11 @@ fn the_smallest_margin_of_two_pulleys_is_their_load_limit() {
 #[test]
 fn friction_that_sticks_or_slides_has_margins_and_a_limit() {
     let options = SolveOptions { tolerance: 1e-5 };
-    for law in [FrictionLaw::Coulomb, FrictionLaw::Epp { stiffness: 4e8 }] {
+    for law in [
+        FrictionLaw::Coulomb,
+        FrictionLaw::Epp { stiffness: 4e8 },
+        FrictionLaw::VectorEpp { stiffness: 4e7 },
+    ] {
         let belt_loop = with_law(accessories(Closure::SetupTension(500.0)), law);
         let state = solve_with_margins(&belt_loop, &options).unwrap();
         let margins = state.pulleys.iter().map(|pulley| pulley.torque_margin);

@@ -7,6 +7,7 @@ use crate::quantity::Measure;
 pub(super) const ROW: Row = Row {
     name: "bristle",
     title: "bristle",
+    other: None,
     parameter: Some(Parameter {
         path: "friction.bristle_stiffness",
         name: "bristle stiffness",

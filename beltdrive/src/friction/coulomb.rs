@@ -9,6 +9,7 @@ use crate::FrictionLaw;
 pub(super) const ROW: Row = Row {
     name: "coulomb",
     title: "Coulomb",
+    other: None,
     parameter: None,
     with: |_| FrictionLaw::Coulomb,
     in_grooves: true,

@@ -33,6 +33,7 @@ const LEAST: f64 = 40.0;
 pub(super) const ROW: Row = Row {
     name: "creep-rate",
     title: "creep-rate",
+    other: None,
     parameter: Some(Parameter {
         path: "friction.velocity",
         name: "creep velocity",

@@ -23,6 +23,12 @@ pub enum FrictionLaw {
         /// Stiffness `k_f` per length, N/m².
         stiffness: f64,
     },
+    /// Elastic/perfectly-plastic friction as a vector in the groove face: the traction grows with the slip that is
+    /// not yet plastic, `k_f` per length, up to μ p; V-belts only.
+    VectorEpp {
+        /// Stiffness `k_f` per length, N/m².
+        stiffness: f64,
+    },
     /// Vector bristles in the groove face with stiffness proportional to the pressure; V-belts only.
     Bristle {
         /// Bristle stiffness κ, 1/m; the micro-slip length is μ/κ.
@@ -36,13 +42,21 @@ pub enum FrictionLaw {
     },
 }
 
-/// The rows of all laws, in the order in which messages list them.
+/// The rows of all laws, in the order in which messages list them, but for other kinds of them.
 pub(crate) const ROWS: &[&Row] = &[&coulomb::ROW, &epp::ROW, &bristle::ROW, &creep_rate::ROW];
 
 impl FrictionLaw {
     /// The name of the law in drive files and outputs.
     pub fn name(&self) -> &'static str {
         self.row().name
+    }
+
+    /// The word that tells it from another law of the same name, if that is the one which drive files mean
+    /// without it.
+    pub(crate) fn kind(&self) -> Option<&'static str> {
+        let others = ROWS.iter().filter_map(|row| row.other.as_ref());
+        let mut own = others.filter(|other| other.row.title == self.row().title);
+        own.next().map(|other| other.words[1])
     }
 
     /// The row of the law.
@@ -60,6 +74,7 @@ impl FrictionLaw {
         match self {
             Self::Coulomb => (&coulomb::ROW, None),
             Self::Epp { stiffness } => (&epp::ROW, Some(stiffness)),
+            Self::VectorEpp { stiffness } => (&epp::VECTOR, Some(stiffness)),
             Self::Bristle { stiffness } => (&bristle::ROW, Some(stiffness)),
             Self::CreepRate { velocity } => (&creep_rate::ROW, Some(velocity)),
         }

@@ -11,6 +11,8 @@ pub(crate) struct Row {
     pub(crate) name: &'static str,
     /// What it is called in text.
     pub(crate) title: &'static str,
+    /// Another kind of law with the same name.
+    pub(crate) other: Option<Other>,
     /// Its parameter beside the coefficient of friction, if it has one.
     pub(crate) parameter: Option<Parameter>,
     /// The law with a value of its parameter, SI; without a parameter the value is ignored.
@@ -19,6 +21,19 @@ pub(crate) struct Row {
     pub(crate) in_grooves: bool,
     /// What it does with flat belts, if it is a law for these.
     pub(crate) on_rims: Option<OnRims>,
+}
+
+/// A law with the name of another one.
+#[derive(Debug)]
+pub(crate) struct Other {
+    /// The dotted path of the entry that tells them apart.
+    pub(crate) path: &'static str,
+    /// The words for the law that is meant without that entry, and for this one.
+    pub(crate) words: [&'static str; 2],
+    /// A right value as TOML.
+    pub(crate) example: &'static str,
+    /// This one.
+    pub(crate) row: &'static Row,
 }
 
 /// The parameter of a law in drive files.

@@ -19,7 +19,11 @@ pub(super) fn law(values: &Values<'_>, belt: BeltKind) -> Result<FrictionLaw, Fi
 /// The row of the law that the values name.
 pub(super) fn row(values: &Values<'_>) -> Option<&'static Row> {
     let name = values.text("friction.law")?;
-    ROWS.iter().copied().find(|row| row.name == name)
+    let row = ROWS.iter().copied().find(|row| row.name == name)?;
+    Some(match &row.other {
+        Some(other) if values.text(other.path) == Some(other.words[1]) => other.row,
+        _ => row,
+    })
 }
 
 /// Whether a belt can have a law.

@@ -91,6 +91,7 @@ pub(super) fn statement(drive: &Drive) -> Vec<Quantity> {
         }
     }
     statement.push(word("friction_law", drive.law.name()));
+    statement.extend(drive.law.kind().map(|kind| word("friction_kind", kind)));
     statement
 }
 

@@ -1,6 +1,7 @@
 //! What the way to a steady state knows of a belt round pulleys.
 
 use super::groove::{ANGLE, INCLINATION, LAW, LEAD, PENETRATION};
+use super::vector::Yielding;
 use super::{Contact, Groove, Law, Regime, Units, breakaway_excess, hold_excess, limit_excess};
 use bvp::{Ends, Problem, Real, Solution};
 use std::ops::Range;
@@ -147,7 +148,8 @@ pub(crate) trait BeltProblem: Problem + Clone {
 
     /// Whether the law of friction has elastic and slip zones.
     fn has_zones(&self) -> bool {
-        self.law().elastic().is_some()
+        let law = self.law();
+        law.elastic().is_some() || matches!(law, Law::Vector { .. })
     }
 
     /// Whether those zones are segments.
@@ -253,6 +255,13 @@ pub(super) fn in_groove<T: Real>(
             zero(contact(zones.start, entry).misalignment(entry));
             &entry[LAW + 1..]
         }
+        Law::Vector { .. } => {
+            let contact = contact(zones.start, entry);
+            let yielding = Yielding::new(&contact, groove, entry);
+            let entering = yielding.map(|yielding| yielding.entering());
+            entering.into_iter().flatten().for_each(&mut zero);
+            &entry[LAW + 2..]
+        }
         _ => &entry[LAW..],
     };
     for &state in law {
@@ -280,7 +289,12 @@ pub(super) fn in_groove<T: Real>(
                     false => contact(next, y).turn_excess(groove),
                 },
             ),
-            _ => zero(limit_excess(groove, y, omega, flow)),
+            // An elastic zone without length would meet it, too, and twice.
+            (Regime::Elastic, _) if matches!(groove.law, Law::Vector { .. }) => {
+                let length = problem.length(next - 1, p);
+                zero(limit_excess(groove, before, y, omega, flow) / (length * length));
+            }
+            _ => zero(limit_excess(groove, before, y, omega, flow)),
         }
     }
 }

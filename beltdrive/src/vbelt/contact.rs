@@ -28,6 +28,7 @@
 //! How q depends on slip and deflection is in `groove`.
 
 use super::groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
+use super::vector::Yielding;
 use super::{Groove, Law, Regime, Strand};
 use bvp::Real;
 use std::f64::consts::PI;
@@ -90,7 +91,7 @@ impl<T: Real> Contact<T> {
         let transverse = penetration * groove.radial_stiffness;
         let half_load = transverse * 0.5;
         let traction = match groove.law {
-            Law::Bristle { .. } => {
+            Law::Bristle { .. } | Law::Vector { .. } => {
                 let mu = groove.friction_coefficient;
                 let slipping = groove.pressure(half_load, state[LAW + 1]);
                 let carrying = match groove.elastic() {
@@ -161,6 +162,12 @@ impl<T: Real> Contact<T> {
                 let saturation = self.slip_norm / groove.friction_coefficient;
                 for (axis, &slip) in self.slip.iter().enumerate() {
                     rates[LAW + axis] = (slip - saturation * state[LAW + axis]) * stiffness;
+                }
+            }
+            Law::Vector { .. } => {
+                let turning = self.slip_rates(groove, rates);
+                if let Some(yielding) = Yielding::new(self, groove, state) {
+                    rates[LAW..LAW + 2].copy_from_slice(&yielding.rates(turning));
                 }
             }
         }
@@ -245,6 +252,7 @@ impl<T: Real> Contact<T> {
     pub(crate) fn sliding_angle(&self, groove: &Groove, state: &[T]) -> T {
         let [along, up] = match groove.law {
             Law::Sliding { .. } => state[LAW].sin_cos().into(),
+            Law::Vector { .. } => [state[LAW], state[LAW + 1]],
             _ => self.slip,
         };
         along.atan2(up * groove.cos_beta)
@@ -280,16 +288,26 @@ pub(crate) fn hold_excess<T: Real>(
     held.traction[1] - sliding.traction[1]
 }
 
-/// Excess `k_f` |u| − μ p of the elastic friction over its limit: zero where elastic and slip zones
-/// of EPP friction meet, positive in slip. Other laws have no limit to exceed; they give zero.
-pub(crate) fn limit_excess<T: Real>(groove: &Groove, state: &[T], omega: T, flow: T) -> T {
-    match groove.elastic() {
-        Some(elastic) => {
-            let slip = Contact::new(groove, Regime::Slip, state, omega, flow);
-            groove.elastic_friction(elastic, state) - slip.pressure * groove.friction_coefficient
-        }
-        None => T::from_f64(0.0),
+/// Excess of the elastic friction over its limit: zero at the end of a zone of EPP friction, negative where
+/// friction is elastic and positive where the belt slips. It is `k_f` |u| − μ p, and with vector EPP friction that of
+/// [`Yielding::excess`]. Other laws have no limit to exceed; they give zero.
+pub(crate) fn limit_excess<T: Real>(
+    groove: &Groove,
+    regime: Regime,
+    state: &[T],
+    omega: T,
+    flow: T,
+) -> T {
+    if let Some(elastic) = groove.elastic() {
+        let slip = Contact::new(groove, Regime::Slip, state, omega, flow);
+        return groove.elastic_friction(elastic, state)
+            - slip.pressure * groove.friction_coefficient;
     }
+    let contact = Contact::new(groove, regime, state, omega, flow);
+    let yielding = Yielding::new(&contact, groove, state);
+    yielding.map_or(T::from_f64(0.0), |yielding| {
+        yielding.excess(groove.strand.compliance)
+    })
 }
 
 #[cfg(test)]
@@ -411,14 +429,14 @@ mod tests {
         let slip = Contact::new(&groove, Regime::Slip, &STATE, OMEGA, FLOW);
         let mut state = STATE;
         state[LAW] = 0.4 * slip.pressure / 4.0;
-        assert!(limit_excess(&groove, &state, OMEGA, FLOW).abs() < 1e-15);
+        assert!(limit_excess(&groove, Regime::Either, &state, OMEGA, FLOW).abs() < 1e-15);
         for regime in [Regime::Elastic, Regime::Slip, Regime::Either] {
             let c = Contact::new(&groove, regime, &state, OMEGA, FLOW);
             assert!((c.pressure - slip.pressure).abs() < 1e-14);
             assert!((c.retarding - slip.retarding).abs() < 1e-14);
         }
         state[LAW] *= 1.1;
-        assert!(limit_excess(&groove, &state, OMEGA, FLOW) > 0.0);
+        assert!(limit_excess(&groove, Regime::Either, &state, OMEGA, FLOW) > 0.0);
     }
 
     /// States of sliding friction, the traction turned from the slip by some angle.

@@ -81,7 +81,7 @@ impl DriveProblem {
             segments: Vec::new(),
         };
         let regime = match drive.law {
-            FrictionLaw::Epp { .. } => Regime::Either,
+            FrictionLaw::Epp { .. } | FrictionLaw::VectorEpp { .. } => Regime::Either,
             _ => Regime::Slip,
         };
         problem.with_zones(&[vec![regime], vec![regime]])

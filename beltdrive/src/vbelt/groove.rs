@@ -7,6 +7,7 @@
 //! Coulomb   q = μ p e/|e|   (0/0 where the belt locks)
 //! EPP       q = f e/|e|,    f = min(k_f |u|, μ p),         du/ds = (T − T_o)/EA
 //! bristle   q = p B,        dB/ds = κ (e − |e| B/μ),       after Dahl (1968), a vector here
+//! vector    q = p B,        |B| ≤ μ,                       EPP friction as a vector, see `vector`
 //! ```
 //!
 //! A slipping contact is a bristle contact with B = μ e/|e|. The direction e/|e| is had in three ways: with
@@ -71,6 +72,16 @@ pub(crate) enum Law {
         /// The limit of EPP friction in place of μ p.
         elastic: Option<Elastic>,
     },
+    /// EPP friction as a vector: F, θ, x, φ, `B_t`, `B_w`.
+    Vector {
+        /// Stiffness `k_f` R²/`F_ref`.
+        stiffness: f64,
+        /// Half of the exponent of |B|/μ with which the plastic rate sets in where the regime is
+        /// [`Either`](Regime::Either).
+        sharpness: i32,
+        /// Length over which the traction of a slipping belt is led towards its slip where it follows that faster.
+        lead: f64,
+    },
 }
 
 impl Law {
@@ -91,6 +102,13 @@ impl Law {
                 unstretched,
                 weight: 1.0,
             }),
+            FrictionLaw::VectorEpp { stiffness } => {
+                return Self::Vector {
+                    stiffness: units.radial_stiffness(stiffness, radius),
+                    sharpness: 1,
+                    lead: lag,
+                };
+            }
             FrictionLaw::Bristle { stiffness } => {
                 return Self::Bristle {
                     stiffness: stiffness * radius,
@@ -112,6 +130,7 @@ impl Law {
             Self::Normalised { elastic, .. }
             | Self::Sliding { elastic, .. }
             | Self::Bristle { elastic, .. } => *elastic,
+            Self::Vector { .. } => None,
         }
     }
 
@@ -121,24 +140,27 @@ impl Law {
             Self::Normalised { elastic, .. }
             | Self::Sliding { elastic, .. }
             | Self::Bristle { elastic, .. } => elastic.as_mut(),
+            Self::Vector { .. } => None,
         }
     }
 
     /// The length ℓ/R over which the direction follows the slip, or the normalisation ε of the slip; zero for
-    /// bristles.
+    /// bristles and the vector law.
     pub(super) fn smoothing(self) -> f64 {
         match self {
             Self::Normalised { epsilon, .. } => epsilon,
             Self::Sliding { lag, .. } => lag,
+            Self::Vector { lead, .. } => lead,
             Self::Bristle { .. } => 0.0,
         }
     }
 
-    /// The same law with another ℓ/R or ε. Bristles stay as they are.
+    /// The same law with another ℓ/R or ε. Laws without it stay as they are.
     pub(super) fn with_smoothing(mut self, smoothing: f64) -> Self {
         match &mut self {
             Self::Normalised { epsilon, .. } => *epsilon = smoothing,
             Self::Sliding { lag, .. } => *lag = smoothing,
+            Self::Vector { lead, .. } => *lead = smoothing,
             Self::Bristle { .. } => {}
         }
         self
@@ -157,12 +179,12 @@ pub(crate) struct Elastic {
     pub(super) weight: f64,
 }
 
-/// What is known about the friction on a segment of the contact. Only EPP friction distinguishes.
+/// What is known about the friction on a segment of the contact. Only EPP friction, scalar or vector, distinguishes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Regime {
-    /// f = `k_f` |u|.
+    /// Below its limit: f = `k_f` |u|, or as the slip changes it.
     Elastic,
-    /// f = μ p.
+    /// At its limit, f = μ p.
     Slip,
     /// The belt does not slip, and friction below `k_f` |u| and μ p holds it where it is.
     Stick,
@@ -203,7 +225,7 @@ impl Groove {
         match self.law {
             Law::Normalised { .. } => LAW,
             Law::Sliding { .. } => LAW + 1,
-            Law::Bristle { .. } => LAW + 2,
+            Law::Bristle { .. } | Law::Vector { .. } => LAW + 2,
         }
     }
 
@@ -222,7 +244,7 @@ impl Groove {
     /// derivative of |e| finite where e = 0.
     pub(super) fn normalisation(&self) -> f64 {
         match self.law {
-            Law::Bristle { .. } | Law::Sliding { .. } => 1e-20,
+            Law::Bristle { .. } | Law::Vector { .. } | Law::Sliding { .. } => 1e-20,
             Law::Normalised { epsilon, .. } => epsilon,
         }
     }

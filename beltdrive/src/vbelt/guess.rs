@@ -82,7 +82,7 @@ impl Contacting {
         match groove.law {
             Law::Normalised { .. } => {}
             Law::Sliding { .. } => y[LAW] = 0.0,
-            Law::Bristle { .. } => {
+            Law::Bristle { .. } | Law::Vector { .. } => {
                 y[LAW] = 0.5 * groove.friction_coefficient.copysign(slope);
                 y[LAW + 1] = 0.0;
             }

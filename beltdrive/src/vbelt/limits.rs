@@ -217,8 +217,8 @@ fn no_load(drive: &Drive, key: &Key, tolerance: f64) -> Result<Limit, SolveError
         Ok(solved) => solved,
         // Stuck on the way to a smaller ε.
         Err(stuck) => match stuck.last {
-            Some(last) => *last,
-            None => {
+            Some(last) if last.is_resolved(drive.law, tolerance) => *last,
+            _ => {
                 let tight = None;
                 let cause = Box::new(stuck.cause);
                 return Err(SolveError::NotConverged { tight, cause });

@@ -38,6 +38,7 @@ mod state;
 mod steps;
 mod trace;
 mod tracer;
+mod vector;
 mod watched;
 mod zones;
 

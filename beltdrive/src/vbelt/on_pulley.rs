@@ -138,7 +138,10 @@ impl OnPulley<'_> {
             sum.torque += weight * contact.torque_density();
             let friction = weight * contact.friction_power_density();
             sum.friction += friction;
-            sum.gained += (-friction).max(0.0);
+            // The traction of vector EPP friction may pull with the slip as it falls.
+            if !matches!(self.groove.law, Law::Vector { .. }) {
+                sum.gained += (-friction).max(0.0);
+            }
             sum.stored += weight * contact.transverse_power_density(self.groove);
             sum.unstretched += weight * contact.unstretched_rate(&self.groove.strand);
         });
@@ -230,8 +233,9 @@ impl OnPulley<'_> {
                 (_, Regime::Elastic) => ZoneKind::Elastic,
                 (_, Regime::Slip) => ZoneKind::Slip,
                 (_, Regime::Either) => {
-                    let is_elastic =
-                        |y: &[f64]| limit_excess(self.groove, y, self.omega, self.flow) < 0.0;
+                    let is_elastic = |y: &[f64]| {
+                        limit_excess(self.groove, Regime::Either, y, self.omega, self.flow) < 0.0
+                    };
                     self.sampled_zones(segment, is_elastic, &mut zones);
                     continue;
                 }

@@ -116,10 +116,11 @@ impl<P: BeltProblem> Solved<P> {
         let follows = match here {
             Law::Normalised { .. } => true,
             Law::Sliding { lead, .. } => lead > 0.0,
+            Law::Vector { .. } => self.problem.is_split(),
             Law::Bristle { .. } => false,
         };
         let same = match (law, here.elastic()) {
-            (FrictionLaw::Coulomb, None) => follows,
+            (FrictionLaw::Coulomb | FrictionLaw::VectorEpp { .. }, None) => follows,
             (FrictionLaw::Epp { .. }, Some(elastic)) => follows && elastic.weight == 1.0,
             _ => false,
         };

@@ -21,6 +21,8 @@ const LAGS: [f64; 2] = [1e-8, 1e-10];
 /// ε where the direction is normalised. Places at which the belt breaks loose move with the load the more abruptly
 /// the smaller it is.
 const EPSILON: f64 = 1e-6;
+/// Length τ/R over which the traction of vector EPP friction is led.
+const BRANCH_LEAD: f64 = 1e-4;
 /// Labelled points are located once more with ℓ or ε multiplied by this.
 pub(super) const FINER: f64 = 0.25;
 /// The effect of ℓ or ε from its change when that is multiplied by [`FINER`]: it vanishes at least as fast.
@@ -65,6 +67,7 @@ fn smoothing(problem: &DriveProblem) -> f64 {
     match problem.law() {
         Law::Sliding { .. } => LAGS[usize::from(!problem.is_locked())],
         Law::Normalised { .. } => EPSILON,
+        Law::Vector { .. } => BRANCH_LEAD,
         Law::Bristle { .. } => 0.0,
     }
 }

@@ -25,7 +25,7 @@ mod zone;
 pub(crate) use zone::Elastic;
 
 use super::rim::contact::{Arc, Contact};
-use super::row::OnRims;
+use super::row::{OnRims, Other};
 use super::{Parameter, Row};
 use crate::FrictionLaw;
 use crate::mechanics::root::bracketed;
@@ -35,22 +35,42 @@ use arc::ElasticArc;
 /// A stiffness in place of 0: it is so soft that the displacement is a parabola.
 const SOFT: f64 = 1e-9;
 
+const STIFFNESS: Parameter = Parameter {
+    path: "friction.stiffness",
+    name: "friction stiffness",
+    symbol: "k_f",
+    measure: Measure::ForcePerArea,
+    example: "\"8.1e6 N/m^2\"",
+};
+
+/// Friction `min(k_f |u|, μ p)` along the slip.
 pub(super) const ROW: Row = Row {
     name: "epp",
     title: "elastic/perfectly-plastic",
-    parameter: Some(Parameter {
-        path: "friction.stiffness",
-        name: "friction stiffness",
-        symbol: "k_f",
-        measure: Measure::ForcePerArea,
-        example: "\"8.1e6 N/m^2\"",
+    other: Some(Other {
+        path: "friction.epp.kind",
+        words: ["scalar", "vector"],
+        example: "\"vector\"",
+        row: &VECTOR,
     }),
+    parameter: Some(STIFFNESS),
     with: |stiffness| FrictionLaw::Epp { stiffness },
     in_grooves: true,
     on_rims: Some(OnRims {
         solve: |arc, _, stiffness| solve(arc, stiffness),
         convention: None,
     }),
+};
+
+/// The same as a vector in the face of a groove. On the rim of a flat pulley there is one direction only.
+pub(super) const VECTOR: Row = Row {
+    name: "epp",
+    title: "vector elastic/perfectly-plastic",
+    other: None,
+    parameter: Some(STIFFNESS),
+    with: |stiffness| FrictionLaw::VectorEpp { stiffness },
+    in_grooves: true,
+    on_rims: None,
 };
 
 /// The contact of an arc with friction of stiffness `k_f`, N/m²; `None` if the load is not below the

@@ -91,9 +91,12 @@ pub(super) static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
         let dimension = Dimension::of(parameter.measure)?;
         Some(quantity(parameter.path, parameter.example, dimension))
     });
+    let kinds = ROWS.iter().copied().filter_map(|law| law.other.as_ref());
+    let kinds = kinds.map(|other| word(other.path, other.example, "kind of law", &other.words));
     [
         UP_TO_FRICTION.to_vec(),
         laws.collect(),
+        kinds.collect(),
         FROM_PULLEYS.to_vec(),
     ]
     .concat()

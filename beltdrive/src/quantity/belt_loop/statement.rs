@@ -69,11 +69,13 @@ pub(crate) fn statement(belt_loop: &BeltLoop) -> Vec<Quantity> {
         Sense::CounterClockwise => "counter-clockwise",
     };
     let word = |key, word: &str| Quantity::word(key, "", word.to_owned());
-    vec![
+    let mut statement = vec![
         Quantity::word("title", "", belt_loop.title.clone()),
         word("belt_type", belt),
         Quantity::word("normal_force", "", normal_force),
         word("friction_law", belt_loop.law.name()),
-        word("sense", sense),
-    ]
+    ];
+    statement.extend(belt_loop.law.kind().map(|kind| word("friction_kind", kind)));
+    statement.push(word("sense", sense));
+    statement
 }

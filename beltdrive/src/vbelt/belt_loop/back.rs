@@ -8,6 +8,7 @@
 //! Coulomb   q = μ p e/|e|,  |e| = sqrt(e² + ε²), where ℓ/R takes the part of ε if there is one
 //! EPP       q = min(k_f |u|, μ p) e/|e|,  du/ds = (T − T_o)/EA
 //! bristle   q = p B,        dB/ds = κ (e − |e| B/μ)
+//! vector    q = b as long as |b| < μ p, else μ p in its sense,  db/ds = k_f e
 //! ```
 
 use super::super::Strand;
@@ -50,7 +51,7 @@ impl Back {
 
     /// Index of the displacement u of EPP friction among the states.
     fn displacement(&self) -> usize {
-        LAW + usize::from(matches!(self.law, Law::Bristle { .. }))
+        LAW + usize::from(matches!(self.law, Law::Bristle { .. } | Law::Vector { .. }))
     }
 
     /// The contact in `state`, on a pulley of speed `omega`, with the mass flow `flow`.
@@ -61,7 +62,7 @@ impl Back {
         let slip = ((flow - omega) + flow * self.strand.strain(tension)) / speed;
         let epsilon = match self.law {
             // Only keeps the derivative of |e| finite where e = 0.
-            Law::Bristle { .. } => 1e-20,
+            Law::Bristle { .. } | Law::Vector { .. } => 1e-20,
             Law::Normalised { .. } | Law::Sliding { .. } => self.law.smoothing(),
         };
         let size = (slip * slip + epsilon.powi(2)).sqrt();
@@ -70,15 +71,16 @@ impl Back {
             let excess = state[self.displacement()].abs() * elastic.stiffness - limit;
             limit.min(limit + excess * elastic.weight)
         });
-        let direction = match self.law {
-            Law::Bristle { .. } => state[LAW] / self.friction_coefficient,
-            Law::Normalised { .. } | Law::Sliding { .. } => slip / size,
+        let friction = match self.law {
+            Law::Bristle { .. } => friction * (state[LAW] / self.friction_coefficient),
+            Law::Vector { .. } => state[LAW].min(limit).max(-limit),
+            Law::Normalised { .. } | Law::Sliding { .. } => friction * (slip / size),
         };
         Rubbing {
             tension,
             speed,
             slip,
-            friction: friction * direction,
+            friction,
             size,
         }
     }
@@ -86,9 +88,13 @@ impl Back {
     /// Derivatives of the states with respect to the arc length.
     pub(super) fn rates<T: Real>(&self, at: &Rubbing<T>, state: &[T], rates: &mut [T]) {
         rates[TENSION] = at.friction;
-        if let Law::Bristle { stiffness, .. } = self.law {
-            let saturation = at.size / self.friction_coefficient;
-            rates[LAW] = (at.slip - saturation * state[LAW]) * stiffness;
+        match self.law {
+            Law::Bristle { stiffness, .. } => {
+                let saturation = at.size / self.friction_coefficient;
+                rates[LAW] = (at.slip - saturation * state[LAW]) * stiffness;
+            }
+            Law::Vector { stiffness, .. } => rates[LAW] = at.slip * stiffness,
+            Law::Normalised { .. } | Law::Sliding { .. } => {}
         }
         if let Some(elastic) = self.law.elastic() {
             rates[self.displacement()] = at.tension - elastic.unstretched;

@@ -5,7 +5,7 @@
 //! or until a driven pulley stands still:
 //!
 //! ```text
-//! F = F_slack on the slack side          x = 0 at entry and exit, φ = 0 and B = 0 at entry
+//! F = F_slack on the slack side          x = 0 at entry and exit, φ = 0 and B = 0 (or p B = 0) at entry
 //! φ − (θ_out − θ_in) = the angle between the spans          R (F_out cos θ_out − F_in cos θ_in) = λ M
 //! ```
 //!
@@ -15,6 +15,7 @@
 
 use super::super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
 use super::super::path::Solved;
+use super::super::vector::Yielding;
 use super::super::{BeltProblem, Contact, Groove, Regime};
 use super::climb::{followed, on_the_way};
 use super::levelling::Levelling;
@@ -86,9 +87,15 @@ impl Problem for OneGroove {
             exit[ANGLE] - (exit[INCLINATION] - entry[INCLINATION]) - self.turned,
             pull(exit) - pull(entry) - p[GROWTH].exp() * self.change,
         ];
-        let law = entry[LAW..].iter().copied();
-        for (residual, value) in r.iter_mut().zip(fixed.into_iter().chain(law)) {
-            *residual = value;
+        let flow = T::from_f64(self.flow);
+        let contact = Contact::new(&self.groove, Regime::Either, entry, p[SPEED], flow);
+        let entering = Yielding::new(&contact, &self.groove, entry).map(|vector| vector.entering());
+        let law = match &entering {
+            Some(entering) => entering.as_slice(),
+            None => &entry[LAW..],
+        };
+        for (residual, value) in r.iter_mut().zip(fixed.iter().chain(law)) {
+            *residual = *value;
         }
     }
 }

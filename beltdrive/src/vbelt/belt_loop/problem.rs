@@ -83,7 +83,9 @@ impl LoopProblem {
         let (tensioner, driver) = (belt_loop.tensioner(), belt_loop.driver());
         let is_epp = matches!(law, FrictionLaw::Epp { .. });
         let zones = seats.iter().map(|seat| match seat {
-            Seat::Groove(_) if !is_epp => vec![Regime::Slip],
+            Seat::Groove(_) if !is_epp && !matches!(law, FrictionLaw::VectorEpp { .. }) => {
+                vec![Regime::Slip]
+            }
             Seat::Groove(_) | Seat::Back(_) => vec![Regime::Either],
             Seat::Idle => vec![],
         });

@@ -141,7 +141,7 @@ proptest! {
             if matches!(law, FrictionLaw::Epp { .. }) {
                 // Keep away from the kinks at u = 0 and at the limit of the elastic friction.
                 let speed = problem.omega(segment, &p);
-                let excess = limit_excess(problem.groove(segment), &y, speed, p[1]);
+                let excess = limit_excess(problem.groove(segment), Regime::Slip, &y, speed, p[1]);
                 prop_assume!(y[5].abs() > 1e-4 && excess.abs() > 1e-2);
             }
             let n = problem.groove(segment).states();

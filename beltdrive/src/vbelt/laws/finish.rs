@@ -1,9 +1,9 @@
 //! The end of the way: zones of the right kind, the tolerance, and a smoothing without effect.
 
 use super::GREAT_STEP;
-use crate::vbelt::BeltProblem;
 use crate::vbelt::path::{Effort, Path, Solved, Stuck};
 use crate::vbelt::zones::Cut;
+use crate::vbelt::{BeltProblem, Law};
 
 /// ℓ/R or ε at which the profile is first resolved to the tolerance.
 pub(super) const RESOLVED: f64 = 1e-7;
@@ -70,7 +70,8 @@ impl<D> Path<'_, D> {
         rough: Solved<P>,
     ) -> Result<Solved<P>, Stuck<P>> {
         if rough.problem.smoothing() == 0.0 {
-            return self.again(rough, Effort::Final);
+            let solved = self.again(rough, Effort::Final)?;
+            return self.keep_zones(solved, Effort::Final);
         }
         let solved = self.again(rough, Effort::Full)?;
         let here = self.keep_zones(solved, Effort::Final)?;
@@ -78,6 +79,11 @@ impl<D> Path<'_, D> {
         let share = match here.problem.has_direction() {
             true => LAG_SHARE,
             false => EFFECT_SHARE,
+        };
+        // Places where zones end are printed, and move by more than the constants.
+        let coarse = match here.problem.law() {
+            Law::Vector { .. } => 0.0,
+            _ => share,
         };
         loop {
             let smoothing = here.problem.smoothing();
@@ -89,7 +95,7 @@ impl<D> Path<'_, D> {
             // The effect vanishes at least as fast as ℓ or ε: ten ninths of the change were that of
             // the larger, one ninth is that of the smaller.
             self.smoothing_effect = change / 0.9;
-            if self.smoothing_effect <= share * self.tolerance {
+            if self.smoothing_effect <= coarse * self.tolerance {
                 return Ok(here);
             }
             self.smoothing_effect = change / 9.0;

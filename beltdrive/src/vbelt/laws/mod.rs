@@ -4,6 +4,7 @@
 //! ```text
 //! frictionless guess ──▶ soft bristles ──▶ sliding, ℓ falling: Coulomb
 //!                              │    └────▶ bristles of elastic friction ──▶ zones, sliding, ℓ falling: EPP
+//!                              ├─────────▶ a gradual plastic rate ──▶ zones, k_f rising: vector EPP
 //!                              └─────────▶ the bristles of the drive, κ rising
 //! ```
 //!
@@ -17,6 +18,7 @@ mod finish;
 mod normalised;
 mod obeyed;
 mod sliding;
+mod vector;
 
 use super::carried::Carried;
 use super::path::{Effort, Path, Solved, Stuck};
@@ -126,6 +128,11 @@ impl<D> Path<'_, D> {
         {
             return Ok(solved);
         }
+        if let (FrictionLaw::VectorEpp { .. }, Law::Vector { .. }) = (law, near.problem.law())
+            && let Ok(solved) = self.vector_by_zones(asked, near.clone())
+        {
+            return Ok(solved);
+        }
         let law = match law {
             FrictionLaw::Bristle { .. } => law,
             _ => asked.softest(),
@@ -151,6 +158,7 @@ impl<D> Path<'_, D> {
         let start = self.cold(asked, asked.softest(), Effort::Start)?;
         match asked.law() {
             FrictionLaw::Coulomb => self.enter_normalised(asked, start),
+            FrictionLaw::VectorEpp { .. } => self.enter_vector(asked, &start),
             _ => self.enter_epp(asked, &start),
         }
     }
@@ -161,6 +169,9 @@ impl<D> Path<'_, D> {
         asked: &A,
         start: Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        if let FrictionLaw::VectorEpp { .. } = asked.law() {
+            return self.vector(asked, &start);
+        }
         match self.sliding(asked, &start) {
             Some(solved) => Ok(solved),
             None => self.normalised(asked, start),
@@ -252,7 +263,7 @@ impl Path<'_> {
     pub(super) fn at_no_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
         let drive = self.drive;
         let asked = AtLoad { drive, tight };
-        if let FrictionLaw::Bristle { .. } = drive.law {
+        if let FrictionLaw::Bristle { .. } | FrictionLaw::VectorEpp { .. } = drive.law {
             return self.seek(&asked);
         }
         let start = self.cold(&asked, asked.softest(), Effort::Start)?;

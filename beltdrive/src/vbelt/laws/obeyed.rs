@@ -41,7 +41,7 @@ pub(in crate::vbelt) fn wrong_friction<P: BeltProblem>(solved: &Solved<P>) -> f6
             let pressure = on.contact(stretch.regime, y).pressure;
             highest = highest.max(pressure);
             wrong = wrong.max(-pressure);
-            let excess = limit_excess(on.groove, y, on.omega, on.flow);
+            let excess = limit_excess(on.groove, stretch.regime, y, on.omega, on.flow);
             wrong = wrong.max(match stretch.regime {
                 Regime::Elastic => excess,
                 Regime::Slip => -excess,

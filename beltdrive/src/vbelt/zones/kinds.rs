@@ -76,6 +76,19 @@ pub(super) fn cut_at_breakaway(
     }
 }
 
+/// Makes all between the first and the last elastic zone one.
+pub(super) fn join_elastic(zones: &mut Vec<Zone>) {
+    let is_elastic = |zone: &Zone| zone.regime == Regime::Elastic;
+    let (first, last) = (
+        zones.iter().position(is_elastic),
+        zones.iter().rposition(is_elastic),
+    );
+    if let (Some(first), Some(last)) = (first, last) {
+        zones[first].to = zones[last].to;
+        zones.drain(first + 1..=last);
+    }
+}
+
 /// Whether two neighbours are of the same kind.
 pub(super) fn is_cut(pair: &[Zone]) -> bool {
     pair[0].regime == pair[1].regime
@@ -157,12 +170,19 @@ fn merge_short(zones: Vec<Zone>, shortest: f64) -> Vec<Zone> {
             _ => merged.push(zone),
         }
     }
-    merged.dedup_by(|next, zone| {
-        let same = zone.regime == next.regime;
+    for regime in [Regime::Elastic, Regime::Slip, Regime::Stick, Regime::Either] {
+        join_parts(&mut merged, regime);
+    }
+    merged
+}
+
+/// Joins neighbours of a kind.
+pub(super) fn join_parts(zones: &mut Vec<Zone>, regime: Regime) {
+    zones.dedup_by(|next, zone| {
+        let same = zone.regime == regime && next.regime == regime;
         if same {
             zone.to = next.to;
         }
         same
     });
-    merged
 }

@@ -13,7 +13,10 @@ mod samples;
 
 use super::path::Solved;
 use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
-use kinds::{Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, one_zone, without_kinks};
+use kinds::{
+    Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, join_elastic, join_parts,
+    one_zone, without_kinks,
+};
 use places::{ends, keep_junctions, locate};
 use samples::{CLEAR_TURN, Sample, samples};
 
@@ -56,6 +59,13 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
     /// longer there, so that it slips at the very end, on a way that may lie between two samples.
     pub(super) fn with_exits(solved: &'a Solved<P>) -> Self {
         Self::new(solved, true, |_| Loose::Seen)
+    }
+
+    /// As [`Cut::of`], with all between the first and the last elastic zone of a pulley as one.
+    pub(super) fn with_one_elastic_zone(solved: &'a Solved<P>) -> Self {
+        let mut cut = Self::of(solved);
+        cut.pulleys.iter_mut().for_each(join_elastic);
+        cut
     }
 
     /// The zones that bristles show on every pulley, those of elastic and slipping friction taken together.
@@ -165,6 +175,12 @@ fn cut<P: BeltProblem>(
     };
     let mut zones = match groove.law {
         Law::Normalised { .. } => zones,
+        Law::Vector { .. } if problem.has_junctions() => {
+            let mut zones = cut_at_turn(zones, &samples, length, CLEAR_TURN);
+            join_parts(&mut zones, Regime::Elastic);
+            zones
+        }
+        Law::Vector { .. } => zones,
         // Where the direction is not led yet the belt breaks away elsewhere.
         Law::Sliding { lead, .. } if lead > 0.0 => {
             let zones = cut_at_turn(zones, &samples, length, CLEAR_TURN);

@@ -73,7 +73,8 @@ pub(super) fn samples<P: BeltProblem>(
         let is_last = segment + 1 == problem.zones(pulley).end;
         for s in inside.chain((at_exit && is_last).then_some(1.0)) {
             solution.state(segment, s, y);
-            let contact = Contact::new(groove, problem.regime(segment), y, omega, flow);
+            let regime = problem.regime(segment);
+            let contact = Contact::new(groove, regime, y, omega, flow);
             let direction = direction(groove.law, y, &contact);
             let share = match groove.law {
                 Law::Bristle { .. } => y[LAW].hypot(y[LAW + 1]) / groove.friction_coefficient,
@@ -81,7 +82,7 @@ pub(super) fn samples<P: BeltProblem>(
             };
             samples.push(Sample {
                 place: before + s * length,
-                limit: limit_excess(groove, y, omega, flow),
+                limit: limit_excess(groove, regime, y, omega, flow),
                 turn: contact.turn_excess(groove) / contact.friction().max(f64::MIN_POSITIVE),
                 direction: samples.last().map_or(direction, |last| {
                     let turns = (last.direction - direction) / TAU;
@@ -102,14 +103,14 @@ pub(super) fn samples<P: BeltProblem>(
 /// Whether friction is elastic where the belt comes to rest.
 fn holds(groove: &Groove, y: &[f64], omega: f64, flow: f64) -> bool {
     let friction = Contact::new(groove, Regime::Elastic, y, omega, flow).friction();
-    limit_excess(groove, y, omega, flow) < -RESTING * friction
+    limit_excess(groove, Regime::Slip, y, omega, flow) < -RESTING * friction
 }
 
 /// Whether bristles are seen to hold the belt.
 fn is_held(law: Law, share: f64) -> bool {
     match law {
         Law::Bristle { elastic, .. } => elastic.is_some() && share < HOLDING,
-        Law::Normalised { .. } | Law::Sliding { .. } => false,
+        Law::Normalised { .. } | Law::Sliding { .. } | Law::Vector { .. } => false,
     }
 }
 
@@ -179,7 +180,7 @@ pub(super) fn crossing(from: f64, before: f64, to: f64, after: f64) -> f64 {
 fn direction(law: Law, y: &[f64], contact: &Contact<f64>) -> f64 {
     match law {
         Law::Sliding { .. } => y[LAW],
-        Law::Bristle { .. } => y[LAW].atan2(y[LAW + 1]),
+        Law::Bristle { .. } | Law::Vector { .. } => y[LAW].atan2(y[LAW + 1]),
         Law::Normalised { .. } => contact.slip[0].atan2(contact.slip[1]),
     }
 }
