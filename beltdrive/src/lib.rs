@@ -129,7 +129,7 @@ pub use results::stability::{
 };
 pub use results::state_summary::{PulleyErrors, PulleySummary, StateErrors, StateSummary};
 pub use results::steady_state::{
-    Check, Convergence, Entry, Profile, Pulley, PulleyState, SteadyState, Zone, ZoneKind,
+    Check, Convergence, Entry, LeastSlip, Profile, Pulley, PulleyState, SteadyState, Zone, ZoneKind,
 };
 pub use results::warning::Warning;
 

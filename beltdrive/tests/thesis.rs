@@ -83,6 +83,25 @@ fn locked_belts_are_found_within_the_error_that_is_stated() {
             c.newton_iterations
         );
     }
+    // Arcs on which nothing can be seen to slip. The prototype took the radial velocity for the slip up the face, which
+    // is larger by 1/cos β: 0.07° at an end.
+    for (tight, arcs) in [
+        (700.0, [0.0; 2]),
+        (200.0, [23.428, 54.302]),
+        (105.0, [117.003, 128.777]),
+    ] {
+        let state = state(FrictionLaw::Coulomb, tight);
+        for (on, arc) in [&state.driven, &state.driver].into_iter().zip(arcs) {
+            let locked = on.least_slip.unwrap().locked;
+            let found = locked.map_or(0.0, |[from, to]| (to - from).to_degrees());
+            assert!((0.0..0.16).contains(&(found - arc)), "{found} {arc}");
+        }
+    }
+    let least = state(FrictionLaw::Coulomb, 700.0)
+        .driver
+        .least_slip
+        .unwrap();
+    assert!((least.slip / 6.0e-6 - 1.0).abs() < 0.1);
     for tight in [101.0, 102.0, 110.0, 150.0, 300.0, 400.0] {
         let state = state(FrictionLaw::Coulomb, tight);
         assert!(state.convergence.newton_iterations <= 200);

@@ -94,6 +94,7 @@ fn pulley_state(drive: &Drive, solved: &ClosedForm, pulley: usize) -> PulleyStat
                 _ => None,
             },
         }),
+        least_slip: None,
         profile: profile(contact, drive.belt, radius, solved.speed),
     }
 }

@@ -189,10 +189,8 @@ impl Figure {
         let curves = self.curves(pulley);
         let angles = curves.iter().flatten().map(|(angle, _)| *angle);
         let across = Axis::spanning([0.0].into_iter().chain(angles), Scale::Degrees);
-        let zones = pulley.list("zones").iter().filter_map(|zone| {
-            let ends = [zone.number("from")?, zone.number("to")?];
-            Some((ends.map(f64::to_degrees), zones::color(zone.word("kind")?)))
-        });
+        let zones = zones::along(pulley).into_iter();
+        let zones = zones.map(|(kind, ends)| (ends.map(f64::to_degrees), zones::color(kind)));
         let mut zones: Vec<_> = zones.collect();
         // Where the belt overhangs, the angle goes beyond that of the exit.
         zones

@@ -60,6 +60,8 @@ pub fn drawn(state: &SteadyState) -> Answer {
             number("exit_inclination", Measure::Angle, exit),
             scale.zones(&pulley.zones),
         ]);
+        let locked = scale.locked(pulley.least_slip.as_ref());
+        subject.quantities.extend(locked);
         subject.quantities.extend(belt_loop::along(&pulley.profile));
     }
     groups.push(Group::single("", belt_loop::statement(&as_loop(state))));

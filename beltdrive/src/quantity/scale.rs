@@ -1,7 +1,7 @@
 //! How accurate the numbers of a state are.
 
 use super::{Measure, Quantity, Subject, Value};
-use crate::Zone;
+use crate::{LeastSlip, Zone};
 
 /// What the errors of the numbers of a state are relative to.
 pub(super) struct Scale {
@@ -75,6 +75,15 @@ impl Scale {
             Quantity::data(force, Measure::Force, Value::Pair([x, y])),
             self.force(magnitude, label, x.hypot(y)),
             self.angle(direction, "  direction from x", y.atan2(x)),
+        ]
+    }
+
+    /// Where a belt at full friction hardly slips.
+    pub(super) fn locked(&self, least: Option<&LeastSlip>) -> [Quantity; 2] {
+        let end = |end: usize| least.and_then(|least| least.locked.map(|ends| ends[end]));
+        [
+            self.angle("locked_from", "", end(0)),
+            self.angle("locked_to", "", end(1)),
         ]
     }
 

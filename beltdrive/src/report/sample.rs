@@ -79,6 +79,7 @@ fn state([slack, tight]: [f64; 2], overhang: f64) -> SteadyState {
         inclination,
         zones,
         entry: None,
+        least_slip: None,
         profile,
     };
     let profile = |wrap, from, to, excess| profile(&drive, wrap, [from, to], rate, excess);

@@ -226,6 +226,7 @@ impl Contact {
                 .into_iter()
                 .filter(|zone| zone.from < zone.to)
                 .collect(),
+            least_slip: None,
             entry: Some(Entry {
                 reference_tension: entry + self.inertia - self.sign * 0.05,
                 strain: self.sign * 0.05 / AXIAL_STIFFNESS,

@@ -1,6 +1,6 @@
 //! The scalars of a steady state, which tables of many states show, and their errors.
 
-use crate::{Drive, Entry, PulleyState, SteadyState, Zone};
+use crate::{Drive, Entry, LeastSlip, PulleyState, SteadyState, Zone};
 
 /// A steady state without its profiles. SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +57,8 @@ pub struct PulleySummary {
     pub zones: Vec<Zone>,
     /// How the belt enters the pulley; of flat belts.
     pub entry: Option<Entry>,
+    /// Where the belt hardly slips; of V-belts.
+    pub least_slip: Option<LeastSlip>,
 }
 
 /// Estimated absolute errors of the scalars of a state, in their units.
@@ -163,6 +165,7 @@ impl From<&PulleyState> for PulleySummary {
             inclination: pulley.inclination,
             zones: pulley.zones.clone(),
             entry: pulley.entry,
+            least_slip: pulley.least_slip,
         }
     }
 }

@@ -90,6 +90,8 @@ pub struct PulleyState {
     pub zones: Vec<Zone>,
     /// How the belt enters the pulley; of flat belts.
     pub entry: Option<Entry>,
+    /// Where the belt hardly slips; of V-belts.
+    pub least_slip: Option<LeastSlip>,
     /// The belt along the pulley, from entry to exit.
     pub profile: Profile,
 }
@@ -108,6 +110,23 @@ pub struct Entry {
     /// Friction stiffness below which friction stays elastic over the whole arc at the tractions of
     /// this state, N/m²; only for EPP friction, and only if there is one.
     pub smallest_stiffness: Option<f64>,
+}
+
+/// Where a V-belt hardly slips on a pulley: friction has its full value there, and yet nothing can be seen to move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeastSlip {
+    /// Smallest slip velocity against the pulley, in the plane of a groove face, as a share of the belt speed. What is
+    /// below 1e-14 is rounding.
+    pub slip: f64,
+    /// The longest arc of friction at its limit on which the slip is below [`LeastSlip::LOCKED`]: angles from the
+    /// entry, rad.
+    pub locked: Option<[f64; 2]>,
+}
+
+impl LeastSlip {
+    /// The slip, as a share of the belt speed, below which a belt at full friction counts as locked: a micrometre in
+    /// ten metres of belt.
+    pub const LOCKED: f64 = 1e-7;
 }
 
 /// What the belt does over a part of the wrap.

@@ -63,7 +63,9 @@ pub(crate) fn limits(
     };
     let down = Traced { tracer, end };
     let smallest = if is_load && (bottom > low || bottom == value) {
-        no_load(&drive, key, tolerance)?
+        // Where that is not found the smallest load that was reached is known.
+        let reached = |_| down.limit().or_else(|cause| up.first().ok_or(cause));
+        no_load(&drive, key, tolerance).or_else(reached)?
     } else {
         down.limit()?
     };
@@ -173,6 +175,18 @@ pub(super) fn upwards<'d>(
 }
 
 impl Traced<'_> {
+    /// Where it begins, as an end that was not found.
+    fn first(&self) -> Option<Limit> {
+        let point = self.tracer.points.first()?;
+        Some(Limit {
+            value: point.value,
+            value_error: None,
+            reason: RangeEnd::NotFound,
+            state: point.state.clone(),
+            errors: None,
+        })
+    }
+
     /// Its end as a limit.
     ///
     /// # Errors

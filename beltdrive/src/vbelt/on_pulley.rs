@@ -3,7 +3,7 @@
 use super::groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 use super::path::Solved;
 use super::{BeltProblem, Contact, EndAngles, Groove, Law, Regime, Units, limit_excess};
-use crate::{Profile, Zone, ZoneKind};
+use crate::{LeastSlip, Profile, Zone, ZoneKind};
 use bvp::Solution;
 
 /// Gauss rule with four points on \[0, 1\] for integrals over a mesh interval (abscissae ±x₁, ±x₂
@@ -16,6 +16,8 @@ const GAUSS: [(f64, f64); 4] = [
 ];
 /// Profiles have at least so many points per pulley.
 const PROFILE_POINTS: usize = 240;
+/// Samples of the slip per mesh interval.
+const SLIP_SAMPLES: usize = 8;
 /// Bristles deflected to this share of their limit count as slipping.
 const SLIPPING_BRISTLES: f64 = 0.99;
 
@@ -213,6 +215,55 @@ impl OnPulley<'_> {
             before += stretch.length;
         }
         profile
+    }
+
+    /// Where the belt hardly slips, from samples: between two the logarithm of the slip is taken to be linear.
+    pub(super) fn least_slip(&self) -> Option<LeastSlip> {
+        let mut least = f64::INFINITY;
+        // Angle and slip of the last sample, where the arc that is locked there begins, and the longest so far.
+        let (mut last, mut begun) = (None::<(f64, f64)>, None);
+        let mut longest = None;
+        let mut close = |from: Option<f64>, to: f64| {
+            let arc = from.map(|from| [from, to]);
+            let length = |arc: Option<[f64; 2]>| arc.map_or(0.0, |[from, to]| to - from);
+            if length(arc) > length(longest) {
+                longest = arc;
+            }
+        };
+        for stretch in &self.stretches {
+            let mut y = [0.0; MAX_STATES];
+            let y = &mut y[..self.solution.segments()[stretch.segment].states];
+            let is_full = matches!(stretch.regime, Regime::Slip | Regime::Either);
+            for pair in self.solution.mesh(stretch.segment).windows(2) {
+                for part in 0..=SLIP_SAMPLES {
+                    let s = pair[0] + (pair[1] - pair[0]) * part as f64 / SLIP_SAMPLES as f64;
+                    self.solution.state(stretch.segment, s, y);
+                    let [along, up] = self.contact(stretch.regime, y).slip;
+                    let (angle, slip) = (y[ANGLE], along.hypot(up));
+                    least = least.min(slip);
+                    let is_locked = is_full && slip < LeastSlip::LOCKED;
+                    let crossing = last.map_or(angle, |(before, other)| {
+                        let [here, other] =
+                            [slip, other].map(|slip| (slip / LeastSlip::LOCKED).ln());
+                        let share = (here / (here - other)).clamp(0.0, 1.0);
+                        angle + share * (before - angle)
+                    });
+                    match begun {
+                        None if is_locked => begun = Some(crossing),
+                        Some(_) if !is_locked => close(begun.take(), crossing),
+                        _ => {}
+                    }
+                    last = Some((angle, slip));
+                }
+            }
+        }
+        if let Some((angle, _)) = last {
+            close(begun, angle);
+        }
+        Some(LeastSlip {
+            slip: least,
+            locked: longest,
+        })
     }
 
     /// The zones of friction by swept angle, where each segment is of one kind.

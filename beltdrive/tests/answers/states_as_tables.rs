@@ -18,6 +18,8 @@ fn the_state_of_a_v_belt_as_a_table() {
     inclination at entry                          −7.06106                    −2.88493  °
     inclination at exit                            10.4022                     11.6344  °
     slip arc                                       44.1561                     138.196  °
+    smallest slip, of V                            0.00030                      0.0038
+    arc below 1e-7 of V                                  0                           0  °
     zones                              elastic 0 – 2.23165         elastic 0 – 48.9806  °
       then                          slip 2.23165 – 41.8858      slip 48.9806 – 180.836  °
       then                       elastic 41.8858 – 192.939   elastic 180.836 – 188.201  °

@@ -1,5 +1,6 @@
 //! A loop as its answer tells it: where the pulleys are, where the belt meets them, and what is said of them.
 
+use super::super::zones;
 use crate::quantity::{Answer, Quantity, Subject};
 use nalgebra::{Rotation2, Vector2};
 use std::f64::consts::FRAC_PI_2;
@@ -179,8 +180,8 @@ const STEP: f64 = 0.04;
 
 /// The belt on a pulley. Where it overhangs, the angle turns back, and the zone is the last one reached.
 fn belt(pulley: &Subject) -> Vec<(f64, f64, String)> {
-    let zones: Vec<_> = { pulley.list("zones").iter() }
-        .filter_map(|zone| Some((zone.word("kind")?, zone.number("to")?)))
+    let zones: Vec<_> = { zones::along(pulley).into_iter() }
+        .map(|(kind, [_, to])| (kind, to))
         .collect();
     let angles = pulley.series("angle");
     let points: Vec<_> = { angles.iter().zip(pulley.series("penetration")) }

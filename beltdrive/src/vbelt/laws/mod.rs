@@ -263,9 +263,9 @@ impl Path<'_> {
     pub(super) fn at_no_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
         let drive = self.drive;
         let asked = AtLoad { drive, tight };
-        if let FrictionLaw::Bristle { .. } | FrictionLaw::VectorEpp { .. } = drive.law {
+        let FrictionLaw::Coulomb = drive.law else {
             return self.seek(&asked);
-        }
+        };
         let start = self.cold(&asked, asked.softest(), Effort::Start)?;
         self.normalised_roughly(&asked, start)
     }
