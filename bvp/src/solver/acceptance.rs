@@ -7,7 +7,7 @@ use crate::discretisation::mesh::{Mesh, halved};
 use crate::result::error::Error;
 use crate::result::quality::Direction;
 use crate::result::solution::Solution;
-use crate::shares::{AIM, UNNOTICED};
+use crate::shares::{AIM, TWO_DIGITS, UNNOTICED};
 use crate::solver::discretised::Discretised;
 
 /// How often a mesh is halved because the solution on it does not seem to be isolated: where that is so by
@@ -93,7 +93,14 @@ impl Acceptance {
         }
         let in_all = problem.collocation.amplification_in_all(a, &solution.x);
         if is_high(in_all) || problem.collocation.is_suspect() {
-            self.refuse_rounding(problem, solution, in_all)?;
+            // Beside its largest value, which need not be where the solution rounds, an amplification that leaves no
+            // two digits counts: with less than that flat belts were refused at 1e-12 whose error is smaller.
+            let largest = if in_all * UNIT_ROUNDOFF > TWO_DIGITS {
+                in_all
+            } else {
+                a
+            };
+            self.refuse_rounding(problem, solution, largest)?;
         }
         if is_open(a) && problem.rounds(solution) {
             let direction = problem.amplified(&solution.x);
