@@ -186,6 +186,7 @@ impl<D> Path<'_, D> {
     ) -> Option<Solved<A::Problem>> {
         match asked.law() {
             FrictionLaw::Coulomb => self.coulomb(asked, start),
+            FrictionLaw::VectorEpp { .. } => self.vector(asked, start).ok(),
             _ => self.epp(asked, start),
         }
     }

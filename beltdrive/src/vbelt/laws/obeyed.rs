@@ -2,7 +2,7 @@
 
 use crate::vbelt::on_pulley::OnPulley;
 use crate::vbelt::path::Solved;
-use crate::vbelt::{BeltProblem, Regime, limit_excess};
+use crate::vbelt::{BeltProblem, Law, Regime, limit_excess};
 
 /// What the checks of a state allow, in multiples of the tolerance: integrals of the continuous solution are as
 /// accurate as its defect.
@@ -37,14 +37,23 @@ pub(in crate::vbelt) fn power_gained<P: BeltProblem>(solved: &Solved<P>) -> f64 
 pub(in crate::vbelt) fn wrong_friction<P: BeltProblem>(solved: &Solved<P>) -> f64 {
     let (mut highest, mut wrong) = (0.0f64, 0.0f64);
     for on in grooves(solved) {
-        on.for_each_point(|stretch, _, _, y| {
+        // Traction that vector EPP friction would lose where its plastic rate is negative.
+        let mut lost = 0.0;
+        on.for_each_point(|stretch, _, weight, y| {
             let pressure = on.contact(stretch.regime, y).pressure;
             highest = highest.max(pressure);
             wrong = wrong.max(-pressure);
             let excess = limit_excess(on.groove, stretch.regime, y, on.omega, on.flow);
             wrong = wrong.max(match stretch.regime {
                 Regime::Elastic => excess,
-                Regime::Slip => -excess,
+                Regime::Slip => match on.groove.law {
+                    Law::Vector { stiffness, .. } => {
+                        let strain = on.groove.strand.compliance;
+                        lost += weight * stiffness * strain * (-excess).max(0.0);
+                        lost
+                    }
+                    _ => -excess,
+                },
                 Regime::Stick => {
                     let limit = on.contact(Regime::Either, y).friction();
                     on.contact(Regime::Stick, y).friction() - limit
