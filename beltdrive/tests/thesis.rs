@@ -210,6 +210,23 @@ fn vector_friction_sticks_where_an_independent_prototype_found_it() {
 }
 
 #[test]
+fn a_scalar_state_is_no_neighbour_of_a_vector_one() {
+    let options = SolveOptions::default();
+    let law = FrictionLaw::VectorEpp { stiffness: 8.1e6 };
+    let known = state(law, 700.0);
+    let scalar = state(EPP, 700.0);
+    let found = solve_from(&scalar, &known.drive, &options).unwrap();
+    assert_eq!(found.driven.angular_speed, known.driven.angular_speed);
+    let mut heavier = known.drive.clone();
+    heavier.load.tight = SpanTension::Tractive(710.0);
+    let near = solve_from(&known, &heavier, &options).unwrap();
+    let far = solve(&heavier, &options).unwrap();
+    let off = near.driven.angular_speed / far.driven.angular_speed - 1.0;
+    assert!(off.abs() < 1e-6, "{off}");
+    assert!(near.convergence.newton_iterations < 20);
+}
+
+#[test]
 fn vector_friction_tends_to_coulomb_friction_as_its_stiffness_grows() {
     // Wrap of the driver at 700 N less that of Coulomb friction, in degrees.
     let apart = |stiffness: f64| {

@@ -30,7 +30,7 @@ pub(crate) fn solve_from(
 ) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
     let tolerance = options.tolerance;
-    let law = |drive: &Drive| drive.law.name();
+    let law = |drive: &Drive| discriminant(&drive.law);
     let Some(solved) = neighbour.restart.as_deref() else {
         return solve(drive, options);
     };
