@@ -2,8 +2,8 @@
 //! work that they cost.
 
 use beltdrive::{
-    Drive, FrictionLaw, LimitReason, SolveError, SolveOptions, SpanTension, SteadyState, Warning,
-    ZoneKind, examples, input, solve, solve_from,
+    Drive, FrictionLaw, LimitReason, PulleyState, SolveError, SolveOptions, SpanTension,
+    SteadyState, Warning, ZoneKind, examples, input, solve, solve_from,
 };
 
 fn kim(law: FrictionLaw, tight: f64) -> Drive {
@@ -12,6 +12,13 @@ fn kim(law: FrictionLaw, tight: f64) -> Drive {
     drive.law = law;
     drive.load.tight = SpanTension::Tractive(tight);
     drive
+}
+
+/// Where friction on a pulley is elastic, rad from the entry.
+fn elastic_arcs(on: &PulleyState) -> Vec<[f64; 2]> {
+    let zones = on.zones.iter();
+    let elastic = zones.filter(|zone| zone.kind == ZoneKind::Elastic);
+    elastic.map(|zone| [zone.from, zone.to]).collect()
 }
 
 fn state(law: FrictionLaw, tight: f64) -> SteadyState {
@@ -136,11 +143,7 @@ fn elastic_friction_in_front_of_a_lock_zone_is_found_exactly() {
         let stated = c.slip_normalisation_effect + c.error_estimate;
         assert_constants(&state, expected, 2.0 * stated);
         for (on, end) in [&state.driven, &state.driver].into_iter().zip(ends) {
-            let elastic = on
-                .zones
-                .iter()
-                .filter(|zone| zone.kind == ZoneKind::Elastic);
-            let found: f64 = elastic.map(|zone| zone.to).sum();
+            let found: f64 = elastic_arcs(on).iter().map(|[_, to]| to).sum();
             assert!(
                 (found.to_degrees() - end).abs() < 2e-5,
                 "{}",
@@ -186,11 +189,7 @@ fn vector_friction_sticks_where_an_independent_prototype_found_it() {
         let stated = c.slip_normalisation_effect + c.error_estimate;
         assert_constants(&state, expected, 2.0 * stated);
         for (on, arcs) in [&state.driven, &state.driver].into_iter().zip(arcs) {
-            let elastic = on
-                .zones
-                .iter()
-                .filter(|zone| zone.kind == ZoneKind::Elastic);
-            let found: Vec<_> = elastic.map(|zone| [zone.from, zone.to]).collect();
+            let found = elastic_arcs(on);
             assert_eq!(found.len(), arcs.len());
             for (found, known) in found.as_flattened().iter().zip(arcs.as_flattened()) {
                 let found = found.to_degrees();

@@ -165,9 +165,9 @@ impl<T: Real> Contact<T> {
                 }
             }
             Law::Vector { .. } => {
-                let turning = self.slip_rates(groove, rates);
                 if let Some(yielding) = Yielding::new(self, groove, state) {
-                    rates[LAW..LAW + 2].copy_from_slice(&yielding.rates(turning));
+                    let growing = yielding.rates(|| self.slip_rates(groove, rates));
+                    rates[LAW..LAW + 2].copy_from_slice(&growing);
                 }
             }
         }
@@ -303,6 +303,9 @@ pub(crate) fn limit_excess<T: Real>(
         return groove.elastic_friction(elastic, state)
             - slip.pressure * groove.friction_coefficient;
     }
+    let Law::Vector { .. } = groove.law else {
+        return T::from_f64(0.0);
+    };
     let contact = Contact::new(groove, regime, state, omega, flow);
     let yielding = Yielding::new(&contact, groove, state);
     yielding.map_or(T::from_f64(0.0), |yielding| {
@@ -311,11 +314,12 @@ pub(crate) fn limit_excess<T: Real>(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::vbelt::groove::Elastic;
 
-    fn groove(law: Law, normalisation: f64) -> Groove {
+    /// A groove with a law, of which ε is given apart.
+    pub(in crate::vbelt) fn groove(law: Law, normalisation: f64) -> Groove {
         let law = match law {
             Law::Normalised { elastic, .. } => Law::Normalised {
                 epsilon: normalisation,
@@ -356,8 +360,8 @@ mod tests {
 
     /// F, θ, x, φ, then the state of EPP, with ω and G.
     const STATE: [f64; 5] = [0.7, 0.12, 0.03, 1.1, 0.3];
-    const OMEGA: f64 = 0.96;
-    const FLOW: f64 = 0.95;
+    pub(in crate::vbelt) const OMEGA: f64 = 0.96;
+    pub(in crate::vbelt) const FLOW: f64 = 0.95;
 
     fn contact(law: Law, epsilon: f64, regime: Regime, state: &[f64]) -> Contact<f64> {
         Contact::new(&groove(law, epsilon), regime, state, OMEGA, FLOW)

@@ -17,7 +17,7 @@
 use super::belt_problem::{BeltProblem, Zoning, end_angles, in_groove};
 use super::groove::{ANGLE, TENSION};
 use super::{Contact, DRIVEN, DRIVER, Groove, Law, Layout, Regime, Scales, Units};
-use crate::{Drive, FrictionLaw, SpanTension};
+use crate::{Drive, SpanTension};
 use bvp::{Ends, Problem, Real, Segment, Solution};
 
 /// Index of the length of segment 0 among the parameters.
@@ -80,10 +80,7 @@ impl DriveProblem {
             zoning: Zoning::default(),
             segments: Vec::new(),
         };
-        let regime = match drive.law {
-            FrictionLaw::Epp { .. } | FrictionLaw::VectorEpp { .. } => Regime::Either,
-            _ => Regime::Slip,
-        };
+        let regime = Regime::of_contact(drive.law);
         problem.with_zones(&[vec![regime], vec![regime]])
     }
 

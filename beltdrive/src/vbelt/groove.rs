@@ -192,6 +192,16 @@ pub(crate) enum Regime {
     Either,
 }
 
+impl Regime {
+    /// What is known of a law on a whole contact.
+    pub(super) fn of_contact(law: FrictionLaw) -> Self {
+        match law {
+            FrictionLaw::Epp { .. } | FrictionLaw::VectorEpp { .. } => Self::Either,
+            _ => Self::Slip,
+        }
+    }
+}
+
 /// The belt on one pulley: constants of the local mechanics, scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Groove {

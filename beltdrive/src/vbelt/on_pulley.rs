@@ -47,6 +47,22 @@ pub(super) struct Stretch {
     pub(super) length: f64,
 }
 
+/// The slip at a place of a contact.
+struct Slip {
+    angle: f64,
+    /// Its velocity as a share of the belt speed.
+    slip: f64,
+    /// Whether friction is at its limit.
+    is_full: bool,
+}
+
+impl Slip {
+    /// Whether friction is at its limit and the belt hardly slips.
+    fn is_locked(&self) -> bool {
+        self.is_full && self.slip < LeastSlip::LOCKED
+    }
+}
+
 impl<P: BeltProblem> Solved<P> {
     /// The belt on a pulley, if it lies in a groove there.
     pub(super) fn in_groove(&self, pulley: usize) -> Option<OnPulley<'_>> {
@@ -218,52 +234,58 @@ impl OnPulley<'_> {
     }
 
     /// Where the belt hardly slips, from samples: between two the logarithm of the slip is taken to be linear.
-    pub(super) fn least_slip(&self) -> Option<LeastSlip> {
-        let mut least = f64::INFINITY;
-        // Angle and slip of the last sample, where the arc that is locked there begins, and the longest so far.
-        let (mut last, mut begun) = (None::<(f64, f64)>, None);
-        let mut longest = None;
-        let mut close = |from: Option<f64>, to: f64| {
-            let arc = from.map(|from| [from, to]);
-            let length = |arc: Option<[f64; 2]>| arc.map_or(0.0, |[from, to]| to - from);
-            if length(arc) > length(longest) {
-                longest = arc;
-            }
+    pub(super) fn least_slip(&self) -> LeastSlip {
+        let samples = self.slips();
+        let crossing = |one: &Slip, other: &Slip| {
+            let [here, there] = [one, other].map(|at| (at.slip / LeastSlip::LOCKED).ln());
+            let share = (here / (here - there)).clamp(0.0, 1.0);
+            one.angle + share * (other.angle - one.angle)
         };
+        let (mut locked, mut first) = (None::<[f64; 2]>, 0);
+        let length = |arc: Option<[f64; 2]>| arc.map_or(0.0, |[from, to]| to - from);
+        for run in samples.chunk_by(|one, other| one.is_locked() == other.is_locked()) {
+            let behind = first + run.len();
+            if run[0].is_locked() {
+                let before = samples[..first].last();
+                let after = samples.get(behind);
+                let last = &run[run.len() - 1];
+                let arc = Some([
+                    before.map_or(run[0].angle, |before| crossing(&run[0], before)),
+                    after.map_or(last.angle, |after| crossing(after, last)),
+                ]);
+                if length(arc) > length(locked) {
+                    locked = arc;
+                }
+            }
+            first = behind;
+        }
+        let slips = samples.iter().map(|at| at.slip);
+        LeastSlip {
+            slip: slips.fold(f64::INFINITY, f64::min),
+            locked,
+        }
+    }
+
+    /// The slip along the contact, at the same number of places on every mesh interval.
+    fn slips(&self) -> Vec<Slip> {
+        let mut slips = Vec::new();
         for stretch in &self.stretches {
             let mut y = [0.0; MAX_STATES];
             let y = &mut y[..self.solution.segments()[stretch.segment].states];
-            let is_full = matches!(stretch.regime, Regime::Slip | Regime::Either);
             for pair in self.solution.mesh(stretch.segment).windows(2) {
                 for part in 0..=SLIP_SAMPLES {
                     let s = pair[0] + (pair[1] - pair[0]) * part as f64 / SLIP_SAMPLES as f64;
                     self.solution.state(stretch.segment, s, y);
                     let [along, up] = self.contact(stretch.regime, y).slip;
-                    let (angle, slip) = (y[ANGLE], along.hypot(up));
-                    least = least.min(slip);
-                    let is_locked = is_full && slip < LeastSlip::LOCKED;
-                    let crossing = last.map_or(angle, |(before, other)| {
-                        let [here, other] =
-                            [slip, other].map(|slip| (slip / LeastSlip::LOCKED).ln());
-                        let share = (here / (here - other)).clamp(0.0, 1.0);
-                        angle + share * (before - angle)
+                    slips.push(Slip {
+                        angle: y[ANGLE],
+                        slip: along.hypot(up),
+                        is_full: matches!(stretch.regime, Regime::Slip | Regime::Either),
                     });
-                    match begun {
-                        None if is_locked => begun = Some(crossing),
-                        Some(_) if !is_locked => close(begun.take(), crossing),
-                        _ => {}
-                    }
-                    last = Some((angle, slip));
                 }
             }
         }
-        if let Some((angle, _)) = last {
-            close(begun, angle);
-        }
-        Some(LeastSlip {
-            slip: least,
-            locked: longest,
-        })
+        slips
     }
 
     /// The zones of friction by swept angle, where each segment is of one kind.

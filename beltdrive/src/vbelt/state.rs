@@ -161,7 +161,7 @@ fn pulley_state(solved: &Solved, pulley: usize, integrals: Integrals) -> PulleyS
         inclination: [entry, exit],
         zones: friction_zones(solved, pulley),
         entry: None,
-        least_slip: on.least_slip(),
+        least_slip: Some(on.least_slip()),
         profile,
     }
 }

@@ -85,23 +85,22 @@ impl<'c, T: Real> Yielding<'c, T> {
         self.along(self.contact.slip) / mu - self.pressure_rate * (mu / self.stiffness)
     }
 
-    /// p dB/ds without a lead, over `k_f`.
+    /// p dB/ds over `k_f` where the belt is not taken to slip.
     fn growth(&self) -> [T; 2] {
         let mu = self.friction_coefficient;
         let plastic = match self.contact.regime {
-            Regime::Elastic | Regime::Stick => T::from_f64(0.0),
-            Regime::Slip => self.plastic_rate(),
             Regime::Either => {
                 let share = self.along(self.deflection) / (mu * mu);
                 self.plastic_rate().max(T::from_f64(0.0)) * share.powi(self.sharpness)
             }
+            _ => T::from_f64(0.0),
         };
         let decay = plastic / mu + self.pressure_rate / self.stiffness;
         [0, 1].map(|axis| self.contact.slip[axis] - decay * self.deflection[axis])
     }
 
-    /// dB/ds, with the derivative e' of the slip.
-    pub(super) fn rates(&self, turning: [T; 2]) -> [T; 2] {
+    /// dB/ds, with the derivative e' of the slip where it is needed.
+    pub(super) fn rates(&self, turning: impl FnOnce() -> [T; 2]) -> [T; 2] {
         let (contact, mu) = (self.contact, self.friction_coefficient);
         let length = contact.pressure / self.stiffness;
         if contact.regime != Regime::Slip {
@@ -111,7 +110,7 @@ impl<'c, T: Real> Yielding<'c, T> {
         let lead = least / (least + contact.pressure * contact.pressure) * self.lead;
         let weight = (self.along(contact.slip) / mu + contact.slip_norm) * (0.5 / mu);
         let inertia = length + lead * weight;
-        let [slip, turning] = [contact.slip, turning].map(|vector| self.across(vector));
+        let [slip, turning] = [contact.slip, turning()].map(|vector| self.across(vector));
         [0, 1].map(|axis| (slip[axis] + lead * turning[axis]) / inertia)
     }
 
@@ -149,31 +148,19 @@ const SLIPPING: f64 = 0.95;
 
 #[cfg(test)]
 mod tests {
-    use super::super::Strand;
+    use super::super::contact::tests::{FLOW, OMEGA, groove};
     use super::*;
 
-    const OMEGA: f64 = 0.96;
-    const FLOW: f64 = 0.95;
     const STIFFNESS: f64 = 700.0;
 
     /// A groove, and a state whose deflection is some share of its limit.
     fn yielding(share: f64, lead: f64) -> (Groove, [f64; 6]) {
-        let (sin_beta, cos_beta) = 18_f64.to_radians().sin_cos();
-        let groove = Groove {
-            strand: Strand {
-                inertia: 0.1,
-                compliance: 6e-3,
-            },
-            sin_beta,
-            cos_beta,
-            friction_coefficient: 0.4,
-            radial_stiffness: 80.0,
-            law: Law::Vector {
-                stiffness: STIFFNESS,
-                sharpness: 2,
-                lead,
-            },
+        let law = Law::Vector {
+            stiffness: STIFFNESS,
+            sharpness: 2,
+            lead,
         };
+        let groove = groove(law, 0.0);
         let limit = share * groove.friction_coefficient;
         (groove, [0.7, 0.12, 0.03, 1.1, 0.8 * limit, 0.6 * limit])
     }

@@ -83,10 +83,8 @@ impl LoopProblem {
         let (tensioner, driver) = (belt_loop.tensioner(), belt_loop.driver());
         let is_epp = matches!(law, FrictionLaw::Epp { .. });
         let zones = seats.iter().map(|seat| match seat {
-            Seat::Groove(_) if !is_epp && !matches!(law, FrictionLaw::VectorEpp { .. }) => {
-                vec![Regime::Slip]
-            }
-            Seat::Groove(_) | Seat::Back(_) => vec![Regime::Either],
+            Seat::Groove(_) => vec![Regime::of_contact(law)],
+            Seat::Back(_) => vec![Regime::Either],
             Seat::Idle => vec![],
         });
         let zones: Vec<_> = zones.collect();

@@ -1,6 +1,7 @@
 //! The statement is complete, free of units, and differentiated exactly.
 
 use super::*;
+use crate::FrictionLaw;
 use crate::vbelt::limit_excess;
 use crate::vbelt::scaling::tests::kim;
 use crate::{BeltKind, VBelt};

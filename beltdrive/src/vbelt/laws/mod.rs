@@ -178,7 +178,7 @@ impl<D> Path<'_, D> {
         }
     }
 
-    /// From bristles to Coulomb or EPP friction whose direction is a state.
+    /// From bristles to Coulomb or EPP friction whose traction, or its direction, is a state.
     fn sliding<A: Asked>(
         &mut self,
         asked: &A,
@@ -259,8 +259,8 @@ impl Path<'_> {
         self.sliding(&asked, &start)
     }
 
-    /// The steady state without load, both spans with the scaled tension `tight`. The traction of sliding friction
-    /// turns the other way round there than bristles show, so that the direction is normalised at once.
+    /// The steady state without load, both spans with the scaled tension `tight`. The traction of Coulomb friction
+    /// turns the other way round there than bristles show, so that its direction is normalised at once.
     pub(super) fn at_no_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
         let drive = self.drive;
         let asked = AtLoad { drive, tight };

@@ -170,16 +170,14 @@ fn merge_short(zones: Vec<Zone>, shortest: f64) -> Vec<Zone> {
             _ => merged.push(zone),
         }
     }
-    for regime in [Regime::Elastic, Regime::Slip, Regime::Stick, Regime::Either] {
-        join_parts(&mut merged, regime);
-    }
+    join(&mut merged, |_| true);
     merged
 }
 
-/// Joins neighbours of a kind.
-pub(super) fn join_parts(zones: &mut Vec<Zone>, regime: Regime) {
+/// Joins neighbours of one kind, of the kinds that are asked for.
+pub(super) fn join(zones: &mut Vec<Zone>, is_joined: impl Fn(Regime) -> bool) {
     zones.dedup_by(|next, zone| {
-        let same = zone.regime == regime && next.regime == regime;
+        let same = zone.regime == next.regime && is_joined(zone.regime);
         if same {
             zone.to = next.to;
         }

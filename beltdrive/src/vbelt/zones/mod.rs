@@ -14,8 +14,8 @@ mod samples;
 use super::path::Solved;
 use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
 use kinds::{
-    Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, join_elastic, join_parts,
-    one_zone, without_kinks,
+    Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, join, join_elastic, one_zone,
+    without_kinks,
 };
 use places::{ends, keep_junctions, locate};
 use samples::{CLEAR_TURN, Sample, samples};
@@ -177,7 +177,7 @@ fn cut<P: BeltProblem>(
         Law::Normalised { .. } => zones,
         Law::Vector { .. } if problem.has_junctions() => {
             let mut zones = cut_at_turn(zones, &samples, length, CLEAR_TURN);
-            join_parts(&mut zones, Regime::Elastic);
+            join(&mut zones, |regime| regime == Regime::Elastic);
             zones
         }
         Law::Vector { .. } => zones,
