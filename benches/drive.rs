@@ -2,11 +2,11 @@
 //! from that of a neighbouring load? How long a branch of them, and both limits of the load? How long a
 //! V-belt round three pulleys?
 
-use beltdrive::belt_loop::{self, BeltLoop, Closure, Duty, LoopPulley, Sense};
+use beltdrive::belt_loop;
 use beltdrive::input::Key;
 use beltdrive::{
-    Belt, BeltKind, Drive, EventKind, FrictionLaw, RangeEnd, SolveOptions, VBelt, examples, input,
-    limits, solve, solve_from, trace,
+    Belt, BeltKind, Closure, Drive, Duty, EventKind, FrictionLaw, Pulley, RangeEnd, Sense,
+    SolveOptions, VBelt, examples, input, limits, solve, solve_from, trace,
 };
 use criterion::{BenchmarkId, Criterion};
 use std::hint::black_box;
@@ -117,9 +117,9 @@ fn both_limits(criterion: &mut Criterion) {
 }
 
 /// A driver, a fan and an alternator, set up with 500 N.
-fn accessories(law: FrictionLaw) -> BeltLoop {
-    let pulley = |name, centre, radius, duty| LoopPulley::new(name, centre, radius, 0.4, duty);
-    BeltLoop {
+fn accessories(law: FrictionLaw) -> Drive {
+    let pulley = |name, centre, radius, duty| Pulley::new(name, centre, radius, 0.4, duty);
+    Drive {
         title: None,
         belt: Belt {
             mass_per_length: 0.1,
@@ -150,10 +150,10 @@ fn three_pulleys(criterion: &mut Criterion) {
         FrictionLaw::Bristle { stiffness: 1500.0 },
         FrictionLaw::Coulomb,
     ] {
-        let belt_loop = accessories(law);
+        let drive = accessories(law);
         group.bench_function(BenchmarkId::new(law.name(), "3 pulleys"), |b| {
             b.iter(|| {
-                let state = belt_loop::solve_to(black_box(&belt_loop), &OPTIONS);
+                let state = belt_loop::solve_to(black_box(&drive), &OPTIONS);
                 state.expect("a load that the loop carries")
             });
         });

@@ -1,14 +1,12 @@
 //! How long does the steady state of a flat-belt drive take, in closed form, and with its profiles and
 //! checks? And that of a loop of many pulleys?
 
-use beltdrive::belt_loop::{
-    self, BeltLoop, Closure, Duty, Guide, LoopPulley, Mount, Sense, Side, Tensioner, TensionerLoad,
-};
+use beltdrive::belt_loop;
 use beltdrive::flat::ClosedForm;
 use beltdrive::input::Key;
 use beltdrive::{
-    Belt, BeltKind, Drive, FrictionLaw, NormalForce, SolveOptions, examples, input, limits, solve,
-    stability,
+    Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, NormalForce, Pulley, Sense,
+    Side, SolveOptions, Tensioner, TensionerLoad, examples, input, limits, solve, stability,
 };
 use criterion::{BenchmarkId, Criterion};
 use std::hint::black_box;
@@ -89,7 +87,7 @@ const PULLEYS: [[f64; 3]; 8] = [
 const IDLERS: [usize; 2] = [1, 5];
 
 /// A loop of eight pulleys that is closed by where its tensioner rests.
-fn eight_pulleys(law: FrictionLaw, normal_force: NormalForce) -> BeltLoop {
+fn eight_pulleys(law: FrictionLaw, normal_force: NormalForce) -> Drive {
     let mut angle: f64 = 0.0;
     let pulley = |(index, [radius, distance, torque]): (usize, [f64; 3])| {
         let centre = [distance * angle.cos(), distance * angle.sin()];
@@ -98,12 +96,12 @@ fn eight_pulleys(law: FrictionLaw, normal_force: NormalForce) -> BeltLoop {
             0 => Duty::Driver(300.0),
             _ => Duty::Torque(torque),
         };
-        LoopPulley {
+        Pulley {
             side: match IDLERS.contains(&index) {
                 true => Side::Outside,
                 false => Side::Inside,
             },
-            ..LoopPulley::new(&format!("pulley {index}"), centre, radius, 0.8, duty)
+            ..Pulley::new(&format!("pulley {index}"), centre, radius, 0.8, duty)
         }
     };
     let mut pulleys: Vec<_> = PULLEYS.into_iter().enumerate().map(pulley).collect();
@@ -124,7 +122,7 @@ fn eight_pulleys(law: FrictionLaw, normal_force: NormalForce) -> BeltLoop {
             travel: None,
         });
     }
-    BeltLoop {
+    Drive {
         title: None,
         belt: Belt {
             ribs: 1,
@@ -150,9 +148,9 @@ fn loops(criterion: &mut Criterion) {
     ];
     for (name, law) in laws {
         for normal_force in [NormalForce::Inertia, NormalForce::Exact] {
-            let belt_loop = eight_pulleys(law, normal_force);
+            let drive = eight_pulleys(law, normal_force);
             group.bench_function(BenchmarkId::new(name, normal_force.name()), |b| {
-                b.iter(|| belt_loop::solve(black_box(&belt_loop)).expect("a load that it carries"));
+                b.iter(|| belt_loop::solve(black_box(&drive)).expect("a load that it carries"));
             });
         }
     }

@@ -1,8 +1,8 @@
 //! Belts round any number of pulleys: layout, loads, tensioner, and the steady state.
 //!
-//! A [`BeltLoop`] states the belt, the pulleys in the order in which the belt meets them, what each of
-//! them does, and one [`Closure`] that fixes how tight the belt is. [`solve`] finds its steady state, or
-//! says why there is none ([`LoopError`]). [`Layout`] is the plane geometry by itself.
+//! A [`Drive`](crate::Drive) states the belt, the pulleys in the order in which the belt meets them, what each of
+//! them does, and one [`Closure`](crate::Closure) that fixes how tight the belt is. [`solve`] finds its steady state, or
+//! says why there is none ([`LoopError`]). [`Layout`](crate::Layout) is the plane geometry by itself.
 //!
 //! # Equations
 //!
@@ -64,12 +64,14 @@
 //! A driver, a fan and a water pump on the back of the belt, set up with 400 N:
 //!
 //! ```
-//! use beltdrive::belt_loop::{BeltLoop, Closure, Duty, LoopPulley, Sense, Side, solve};
-//! use beltdrive::{Belt, BeltKind, FrictionLaw, NormalForce};
+//! use beltdrive::belt_loop::solve;
+//! use beltdrive::{
+//!     Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, NormalForce, Pulley, Sense, Side,
+//! };
 //!
-//! let pulley = |name, centre, radius, duty| LoopPulley::new(name, centre, radius, 0.7, duty);
+//! let pulley = |name, centre, radius, duty| Pulley::new(name, centre, radius, 0.7, duty);
 //! let pump = pulley("pump", [0.2, 0.03], 0.03, Duty::Torque(0.5));
-//! let belt_loop = BeltLoop {
+//! let drive = Drive {
 //!     title: None,
 //!     belt: Belt {
 //!         ribs: 1,
@@ -82,12 +84,12 @@
 //!     turning_number: 1,
 //!     pulleys: vec![
 //!         pulley("driver", [0.0, 0.0], 0.06, Duty::Driver(200.0)),
-//!         LoopPulley { side: Side::Outside, ..pump },
+//!         Pulley { side: Side::Outside, ..pump },
 //!         pulley("fan", [0.4, 0.05], 0.1, Duty::Torque(20.0)),
 //!     ],
 //!     closure: Closure::SetupTension(400.0),
 //! };
-//! let state = solve(&belt_loop)?;
+//! let state = solve(&drive)?;
 //! let [driver, pump, fan] = &state.pulleys[..] else { panic!("three pulleys") };
 //! assert!((driver.torque + 12.0 + 1.0).abs() < 1e-12);
 //! assert!(pump.torque_margin.is_some_and(|margin| margin > 1.0));
@@ -100,10 +102,6 @@ pub use crate::answers::{
     Varied, limit_curve, limits, trace,
 };
 pub use crate::answers::{solve, solve_to, solve_with_margins};
-pub use crate::drive::belt_loop::{
-    BeltLoop, Closure, Duty, Guide, LoopPulley, Mount, Tensioner, TensionerLoad,
-};
-pub use crate::drive::layout::{Layout, LayoutError, PlacedPulley, Sense, Side, Span};
 pub use crate::results::loop_error::{LoadedState, LoopError};
 pub use crate::results::loop_state::{
     GrooveState, LoadLimit, LoopConvergence, LoopState, PulleyState, SpanState, TensionerState,

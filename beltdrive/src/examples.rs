@@ -1,6 +1,6 @@
 //! The drive files that come with the program.
 
-use crate::input::{DriveFile, Stated, spelling};
+use crate::input::{DriveFile, spelling};
 
 /// A shipped drive file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,11 +67,8 @@ impl Example {
     /// The title the file states; its name if it states none.
     pub fn title(&self) -> String {
         let file = DriveFile::read(self.name, self.text, &[]);
-        let title = match file.and_then(|file| file.stated()) {
-            Ok(Stated::Drive(drive)) => drive.title,
-            Ok(Stated::Loop(belt_loop)) => belt_loop.title,
-            Err(_) => None,
-        };
+        let drive = file.and_then(|file| file.drive());
+        let title = drive.ok().and_then(|drive| drive.title);
         title.unwrap_or_else(|| self.name.to_owned())
     }
 
@@ -125,12 +122,9 @@ mod tests {
     fn every_example_is_a_drive_with_title_and_summary() {
         for example in EXAMPLES {
             let file = DriveFile::read(example.name, example.text, &[]);
-            let stated = file.and_then(|file| file.stated());
-            let title = match stated.unwrap_or_else(|error| panic!("{error}")) {
-                Stated::Drive(drive) => drive.title,
-                Stated::Loop(belt_loop) => belt_loop.title,
-            };
-            assert_eq!(Some(example.title()), title);
+            let drive = file.and_then(|file| file.drive());
+            let drive = drive.unwrap_or_else(|error| panic!("{error}"));
+            assert_eq!(Some(example.title()), drive.title);
             assert!(example.text.starts_with("# ") && example.summary().ends_with('.'));
         }
     }
@@ -164,7 +158,8 @@ mod tests {
     #[test]
     fn the_drive_of_a_v_belt_can_be_given_a_flat_belt() {
         for example in EXAMPLES {
-            if input::parse(example.name, example.text, &[]).is_err() {
+            let stated = input::parse(example.name, example.text, &[]).unwrap();
+            if stated.two_pulleys().is_none() {
                 continue;
             }
             let overrides = ["belt.type=flat", "friction.law=epp"].map(str::to_owned);

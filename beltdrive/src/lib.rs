@@ -1,7 +1,8 @@
 //! Steady mechanics of belt drives: from a drive to its slip, wrap angles, torque and limits.
 //!
-//! [`solve`] finds the steady state of a two-pulley drive from nothing but the [`Drive`], and says how
-//! accurate it is; a load that no steady state carries is refused with the limit and its reason
+//! A [`Drive`] is a belt round two or more pulleys, and a [`Closure`] that fixes how tight it is. [`solve`] finds
+//! the steady state of one with two pulleys that is closed by the tensions of both spans, from nothing but the
+//! drive, and says how accurate it is; a load that no steady state carries is refused with the limit and its reason
 //! ([`SolveError`]). The [`BeltKind`] decides between two models:
 //!
 //! - A **V-belt** is a string with axial stretch that sinks into the groove of each pulley. Its state
@@ -11,7 +12,7 @@
 //!   elastic/perfectly-plastic and creep-rate friction and three conventions for the normal force
 //!   ([`NormalForce`]). [`flat::ClosedForm`] gives it without profiles. [`stability`](stability()) examines its axial motion.
 //!
-//! Belts round any number of pulleys, with a tensioner, are a module of their own: [`belt_loop`].
+//! Drives with any number of pulleys, with a tensioner, and other closures are answered by [`belt_loop`].
 //!
 //! [`mod@verify`] computes published results again.
 //!
@@ -67,7 +68,7 @@
 //!     drive.belt.axial_stiffness + entry.map_or(0.0, |entry| entry.reference_tension)
 //! };
 //! let ratio = rim(state.driven.entry) / rim(state.driver.entry);
-//! assert!((state.driven.angular_speed / drive.driver_speed - ratio).abs() < 1e-12);
+//! assert!((state.driven.angular_speed / state.driver.angular_speed - ratio).abs() < 1e-12);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -80,7 +81,7 @@
 //!
 //! ```
 //! use beltdrive::input::{self, Key};
-//! use beltdrive::{EventKind, Pulley, SolveOptions, examples, trace};
+//! use beltdrive::{EventKind, Role, SolveOptions, examples, trace};
 //!
 //! let example = examples::find("kim2009").expect("a shipped example");
 //! let friction = ["friction.coefficient = 0.3".to_owned()];
@@ -91,7 +92,7 @@
 //!
 //! let last = branch.events.last().expect("a start and an end");
 //! println!("{} N: {}", last.point.value, branch.end); // the driven pulley slips grossly
-//! assert_eq!(last.kind, EventKind::GrossSlip(Pulley::Driven));
+//! assert_eq!(last.kind, EventKind::GrossSlip(Role::Driven));
 //! assert!((last.point.value - 2233.7022).abs() < 1e-3);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -115,7 +116,11 @@ mod vbelt;
 pub use answers::drive::{limit_curve, limits, solve, solve_from, stability, trace};
 pub use answers::verify::{self, Verification, verify};
 pub use belt::{Belt, BeltKind, NormalForce, VBelt};
-pub use drive::{Drive, Load, SpanTension};
+pub use drive::layout::{Layout, LayoutError, PlacedPulley, Sense, Side, Span};
+pub use drive::{
+    Closure, Drive, Duty, Guide, Load, Mount, Pulley, SpanTension, Tensioner, TensionerLoad,
+    TwoPulleys,
+};
 pub use friction::FrictionLaw;
 pub use results::branch::{
     Branch, BranchEnd, BranchEvent, EventKind, TraceConvergence, TracePoint,
@@ -129,7 +134,7 @@ pub use results::stability::{
 };
 pub use results::state_summary::{PulleyErrors, PulleySummary, StateErrors, StateSummary};
 pub use results::steady_state::{
-    Check, Convergence, Entry, LeastSlip, Profile, Pulley, PulleyState, SteadyState, Zone, ZoneKind,
+    Check, Convergence, Entry, LeastSlip, Profile, PulleyState, Role, SteadyState, Zone, ZoneKind,
 };
 pub use results::warning::Warning;
 

@@ -9,12 +9,12 @@ mod random;
 #[path = "support/random.rs"]
 mod random_numbers;
 
-use beltdrive::belt_loop::{
-    BeltLoop, Closure, Duty, Guide, Layout, LayoutError, LoopError, LoopPulley, LoopState, Mount,
-    Sense, Side, Tensioner, TensionerLoad, solve,
-};
+use beltdrive::belt_loop::{LoopError, LoopState, solve};
 use beltdrive::flat::ClosedForm;
-use beltdrive::{Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, Pulley, SpanTension};
+use beltdrive::{
+    Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Layout, LayoutError, Load, Mount,
+    NormalForce, Pulley, Role, Sense, Side, SpanTension, Tensioner, TensionerLoad, TwoPulleys,
+};
 use invariants::{close, hold};
 
 fn belt() -> Belt {
@@ -28,16 +28,16 @@ fn belt() -> Belt {
     }
 }
 
-fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> LoopPulley {
-    LoopPulley {
+fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> Pulley {
+    Pulley {
         side,
-        ..LoopPulley::new(name, centre, radius, 0.6, duty)
+        ..Pulley::new(name, centre, radius, 0.6, duty)
     }
 }
 
-fn two(law: FrictionLaw, closure: Closure) -> BeltLoop {
+fn two(law: FrictionLaw, closure: Closure) -> Drive {
     let inside = Side::Inside;
-    BeltLoop {
+    Drive {
         title: None,
         belt: belt(),
         law,
@@ -55,8 +55,8 @@ fn two(law: FrictionLaw, closure: Closure) -> BeltLoop {
 const AT_REST: f64 = 0.13;
 
 /// A driver, a load, and an idler on a straight guide that pushes the slack span inwards.
-fn tensioned(closure: Closure, law: FrictionLaw) -> BeltLoop {
-    let mut belt_loop = two(law, closure);
+fn tensioned(closure: Closure, law: FrictionLaw) -> Drive {
+    let mut drive = two(law, closure);
     let tensioner = Tensioner {
         guide: Guide::Translating {
             origin: [0.25, -0.15],
@@ -71,13 +71,13 @@ fn tensioned(closure: Closure, law: FrictionLaw) -> BeltLoop {
     };
     let mut idler = pulley("idler", [0.0; 2], 0.03, Side::Outside, Duty::Torque(0.0));
     idler.mount = Mount::Tensioner(tensioner);
-    belt_loop.pulleys.insert(1, idler);
-    belt_loop
+    drive.pulleys.insert(1, idler);
+    drive
 }
 
-fn solved(belt_loop: &BeltLoop) -> LoopState {
-    let state = solve(belt_loop).unwrap_or_else(|error| panic!("{error}\n{belt_loop:?}"));
-    hold(belt_loop, &state);
+fn solved(drive: &Drive) -> LoopState {
+    let state = solve(drive).unwrap_or_else(|error| panic!("{error}\n{drive:?}"));
+    hold(drive, &state);
     state
 }
 
@@ -98,21 +98,20 @@ fn laws_and_conventions() -> impl Iterator<Item = (FrictionLaw, NormalForce)> {
     pairs.filter(move |pair| !is_excluded(pair))
 }
 
-fn with(mut belt_loop: BeltLoop, normal_force: NormalForce) -> BeltLoop {
-    belt_loop.belt.kind = BeltKind::Flat { normal_force };
-    belt_loop
+fn with(mut drive: Drive, normal_force: NormalForce) -> Drive {
+    drive.belt.kind = BeltKind::Flat { normal_force };
+    drive
 }
 
 #[test]
 fn two_pulleys_are_the_drive_with_two_pulleys() {
     let mut slacker = Vec::new();
     for (law, normal_force) in laws_and_conventions() {
-        let belt_loop = with(two(law, Closure::SetupTension(350.0)), normal_force);
-        let state = solved(&belt_loop);
+        let drive = with(two(law, Closure::SetupTension(350.0)), normal_force);
+        let state = solved(&drive);
         let [slack, tight] = [&state.spans[0], &state.spans[1]];
-        let drive = Drive {
-            title: None,
-            belt: belt_loop.belt,
+        let drive = TwoPulleys {
+            belt: drive.belt,
             friction_coefficient: 0.6,
             law,
             driver_radius: 0.06,
@@ -124,10 +123,10 @@ fn two_pulleys_are_the_drive_with_two_pulleys() {
                 tight: SpanTension::DrivenTorque(25.0),
             },
         };
-        let closed = ClosedForm::new(&drive).unwrap();
+        let closed = ClosedForm::new(&drive.into()).unwrap();
         close("c", state.unstretched_speed, closed.speed(), 1e-13);
         close("T", tight.tension, closed.tension()[1], 1e-12);
-        for (pulley, found) in [(Pulley::Driver, 0), (Pulley::Driven, 1)] {
+        for (pulley, found) in [(Role::Driver, 0), (Role::Driven, 1)] {
             let found = &state.pulleys[found];
             close(
                 "w",
@@ -149,14 +148,14 @@ fn two_pulleys_are_the_drive_with_two_pulleys() {
         // convention `thesis` but for the speed, which falls with the load.
         let margin = state.pulleys[0].torque_margin.unwrap();
         let at = |torque: f64| {
-            let mut drive = drive.clone();
+            let mut drive = drive;
             drive.load.slack = match normal_force {
                 NormalForce::Thesis => SpanTension::Belt(slack.tension),
                 _ => SpanTension::Tractive(slack.tractive_tension),
             };
             drive.load.tight = SpanTension::DrivenTorque(torque);
             drive.law = FrictionLaw::Coulomb;
-            ClosedForm::new(&drive)
+            ClosedForm::new(&drive.into())
         };
         let within = match normal_force {
             NormalForce::Thesis => 1e-5,
@@ -250,33 +249,30 @@ fn same_limit(one: &LoopState, other: &LoopState, within: f64) {
 #[test]
 fn a_power_is_the_torque_at_the_speed_of_its_pulley() {
     for law in LAWS {
-        let mut belt_loop = tensioned(Closure::SetupTension(350.0), law);
-        let state = solved(&belt_loop);
-        belt_loop.pulleys[2].duty = Duty::Power(state.pulleys[2].power);
-        let found = solved(&belt_loop);
+        let mut drive = tensioned(Closure::SetupTension(350.0), law);
+        let state = solved(&drive);
+        drive.pulleys[2].duty = Duty::Power(state.pulleys[2].power);
+        let found = solved(&drive);
         agree(&found, &state, 1e-12);
         assert!((found.pulleys[2].power / state.pulleys[2].power - 1.0).abs() < 1e-13);
         // Creep brings the driven pulley to a standstill before it takes any power.
-        belt_loop.pulleys[2].duty = Duty::Power(1e5);
-        assert!(matches!(
-            solve(&belt_loop),
-            Err(LoopError::GrossSlip { .. })
-        ));
+        drive.pulleys[2].duty = Duty::Power(1e5);
+        assert!(matches!(solve(&drive), Err(LoopError::GrossSlip { .. })));
     }
 }
 
 #[test]
 fn a_weight_is_carried_by_the_belt_whatever_the_speed() {
     let closure = Closure::RestCoordinate(AT_REST);
-    let mut belt_loop = tensioned(closure, FrictionLaw::Coulomb);
-    let Mount::Tensioner(tensioner) = &mut belt_loop.pulleys[1].mount else {
+    let mut drive = tensioned(closure, FrictionLaw::Coulomb);
+    let Mount::Tensioner(tensioner) = &mut drive.pulleys[1].mount else {
         panic!("the second pulley is the idler");
     };
     tensioner.load = TensionerLoad::Weight(300.0);
     for speed in [20.0, 200.0] {
-        belt_loop.pulleys[0].duty = Duty::Driver(speed);
-        let state = solved(&belt_loop);
-        hold(&belt_loop, &state);
+        drive.pulleys[0].duty = Duty::Driver(speed);
+        let state = solved(&drive);
+        hold(&drive, &state);
         let [_, up] = state.pulleys[1].hub_load;
         assert!((up + 300.0).abs() < 1e-9, "{up}");
     }
@@ -285,9 +281,9 @@ fn a_weight_is_carried_by_the_belt_whatever_the_speed() {
 #[test]
 fn profiles_end_at_the_tensions_of_the_spans() {
     for (law, normal_force) in laws_and_conventions() {
-        let belt_loop = tensioned(Closure::SetupTension(350.0), law);
-        let belt_loop = with(belt_loop, normal_force);
-        let state = solved(&belt_loop);
+        let drive = tensioned(Closure::SetupTension(350.0), law);
+        let drive = with(drive, normal_force);
+        let state = solved(&drive);
         for (index, pulley) in state.pulleys.iter().enumerate() {
             let profile = state.profile(index);
             let ends = [(index + 2) % 3, index].map(|span| state.spans[span].tension);
@@ -302,7 +298,7 @@ fn profiles_end_at_the_tensions_of_the_spans() {
                 .windows(2)
                 .zip(profile.friction_force.windows(2));
             let moment = steps.map(|(s, f)| 0.5 * (s[1] - s[0]) * (f[0] + f[1]));
-            let moment = moment.sum::<f64>() * belt_loop.pulleys[index].radius;
+            let moment = moment.sum::<f64>() * drive.pulleys[index].radius;
             let scale = pulley.torque.abs().max(1e-9);
             assert!(
                 (moment - pulley.torque.abs()).abs() < 1e-4 * scale,
@@ -314,12 +310,12 @@ fn profiles_end_at_the_tensions_of_the_spans() {
 
 #[test]
 fn start_of_the_loop_and_the_mirror_change_nothing() {
-    for (_, belt_loop, _) in cases::read() {
-        let Ok(state) = solve(&belt_loop) else {
+    for (_, drive, _) in cases::read() {
+        let Ok(state) = solve(&drive) else {
             continue;
         };
-        for first in 1..belt_loop.pulleys.len() {
-            let mut turned = belt_loop.clone();
+        for first in 1..drive.pulleys.len() {
+            let mut turned = drive.clone();
             turned.pulleys.rotate_left(first);
             let mut found = solved(&turned);
             found.pulleys.rotate_right(first);
@@ -327,16 +323,16 @@ fn start_of_the_loop_and_the_mirror_change_nothing() {
             agree(&found, &state, 1e-12);
             same_limit(&found, &state, 1e-11);
         }
-        let found = solved(&mirrored(&belt_loop));
+        let found = solved(&mirrored(&drive));
         agree(&found, &state, 1e-12);
         same_limit(&found, &state, 1e-11);
     }
 }
 
 /// The loop with y reversed.
-fn mirrored(belt_loop: &BeltLoop) -> BeltLoop {
-    let mut mirrored = belt_loop.clone();
-    mirrored.sense = match belt_loop.sense {
+fn mirrored(drive: &Drive) -> Drive {
+    let mut mirrored = drive.clone();
+    mirrored.sense = match drive.sense {
         Sense::Clockwise => Sense::CounterClockwise,
         Sense::CounterClockwise => Sense::Clockwise,
     };
@@ -371,10 +367,10 @@ fn mirrored(belt_loop: &BeltLoop) -> BeltLoop {
 #[test]
 fn the_tensioner_constant_is_the_change_of_tension_with_speed() {
     let at = |speed: f64| {
-        let mut belt_loop = tensioned(Closure::RestCoordinate(AT_REST), FrictionLaw::Coulomb);
-        belt_loop.pulleys[0].duty = Duty::Driver(speed);
-        belt_loop.pulleys[2].duty = Duty::Torque(0.0);
-        let state = solved(&belt_loop);
+        let mut drive = tensioned(Closure::RestCoordinate(AT_REST), FrictionLaw::Coulomb);
+        drive.pulleys[0].duty = Duty::Driver(speed);
+        drive.pulleys[2].duty = Duty::Torque(0.0);
+        let state = solved(&drive);
         assert!(state.load_limit.is_none() && state.efficiency.is_none());
         let span = &state.spans[0];
         let momentum = state.mass_flow * span.speed;
@@ -395,16 +391,16 @@ fn the_tensioner_constant_is_the_change_of_tension_with_speed() {
 
 #[test]
 fn length_gradients_are_derivatives() {
-    for (name, belt_loop, _) in cases::read() {
+    for (name, drive, _) in cases::read() {
         let coordinate = -1.5;
-        let layout = belt_loop.layout(coordinate).unwrap();
-        for index in 0..belt_loop.pulleys.len() {
+        let layout = drive.layout(coordinate).unwrap();
+        for index in 0..drive.pulleys.len() {
             let gradient = layout.length_gradient(index);
             for (part, slope) in gradient.into_iter().enumerate() {
                 let at = |step: f64| {
                     let mut pulleys = layout.pulleys().to_vec();
                     pulleys[index].centre[part] += step;
-                    let moved = Layout::new(belt_loop.sense, belt_loop.turning_number, pulleys);
+                    let moved = Layout::new(drive.sense, drive.turning_number, pulleys);
                     moved.unwrap().length()
                 };
                 let difference = (at(1e-5) - at(-1e-5)) / 2e-5;
@@ -417,37 +413,37 @@ fn length_gradients_are_derivatives() {
 #[test]
 fn refusals_come_in_order_and_name_the_pulley() {
     let setup = Closure::SetupTension(350.0);
-    let refused = |belt_loop: &BeltLoop| solve(belt_loop).expect_err("a refusal");
-    let mut belt_loop = two(FrictionLaw::Coulomb, setup);
+    let refused = |drive: &Drive| solve(drive).expect_err("a refusal");
+    let mut drive = two(FrictionLaw::Coulomb, setup);
     let overlapping = pulley("idler", [0.1, 0.0], 0.05, Side::Inside, Duty::Torque(0.0));
-    belt_loop.pulleys.push(overlapping);
-    let overlap = refused(&belt_loop);
+    drive.pulleys.push(overlapping);
+    let overlap = refused(&drive);
     assert!(
         matches!(&overlap, LoopError::Layout(LayoutError::Overlap { one, other, .. })
             if one == "driver" && other == "idler")
     );
     // Outside the loop, but away from the belt.
-    belt_loop.pulleys[2] = pulley("idler", [0.2, 0.4], 0.05, Side::Outside, Duty::Torque(0.0));
-    let missed = refused(&belt_loop);
+    drive.pulleys[2] = pulley("idler", [0.2, 0.4], 0.05, Side::Outside, Duty::Torque(0.0));
+    let missed = refused(&drive);
     assert!(
         matches!(&missed, LoopError::Layout(LayoutError::NegativeWrap { pulley, wrap })
             if pulley == "idler" && *wrap < 0.0 && *wrap > -1.5),
         "{missed}"
     );
     // The idler pushes its two spans so far inwards that it reaches the opposite span.
-    belt_loop.pulleys[1] = pulley("driven", [1.0, 0.0], 0.06, Side::Inside, Duty::Torque(0.0));
-    belt_loop.pulleys[2] = pulley("deep", [0.5, -0.05], 0.04, Side::Outside, Duty::Torque(0.0));
+    drive.pulleys[1] = pulley("driven", [1.0, 0.0], 0.06, Side::Inside, Duty::Torque(0.0));
+    drive.pulleys[2] = pulley("deep", [0.5, -0.05], 0.04, Side::Outside, Duty::Torque(0.0));
     let top = pulley("top", [0.5, 0.8], 0.06, Side::Inside, Duty::Torque(0.0));
-    belt_loop.pulleys.push(top);
-    let through = refused(&belt_loop);
+    drive.pulleys.push(top);
+    let through = refused(&drive);
     assert!(
         matches!(&through, LoopError::Layout(LayoutError::SpanThroughPulley { from, to, pulley })
             if from == "driver" && to == "driven" && pulley == "deep"),
         "{through}"
     );
-    belt_loop.turning_number = 2;
-    belt_loop.pulleys.truncate(2);
-    let turns = refused(&belt_loop);
+    drive.turning_number = 2;
+    drive.pulleys.truncate(2);
+    let turns = refused(&drive);
     assert!(matches!(
         turns,
         LoopError::Layout(LayoutError::TurningNumber {

@@ -2,9 +2,9 @@
 
 use beltdrive::input::Key;
 use beltdrive::{
-    Belt, BeltKind, Branch, BranchEnd, BranchEvent, Drive, EventKind, FrictionLaw, LimitReason,
-    Load, Pulley, RangeEnd, SolveError, SolveOptions, SpanTension, VBelt, examples, input, limits,
-    solve, trace,
+    Belt, BeltKind, Branch, BranchEnd, BranchEvent, Closure, Drive, EventKind, FrictionLaw,
+    LimitReason, Load, RangeEnd, Role, SolveError, SolveOptions, SpanTension, TwoPulleys, VBelt,
+    examples, input, limits, solve, trace,
 };
 
 const BRISTLE: FrictionLaw = FrictionLaw::Bristle { stiffness: 1620.0 };
@@ -15,6 +15,14 @@ fn kim(law: FrictionLaw) -> Drive {
     let example = examples::find("kim2009").unwrap();
     let drive = input::parse(example.name, example.text, &[]).unwrap();
     Drive { law, ..drive }
+}
+
+/// That drive with Coulomb friction and another coefficient of friction.
+fn with_friction(friction_coefficient: f64) -> Drive {
+    Drive::from(TwoPulleys {
+        friction_coefficient,
+        ..kim(FrictionLaw::Coulomb).two_pulleys().unwrap()
+    })
 }
 
 fn key(drive: &Drive, path: &str) -> Key {
@@ -45,7 +53,7 @@ const TIGHT: &str = "load.tight_tractive_tension";
 #[test]
 fn a_coulomb_branch_goes_through_90_degrees_around_the_limit_point() {
     let branch = traced(&kim(FrictionLaw::Coulomb), TIGHT, [310.0, 9000.0]);
-    let overhang = event(&branch, EventKind::Overhang(Pulley::Driver));
+    let overhang = event(&branch, EventKind::Overhang(Role::Driver));
     close(overhang.point.value, 7523.082013, 1e-8);
     close(
         overhang.point.state.driver.inclination[1].to_degrees(),
@@ -93,7 +101,7 @@ fn a_branch_from_near_no_load_takes_few_steps() {
 #[test]
 fn the_end_of_a_turn_is_no_limit() {
     // At 20 453 N the friction on the driver, which turns to lift the belt, ceases to pass the middle of that turn.
-    let drive = Drive {
+    let drive = Drive::from(TwoPulleys {
         belt: Belt {
             mass_per_length: 0.062_728_92,
             axial_stiffness: 163_474.3,
@@ -113,8 +121,8 @@ fn the_end_of_a_turn_is_no_limit() {
             slack: SpanTension::Tractive(334.413_82),
             tight: SpanTension::Tractive(827.658_5),
         },
-        ..kim(FrictionLaw::Coulomb)
-    };
+        law: FrictionLaw::Coulomb,
+    });
     let options = SolveOptions::default();
     let limits = limits(&drive, &key(&drive, TIGHT), &options, &mut |_, _| {}).unwrap();
     assert_eq!(
@@ -177,8 +185,7 @@ fn the_kind_of_limit_changes_with_friction() {
         (0.3, 2_233.702_20, LimitReason::DrivenSlips),
         (0.5, 7_224.969_9, LimitReason::Overhang),
     ] {
-        let mut drive = kim(FrictionLaw::Coulomb);
-        drive.friction_coefficient = coefficient;
+        let mut drive = with_friction(coefficient);
         let tight = key(&drive, TIGHT);
         let found = limits(&drive, &tight, &SolveOptions::default(), &mut |_, _| {}).unwrap();
         close(found.largest.value, limit, 1e-8);
@@ -212,12 +219,12 @@ fn the_kind_of_limit_changes_with_friction() {
 
 #[test]
 fn gross_slip_is_located_and_ends_the_branch() {
+    let [slack, tight] = [200.0, 600.0].map(SpanTension::Belt);
     let mut drive = kim(EPP);
-    drive.load.slack = SpanTension::Belt(200.0);
-    drive.load.tight = SpanTension::Belt(600.0);
+    drive.closure = Closure::BothSpans(Load { slack, tight });
     let branch = traced(&drive, "load.tight_tension", [600.0, 2000.0]);
-    assert_eq!(branch.end, BranchEnd::GrossSlip(Pulley::Driven));
-    let stop = event(&branch, EventKind::GrossSlip(Pulley::Driven));
+    assert_eq!(branch.end, BranchEnd::GrossSlip(Role::Driven));
+    let stop = event(&branch, EventKind::GrossSlip(Role::Driven));
     let error = stop.value_error.unwrap();
     assert!(error < 1e-3, "{error:e}");
     assert!((stop.point.value - 917.0273).abs() < 2.0 * error);
@@ -233,8 +240,7 @@ fn gross_slip_is_located_and_ends_the_branch() {
 #[test]
 fn a_short_stretch_in_which_the_driven_pulley_stops_is_not_stepped_over() {
     // The driven speed is negative between 7629.55 N and 7733.86 N only.
-    let mut drive = kim(FrictionLaw::Coulomb);
-    drive.friction_coefficient = 0.3865;
+    let drive = with_friction(0.3865);
     let tight = key(&drive, TIGHT);
     let found = limits(&drive, &tight, &SolveOptions::default(), &mut |_, _| {}).unwrap();
     close(found.largest.value, 7_629.546, 1e-6);
@@ -261,7 +267,7 @@ fn epp_friction_has_nearly_the_limit_of_coulomb_friction_at_half_its_speed() {
 fn other_entries_are_traced_too() {
     let drive = kim(FrictionLaw::Coulomb);
     let branch = traced(&drive, "friction.coefficient", [0.4, 0.1]);
-    assert_eq!(branch.end, BranchEnd::GrossSlip(Pulley::Driven));
+    assert_eq!(branch.end, BranchEnd::GrossSlip(Role::Driven));
     close(branch.points.last().unwrap().value, 0.189_901_28, 1e-7);
     let branch = traced(&drive, "belt.radial_stiffness", [900e3, 300e3]);
     assert_eq!(branch.end, BranchEnd::Target);
@@ -276,6 +282,6 @@ fn a_belt_that_sinks_beyond_its_height_is_an_event() {
         belt.height = Some(0.01);
     }
     let branch = traced(&drive, TIGHT, [700.0, 3000.0]);
-    let sunk = event(&branch, EventKind::BeltHeight(Pulley::Driven));
+    let sunk = event(&branch, EventKind::BeltHeight(Role::Driven));
     close(sunk.point.state.driven.max_penetration, 0.01, 1e-3);
 }

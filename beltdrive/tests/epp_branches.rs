@@ -3,7 +3,7 @@
 use beltdrive::input::Key;
 use beltdrive::{
     Belt, BeltKind, BranchEnd, Drive, EventKind, FrictionLaw, Load, RangeEnd, SolveError,
-    SolveOptions, SpanTension, VBelt, examples, input, limits, solve, trace,
+    SolveOptions, SpanTension, TwoPulleys, VBelt, examples, input, limits, solve, trace,
 };
 
 /// The drive of Kim (2009) with EPP friction.
@@ -33,8 +33,7 @@ impl Numbers {
         let [friction_coefficient, stiffness] = self.friction;
         let [driver_radius, driver_speed, driven_radius, centre_distance] = self.pulleys;
         let [slack, tight] = self.load.map(SpanTension::Tractive);
-        Drive {
-            title: None,
+        Drive::from(TwoPulleys {
             belt: Belt {
                 ribs: 1,
                 mass_per_length,
@@ -52,15 +51,15 @@ impl Numbers {
             driven_radius,
             centre_distance,
             load: Load { slack, tight },
-        }
+        })
     }
 }
 
 /// The same drive at another tight tension.
 fn at(drive: &Drive, tight: f64) -> Drive {
-    let mut drive = drive.clone();
-    drive.load.tight = SpanTension::Tractive(tight);
-    drive
+    let mut two = drive.two_pulleys().unwrap();
+    two.load.tight = SpanTension::Tractive(tight);
+    two.into()
 }
 
 fn close(found: f64, expected: f64, relative: f64) {
@@ -78,7 +77,7 @@ fn assert_limit(drive: &Drive, expected: f64) {
         .unwrap()
         .largest;
     close(largest.value, expected, 1e-6);
-    let slack = drive.load.slack.value();
+    let slack = drive.two_pulleys().unwrap().load.slack.value();
     let load = |share: f64| slack + share * (largest.value - slack);
     for share in [0.5, 0.9, 0.99] {
         solve(&at(drive, load(share)), &options).unwrap();

@@ -290,7 +290,8 @@ fn tensions_that_do_not_contradict() {
         "load.slack_tension=300 N",
         "load.slack_tractive_tension=200 N",
     ]);
-    assert_eq!(drive.unwrap().load.slack, SpanTension::Tractive(200.0));
+    let two = drive.unwrap().two_pulleys().unwrap();
+    assert_eq!(two.load.slack, SpanTension::Tractive(200.0));
 }
 
 #[test]

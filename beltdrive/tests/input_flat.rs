@@ -150,7 +150,7 @@ fn the_creep_velocity() {
 #[test]
 fn a_driven_torque_takes_the_place_of_a_tension() {
     let load = |overrides: &[&str]| {
-        let load = flat(overrides).unwrap().load;
+        let load = flat(overrides).unwrap().two_pulleys().unwrap().load;
         (load.slack, load.tight)
     };
     let torque = SpanTension::DrivenTorque(60.0);
@@ -176,7 +176,8 @@ fn wrong_torques() {
        |                     ^
     expected: a torque, e.g. "45 N*m"
     "#);
-    let no_load = flat(&["load.driven_torque=0"]).unwrap().load.tight;
+    let tight = |overrides: &[&str]| flat(overrides).unwrap().two_pulleys().unwrap().load.tight;
+    let no_load = tight(&["load.driven_torque=0"]);
     assert_eq!(no_load, SpanTension::DrivenTorque(0.0));
     assert_snapshot!(flat_error(&["load.driven_torque=-5"]), @r#"
     error: `load.driven_torque` must not be negative
@@ -188,10 +189,7 @@ fn wrong_torques() {
     "#);
     // Of two pulleys it is the driven one that takes it.
     let torque = ["load.driven_torque=", "load.torque=60 N*m"];
-    assert_eq!(
-        flat(&torque).unwrap().load.tight,
-        SpanTension::DrivenTorque(60.0)
-    );
+    assert_eq!(tight(&torque), SpanTension::DrivenTorque(60.0));
     assert_snapshot!(error("driven_torque = ", "driver_torque = "), @r#"
     error: `load.driver_torque` may not be given: the load is the torque of the driven pulley
        --> flat.toml:30:1

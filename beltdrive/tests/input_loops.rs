@@ -1,9 +1,8 @@
 //! Drive files with a list of pulleys, and drives with two pulleys closed as a loop.
 
-use beltdrive::belt_loop::{
-    BeltLoop, Closure, Duty, Guide, Mount, Sense, Side, Tensioner, TensionerLoad, solve,
-};
-use beltdrive::input::{self, DriveFile, Stated};
+use beltdrive::belt_loop::solve;
+use beltdrive::input;
+use beltdrive::{Closure, Drive, Duty, Guide, Mount, Sense, Side, Tensioner, TensionerLoad};
 use insta::assert_snapshot;
 
 const SERPENTINE: &str = r#"
@@ -59,17 +58,15 @@ rest_angle = "-1.5 rad"
 stops = ["-1.9 rad", "-1.1 rad"]
 "#;
 
-fn stated(text: &str, overrides: &[&str]) -> Result<Stated, input::Diagnostic> {
+fn stated(text: &str, overrides: &[&str]) -> Result<Drive, input::Diagnostic> {
     let overrides: Vec<_> = overrides.iter().map(|text| (*text).to_owned()).collect();
-    DriveFile::read("loop.toml", text, &overrides)?.stated()
+    input::parse("loop.toml", text, &overrides)
 }
 
-fn belt_loop(text: &str, overrides: &[&str]) -> BeltLoop {
-    match stated(text, overrides) {
-        Ok(Stated::Loop(belt_loop)) => belt_loop,
-        Ok(Stated::Drive(drive)) => panic!("{drive:?}"),
-        Err(error) => panic!("{error}"),
-    }
+fn belt_loop(text: &str, overrides: &[&str]) -> Drive {
+    let drive = stated(text, overrides).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(drive.two_pulleys(), None);
+    drive
 }
 
 /// The error of the serpentine with a part replaced, without its excerpt.

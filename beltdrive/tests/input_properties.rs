@@ -132,6 +132,7 @@ fn read(text: &str, overrides: &[String]) -> Option<Drive> {
 }
 
 fn is_sound(drive: &Drive) -> bool {
+    let drive = drive.two_pulleys().unwrap();
     let positive = [
         drive.belt.mass_per_length,
         drive.belt.axial_stiffness,
@@ -198,7 +199,7 @@ proptest! {
         let drive = input::parse("drive.toml", DRIVE, &overrides).unwrap();
         prop_assert_eq!(drive.belt.axial_stiffness, force);
         prop_assert_eq!(v_belt(&drive).half_angle, angle);
-        prop_assert_eq!(drive.load.slack.value(), force);
+        prop_assert_eq!(drive.two_pulleys().unwrap().load.slack.value(), force);
     }
 
     #[test]
@@ -229,8 +230,12 @@ const PRESSURE: (&str, Reader) = ("belt.radial_stiffness", |drive| {
     v_belt(drive).radial_stiffness
 });
 const ANGLE: (&str, Reader) = ("groove.half_angle", |drive| v_belt(drive).half_angle);
-const SPEED: (&str, Reader) = ("pulleys.driver.speed", |drive| drive.driver_speed);
-const LENGTH: (&str, Reader) = ("layout.centre_distance", |drive| drive.centre_distance);
+const SPEED: (&str, Reader) = ("pulleys.driver.speed", |drive| {
+    drive.two_pulleys().unwrap().driver_speed
+});
+const LENGTH: (&str, Reader) = ("layout.centre_distance", |drive| {
+    drive.two_pulleys().unwrap().centre_distance
+});
 
 const fn row(of: (&'static str, Reader), symbol: &'static str, scale: f64) -> Unit {
     (of.0, symbol, scale, of.1)

@@ -1,7 +1,8 @@
 //! Invariants of every steady state, on drives with unequal pulleys and every friction law.
 
 use beltdrive::{
-    BeltKind, Drive, FrictionLaw, SolveOptions, SpanTension, SteadyState, examples, input, solve,
+    BeltKind, Drive, FrictionLaw, SolveOptions, SpanTension, SteadyState, TwoPulleys, examples,
+    input, solve,
 };
 use std::f64::consts::PI;
 
@@ -12,25 +13,26 @@ const LAWS: [FrictionLaw; 4] = [
     FrictionLaw::Bristle { stiffness: 2000.0 },
 ];
 
-fn drives() -> Vec<Drive> {
+fn drives() -> Vec<TwoPulleys> {
     let example = examples::find("kim2009").unwrap();
     let kim = input::parse(example.name, example.text, &[]).unwrap();
+    let kim = kim.two_pulleys().unwrap();
     let mut drives = Vec::new();
     for law in LAWS {
         for (driver_radius, driven_radius) in [(0.25, 0.25), (0.12, 0.3), (0.3, 0.12)] {
-            drives.push(Drive {
+            drives.push(TwoPulleys {
                 law,
                 driver_radius,
                 driven_radius,
-                ..kim.clone()
+                ..kim
             });
         }
     }
     drives
 }
 
-fn solved(drive: &Drive) -> SteadyState {
-    solve(drive, &SolveOptions::default()).unwrap()
+fn solved(drive: &TwoPulleys) -> SteadyState {
+    solve(&Drive::from(*drive), &SolveOptions::default()).unwrap()
 }
 
 /// Trapezoidal ∫ y dx over a profile.
@@ -118,7 +120,7 @@ fn a_drive_in_other_units_is_the_same_drive() {
             SpanTension::Belt(value) => SpanTension::Belt(value * force),
             SpanTension::DrivenTorque(_) => unreachable!("V-belt drives have two tensions"),
         };
-        let mut scaled = drive.clone();
+        let mut scaled = drive;
         scaled.belt.mass_per_length *= mass / length;
         scaled.belt.axial_stiffness *= force;
         if let BeltKind::V(belt) = &mut scaled.belt.kind {
@@ -155,7 +157,8 @@ fn the_belt_carries_its_tension_without_friction() {
     // With little friction the slip and the load are small and the belt seats where its tension
     // presses it: k x tan β r = F.
     let example = examples::find("kim2009-bristle").unwrap();
-    let mut drive = input::parse(example.name, example.text, &[]).unwrap();
+    let drive = input::parse(example.name, example.text, &[]).unwrap();
+    let mut drive = drive.two_pulleys().unwrap();
     drive.friction_coefficient = 1e-3;
     drive.load.tight = SpanTension::Tractive(100.05);
     let state = solved(&drive);

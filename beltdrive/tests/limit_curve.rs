@@ -4,7 +4,7 @@
 use beltdrive::input::Key;
 use beltdrive::{
     BranchEnd, Drive, FrictionLaw, LimitCurve, LimitCurvePoint, LimitReason, RangeEnd, SolveError,
-    SolveOptions, examples, input, limit_curve, limits, solve,
+    SolveOptions, TwoPulleys, examples, input, limit_curve, limits, solve,
 };
 
 const TIGHT: &str = "load.tight_tractive_tension";
@@ -16,6 +16,14 @@ fn kim(law: FrictionLaw) -> Drive {
     let example = examples::find("kim2009").unwrap();
     let drive = input::parse(example.name, example.text, &[]).unwrap();
     Drive { law, ..drive }
+}
+
+/// That drive with Coulomb friction and another coefficient of friction.
+fn with_friction(friction_coefficient: f64) -> Drive {
+    Drive::from(TwoPulleys {
+        friction_coefficient,
+        ..kim(FrictionLaw::Coulomb).two_pulleys().unwrap()
+    })
 }
 
 fn key(drive: &Drive, path: &str) -> Key {
@@ -73,8 +81,7 @@ fn limits_over_friction_are_followed_across_their_jump() {
     }
     // Followed limits are those found on branches of their own.
     for friction in [0.33, 0.44] {
-        let mut drive = drive.clone();
-        drive.friction_coefficient = friction;
+        let drive = with_friction(friction);
         let tight = key(&drive, TIGHT);
         let options = SolveOptions::default();
         let alone = limits(&drive, &tight, &options, &mut |_, _| {}).unwrap();
@@ -92,8 +99,7 @@ fn limits_over_friction_are_followed_across_their_jump() {
     close(fold.value, 8471.7161, 1e-6);
     assert!(fold.state.driven.angular_speed > 10.0);
     for (friction, carried) in [(slip.second - 2e-5, false), (slip.second + 2e-5, true)] {
-        let mut drive = drive.clone();
-        drive.friction_coefficient = friction;
+        let mut drive = with_friction(friction);
         key(&drive, TIGHT).set(&mut drive, slip.value);
         match solve(&drive, &SolveOptions::default()) {
             Ok(state) => assert!(carried && state.driven.angular_speed < 0.5),

@@ -3,7 +3,7 @@
 
 use beltdrive::{
     Belt, BeltKind, Drive, FrictionLaw, Load, SolveError, SolveOptions, SpanTension, SteadyState,
-    VBelt, ZoneKind, solve,
+    TwoPulleys, VBelt, ZoneKind, solve,
 };
 use std::f64::consts::PI;
 
@@ -26,7 +26,7 @@ impl Random {
     }
 }
 
-fn drive(random: &mut Random, law: FrictionLaw) -> Drive {
+fn drive(random: &mut Random, law: FrictionLaw) -> TwoPulleys {
     loop {
         let driver_radius = random.scale(0.04, 0.4);
         let driven_radius = driver_radius * random.scale(1.0 / 3.0, 3.0);
@@ -38,8 +38,7 @@ fn drive(random: &mut Random, law: FrictionLaw) -> Drive {
         // A belt that would sink through a tenth of the smaller pulley is no sensible drive.
         let smallest = driver_radius.min(driven_radius);
         let depth = tight / (radial_stiffness * smallest * half_angle.tan());
-        let drive = Drive {
-            title: None,
+        let drive = TwoPulleys {
             belt: Belt {
                 ribs: 1,
                 mass_per_length: random.scale(0.05, 0.6),
@@ -83,7 +82,7 @@ fn assert_possible(state: &SteadyState) {
     for pulley in [&state.driver, &state.driven] {
         let profile = &pulley.profile;
         let largest = profile.normal_force.iter().copied().fold(0.0, f64::max);
-        let mu = state.drive.friction_coefficient;
+        let mu = state.drive.pulleys[0].friction_coefficient;
         for (p, f) in profile.normal_force.iter().zip(&profile.friction_force) {
             assert!(*p >= -1e-12 * largest && *f <= mu * p + 1e-5 * largest);
         }
@@ -98,7 +97,7 @@ fn survey(law: FrictionLaw, count: usize, seed: u64) -> usize {
     let (mut refused, mut failed) = (0, Vec::new());
     let mut seconds = Vec::new();
     for index in 0..count {
-        let drive = drive(&mut random, law);
+        let drive = Drive::from(drive(&mut random, law));
         match solve(&drive, &SolveOptions::default()) {
             Ok(state) => {
                 assert!(state.driven.angular_speed > 0.0);
@@ -163,7 +162,7 @@ fn a_belt_that_sticks_up_to_its_exit_slips_at_the_very_end() {
     let law = FrictionLaw::Epp { stiffness: 1e6 };
     let mut drive = (0..3).map(|_| drive(&mut random, law)).last().unwrap();
     drive.load.tight = SpanTension::Tractive(57.0);
-    let state = solve(&drive, &SolveOptions::default()).unwrap();
+    let state = solve(&drive.into(), &SolveOptions::default()).unwrap();
     assert_possible(&state);
     for pulley in [&state.driver, &state.driven] {
         let last = pulley.zones.last().unwrap();

@@ -2,15 +2,18 @@
 //! work that they cost.
 
 use beltdrive::{
-    Drive, FrictionLaw, LimitReason, PulleyState, SolveError, SolveOptions, SpanTension,
-    SteadyState, Warning, ZoneKind, examples, input, solve, solve_from,
+    Closure, Drive, FrictionLaw, LimitReason, Load, PulleyState, SolveError, SolveOptions,
+    SpanTension, SteadyState, Warning, ZoneKind, examples, input, solve, solve_from,
 };
 
 fn kim(law: FrictionLaw, tight: f64) -> Drive {
     let example = examples::find("kim2009").unwrap();
     let mut drive = input::parse(example.name, example.text, &[]).unwrap();
     drive.law = law;
-    drive.load.tight = SpanTension::Tractive(tight);
+    drive.closure = Closure::BothSpans(Load {
+        slack: SpanTension::Tractive(100.0),
+        tight: SpanTension::Tractive(tight),
+    });
     drive
 }
 
@@ -216,8 +219,7 @@ fn a_scalar_state_is_no_neighbour_of_a_vector_one() {
     let scalar = state(EPP, 700.0);
     let found = solve_from(&scalar, &known.drive, &options).unwrap();
     assert_eq!(found.driven.angular_speed, known.driven.angular_speed);
-    let mut heavier = known.drive.clone();
-    heavier.load.tight = SpanTension::Tractive(710.0);
+    let heavier = kim(law, 710.0);
     let near = solve_from(&known, &heavier, &options).unwrap();
     let far = solve(&heavier, &options).unwrap();
     let off = near.driven.angular_speed / far.driven.angular_speed - 1.0;
@@ -350,10 +352,15 @@ fn epp_friction_against_table_5() {
 
 #[test]
 fn prescribed_belt_tensions_end_in_gross_slip_near_917_newtons() {
-    let mut drive = kim(EPP, 700.0);
-    drive.load.slack = SpanTension::Belt(200.0);
-    drive.load.tight = SpanTension::Belt(950.0);
-    let error = solve(&drive, &SolveOptions::default()).unwrap_err();
+    let at = |tight: f64| {
+        let [slack, tight] = [200.0, tight].map(SpanTension::Belt);
+        let closure = Closure::BothSpans(Load { slack, tight });
+        Drive {
+            closure,
+            ..kim(EPP, 700.0)
+        }
+    };
+    let error = solve(&at(950.0), &SolveOptions::default()).unwrap_err();
     let SolveError::NoSteadyState {
         limit,
         reason,
@@ -366,8 +373,7 @@ fn prescribed_belt_tensions_end_in_gross_slip_near_917_newtons() {
     assert_eq!(reason, LimitReason::DrivenSlips);
     assert!((limit - 917.03).abs() < 0.01, "{limit}");
     assert!(driven_speed.abs() < 1e-6);
-    drive.load.tight = SpanTension::Belt(915.0);
-    let state = solve(&drive, &SolveOptions::default()).unwrap();
+    let state = solve(&at(915.0), &SolveOptions::default()).unwrap();
     assert!((state.tight_tension - 915.0).abs() < 1e-6);
     assert!(state.driven.angular_speed > 0.0);
 }

@@ -62,6 +62,8 @@ fn spellings_of_one_value_agree() {
         let set = format!("pulleys.driver.speed=1450 {unit}");
         input::parse("drive.toml", DRIVE, &[set])
             .unwrap()
+            .two_pulleys()
+            .unwrap()
             .driver_speed
     };
     for unit in [
@@ -72,9 +74,7 @@ fn spellings_of_one_value_agree() {
     }
     let set = |text: &str| input::parse("drive.toml", DRIVE, &[text.to_owned()]);
     assert_eq!(
-        set("friction.coefficient=40 %")
-            .unwrap()
-            .friction_coefficient,
+        set("friction.coefficient=40 %").unwrap().pulleys[0].friction_coefficient,
         0.4
     );
     let refused = set("load.slack_tension=45 lb").unwrap_err().to_string();

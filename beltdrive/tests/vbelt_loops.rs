@@ -3,19 +3,17 @@
 #[path = "support/random.rs"]
 mod random_numbers;
 
-use beltdrive::belt_loop::{
-    BeltLoop, Closure, Duty, Guide, LoopError, LoopPulley, LoopState, Mount, Sense, Side,
-    Tensioner, TensionerLoad, solve, solve_to, solve_with_margins,
-};
+use beltdrive::belt_loop::{LoopError, LoopState, solve, solve_to, solve_with_margins};
 use beltdrive::{
-    Belt, BeltKind, Drive, FrictionLaw, SolveOptions, VBelt, Warning, examples, input,
+    Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, Pulley, Sense, Side,
+    SolveOptions, Tensioner, TensionerLoad, VBelt, Warning, examples, input,
 };
 use random_numbers::Random;
 
-fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> LoopPulley {
-    LoopPulley {
+fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> Pulley {
+    Pulley {
         side,
-        ..LoopPulley::new(name, centre, radius, 0.4, duty)
+        ..Pulley::new(name, centre, radius, 0.4, duty)
     }
 }
 
@@ -30,40 +28,15 @@ fn thesis(law: &str, tight: f64) -> Drive {
 }
 
 /// A drive as a loop with the torque of its steady state.
-fn as_loop(drive: &Drive, torque: f64) -> BeltLoop {
-    let inside = Side::Inside;
-    let driven = [drive.centre_distance, 0.0];
-    let mut pulleys = vec![
-        pulley(
-            "driver",
-            [0.0; 2],
-            drive.driver_radius,
-            inside,
-            Duty::Driver(drive.driver_speed),
-        ),
-        pulley(
-            "driven",
-            driven,
-            drive.driven_radius,
-            inside,
-            Duty::Torque(torque),
-        ),
-    ];
-    for pulley in &mut pulleys {
-        pulley.friction_coefficient = drive.friction_coefficient;
-    }
-    BeltLoop {
-        title: None,
-        belt: drive.belt,
-        law: drive.law,
-        sense: Sense::CounterClockwise,
-        turning_number: 1,
-        pulleys,
-        closure: Closure::SpanTractiveTension {
-            span: 0,
-            tension: drive.load.slack.value(),
-        },
-    }
+fn as_loop(drive: &Drive, torque: f64) -> Drive {
+    let two = drive.two_pulleys().unwrap();
+    let mut drive = drive.clone();
+    drive.pulleys[1].duty = Duty::Torque(torque);
+    drive.closure = Closure::SpanTractiveTension {
+        span: 0,
+        tension: two.load.slack.value(),
+    };
+    drive
 }
 
 fn close(name: &str, found: f64, known: f64, tolerance: f64) {
@@ -93,8 +66,8 @@ fn two_pulleys_are_the_drive_with_two_pulleys() {
         let (options, tolerance) = (SolveOptions { tolerance: asked }, 10.0 * asked);
         let drive = thesis(law, tight);
         let known = beltdrive::solve(&drive, &options).unwrap();
-        let belt_loop = as_loop(&drive, known.driven.torque);
-        let state = solve_to(&belt_loop, &options);
+        let drive = as_loop(&drive, known.driven.torque);
+        let state = solve_to(&drive, &options);
         let state = state.unwrap_or_else(|error| panic!("{law} {tight}: {error}"));
         let work = state.convergence.as_ref().unwrap();
         println!(
@@ -148,9 +121,9 @@ fn loops_have_the_warnings_of_two_pulleys() {
         groove.height = Some(1e-4);
     }
     let known = beltdrive::solve(&drive, &SolveOptions::default()).unwrap();
-    let belt_loop = as_loop(&drive, known.driven.torque);
-    let state = solve(&belt_loop).unwrap();
-    let warnings = state.warnings(&belt_loop);
+    let drive = as_loop(&drive, known.driven.torque);
+    let state = solve(&drive).unwrap();
+    let warnings = state.warnings(&drive);
     let [
         Warning::Sunk { pulley, height, .. },
         ..,
@@ -166,9 +139,9 @@ fn loops_have_the_warnings_of_two_pulleys() {
 }
 
 /// A V-belt of the size of cars: driver, alternator, water pump on the back of the belt.
-fn accessories(closure: Closure) -> BeltLoop {
+fn accessories(closure: Closure) -> Drive {
     let inside = Side::Inside;
-    let mut belt_loop = BeltLoop {
+    let mut drive = Drive {
         title: None,
         belt: Belt {
             mass_per_length: 0.1,
@@ -190,13 +163,13 @@ fn accessories(closure: Closure) -> BeltLoop {
         ],
         closure,
     };
-    belt_loop.pulleys[1].half_angle = Some(17_f64.to_radians());
-    belt_loop
+    drive.pulleys[1].half_angle = Some(17_f64.to_radians());
+    drive
 }
 
 /// The same with an idler on a sprung arm on its back.
-fn tensioned(closure: Closure) -> BeltLoop {
-    let mut belt_loop = accessories(closure);
+fn tensioned(closure: Closure) -> Drive {
+    let mut drive = accessories(closure);
     let mut idler = pulley("idler", [0.0; 2], 0.03, Side::Outside, Duty::Torque(0.0));
     idler.mount = Mount::Tensioner(Tensioner {
         guide: Guide::Rotary {
@@ -210,20 +183,20 @@ fn tensioned(closure: Closure) -> BeltLoop {
         start_coordinate: 4.7,
         travel: None,
     });
-    belt_loop.pulleys.push(idler);
-    belt_loop
+    drive.pulleys.push(idler);
+    drive
 }
 
 /// A loop with another law.
-fn with_law(mut belt_loop: BeltLoop, law: FrictionLaw) -> BeltLoop {
-    belt_loop.law = law;
-    belt_loop
+fn with_law(mut drive: Drive, law: FrictionLaw) -> Drive {
+    drive.law = law;
+    drive
 }
 
 /// Numbers that do not depend on where the loop begins and how the plane lies, in belt order from the driver.
-fn numbers(belt_loop: &BeltLoop, state: &LoopState) -> Vec<f64> {
-    let count = belt_loop.pulleys.len();
-    let mut pulleys = belt_loop.pulleys.iter();
+fn numbers(drive: &Drive, state: &LoopState) -> Vec<f64> {
+    let count = drive.pulleys.len();
+    let mut pulleys = drive.pulleys.iter();
     let driver = pulleys.position(|pulley| matches!(pulley.duty, Duty::Driver(_)));
     let mut numbers = vec![
         state.mass_flow,
@@ -265,19 +238,19 @@ fn agree(name: &str, one: &[f64], other: &[f64], tolerance: f64) {
 
 #[test]
 fn nothing_depends_on_where_the_loop_begins_and_how_the_plane_lies() {
-    for belt_loop in [
+    for drive in [
         accessories(Closure::SetupTension(500.0)),
         tensioned(Closure::SetupTension(500.0)),
         tensioned(Closure::RestCoordinate(4.7)),
     ] {
-        let known = numbers(&belt_loop, &solve(&belt_loop).unwrap());
-        for first in 1..belt_loop.pulleys.len() {
-            let mut turned = belt_loop.clone();
+        let known = numbers(&drive, &solve(&drive).unwrap());
+        for first in 1..drive.pulleys.len() {
+            let mut turned = drive.clone();
             turned.pulleys.rotate_left(first);
             let state = solve(&turned).unwrap();
             agree("turned", &numbers(&turned, &state), &known, 2e-6);
         }
-        let mut mirrored = belt_loop.clone();
+        let mut mirrored = drive.clone();
         mirrored.sense = Sense::CounterClockwise;
         let mirror = |angle: f64| std::f64::consts::PI - angle;
         for pulley in &mut mirrored.pulleys {
@@ -309,7 +282,7 @@ fn nothing_depends_on_where_the_loop_begins_and_how_the_plane_lies() {
 
 #[test]
 fn the_error_falls_with_the_tolerance() {
-    for belt_loop in [
+    for drive in [
         accessories(Closure::SetupTension(500.0)),
         tensioned(Closure::SpanTension {
             span: 2,
@@ -317,9 +290,9 @@ fn the_error_falls_with_the_tolerance() {
         }),
     ] {
         let at = |tolerance: f64| {
-            let state = solve_to(&belt_loop, &SolveOptions { tolerance }).unwrap();
+            let state = solve_to(&drive, &SolveOptions { tolerance }).unwrap();
             assert!(state.convergence.as_ref().unwrap().error_estimate <= tolerance);
-            numbers(&belt_loop, &state)
+            numbers(&drive, &state)
         };
         let known = at(1e-11);
         for tolerance in [1e-4, 1e-6, 1e-8] {
@@ -336,12 +309,12 @@ fn the_error_falls_with_the_tolerance() {
 /// Regression in the work of cold starts.
 #[test]
 fn cold_starts_take_few_newton_steps() {
-    for (belt_loop, most) in [
+    for (drive, most) in [
         (accessories(Closure::SetupTension(500.0)), 40),
         (accessories(Closure::UnstretchedLength(1.455)), 40),
         (tensioned(Closure::SetupTension(500.0)), 56),
     ] {
-        let state = solve(&belt_loop).unwrap();
+        let state = solve(&drive).unwrap();
         let work = state.convergence.unwrap();
         println!(
             "{} Newton steps, {} problems",
@@ -355,11 +328,11 @@ fn cold_starts_take_few_newton_steps() {
 /// The laws with sharper friction, in grooves and on the back of the belt.
 #[test]
 fn sharper_friction_slips_less() {
-    let mut belt_loop = tensioned(Closure::SetupTension(500.0));
-    belt_loop.pulleys[3].mount = Mount::Fixed([0.18, 0.17]);
-    belt_loop.pulleys[3].duty = Duty::Torque(1.0);
+    let mut drive = tensioned(Closure::SetupTension(500.0));
+    drive.pulleys[3].mount = Mount::Fixed([0.18, 0.17]);
+    drive.pulleys[3].duty = Duty::Torque(1.0);
     let state = |law| {
-        let state = solve(&with_law(belt_loop.clone(), law));
+        let state = solve(&with_law(drive.clone(), law));
         let state = state.unwrap_or_else(|error| panic!("{law:?}: {error}"));
         let work = state.convergence.as_ref().unwrap();
         println!(
@@ -395,16 +368,16 @@ fn sharper_friction_slips_less() {
 /// Elastic/perfectly-plastic friction tends to Coulomb friction as it gets stiffer.
 #[test]
 fn elastic_plastic_friction_tends_to_coulomb_friction() {
-    let belt_loop = accessories(Closure::SetupTension(500.0));
+    let drive = accessories(Closure::SetupTension(500.0));
     let solved = |law| {
-        let belt_loop = with_law(belt_loop.clone(), law);
-        let state = solve(&belt_loop).unwrap_or_else(|error| panic!("{law:?}: {error}"));
+        let drive = with_law(drive.clone(), law);
+        let state = solve(&drive).unwrap_or_else(|error| panic!("{law:?}: {error}"));
         let work = state.convergence.as_ref().unwrap();
         println!(
             "{law:?} {} Newton steps, {} problems",
             work.newton_steps, work.problems
         );
-        numbers(&belt_loop, &state)
+        numbers(&drive, &state)
     };
     let coulomb = solved(FrictionLaw::Coulomb);
     let mut last = f64::INFINITY;
@@ -425,8 +398,8 @@ fn one_loop_by_every_closure() {
     let closure = Closure::SetupTension(500.0);
     let known = solve(&tensioned(closure)).unwrap();
     let numbers_of = |closure: Closure| {
-        let belt_loop = tensioned(closure);
-        numbers(&belt_loop, &solve(&belt_loop).unwrap())
+        let drive = tensioned(closure);
+        numbers(&drive, &solve(&drive).unwrap())
     };
     let reference = numbers_of(closure);
     let span = &known.spans[1];
@@ -454,9 +427,9 @@ fn one_loop_by_every_closure() {
 /// Power instead of torque.
 #[test]
 fn a_power_is_a_torque_at_the_speed_of_its_pulley() {
-    let belt_loop = accessories(Closure::SetupTension(500.0));
-    let known = solve(&belt_loop).unwrap();
-    let mut powered = belt_loop.clone();
+    let drive = accessories(Closure::SetupTension(500.0));
+    let known = solve(&drive).unwrap();
+    let mut powered = drive.clone();
     for index in [1, 2] {
         powered.pulleys[index].duty = Duty::Power(known.pulleys[index].power);
     }
@@ -464,7 +437,7 @@ fn a_power_is_a_torque_at_the_speed_of_its_pulley() {
     agree(
         "power",
         &numbers(&powered, &state),
-        &numbers(&belt_loop, &known),
+        &numbers(&drive, &known),
         2e-6,
     );
 }
@@ -479,12 +452,12 @@ fn a_load_beyond_the_limit_is_refused_with_the_limit() {
         tensioned(Closure::SetupTension(200.0)),
         drive,
     ];
-    for belt_loop in loops {
+    for drive in loops {
         let options = SolveOptions::default();
-        let limit = solve_with_margins(&belt_loop, &options).unwrap();
+        let limit = solve_with_margins(&drive, &options).unwrap();
         let limit = limit.load_limit.unwrap();
         println!("limit {limit:?}");
-        let at = |share: f64| solve(&times(&belt_loop, share * limit.factor));
+        let at = |share: f64| solve(&times(&drive, share * limit.factor));
         let below = at(0.995).unwrap();
         assert!(
             below
@@ -500,7 +473,7 @@ fn a_load_beyond_the_limit_is_refused_with_the_limit() {
                     ..
                 } => {
                     close("load factor", load_factor * share, 1.0, 1e-3);
-                    assert_eq!(pulley, belt_loop.pulleys[limit.pulley].name);
+                    assert_eq!(pulley, drive.pulleys[limit.pulley].name);
                 }
                 error => panic!("{share}: {error}"),
             }
@@ -512,16 +485,16 @@ fn a_load_beyond_the_limit_is_refused_with_the_limit() {
 const WIDE: f64 = 60.0;
 
 /// Accessories driven by a belt in wide grooves of a radial stiffness in N/m².
-fn in_wide_grooves(radial_stiffness: f64) -> BeltLoop {
-    let mut belt_loop = accessories(Closure::SetupTension(500.0));
-    belt_loop.pulleys[1].half_angle = None;
-    belt_loop.law = FrictionLaw::Bristle { stiffness: 3e4 };
-    belt_loop.belt.kind = BeltKind::V(VBelt {
+fn in_wide_grooves(radial_stiffness: f64) -> Drive {
+    let mut drive = accessories(Closure::SetupTension(500.0));
+    drive.pulleys[1].half_angle = None;
+    drive.law = FrictionLaw::Bristle { stiffness: 3e4 };
+    drive.belt.kind = BeltKind::V(VBelt {
         radial_stiffness,
         half_angle: WIDE.to_radians(),
         height: None,
     });
-    belt_loop
+    drive
 }
 
 /// A stiff belt in a wide groove does not sink, and its faces press like a flat belt that is rougher by
@@ -562,8 +535,8 @@ fn the_smallest_margin_of_two_pulleys_is_their_load_limit() {
     for tight in [1000.0, 2000.0, 3000.0] {
         let drive = thesis("bristle", tight);
         let state = beltdrive::solve(&drive, &SolveOptions::default()).unwrap();
-        let belt_loop = as_loop(&drive, state.driven.torque);
-        let state = solve_with_margins(&belt_loop, &SolveOptions::default()).unwrap();
+        let drive = as_loop(&drive, state.driven.torque);
+        let state = solve_with_margins(&drive, &SolveOptions::default()).unwrap();
         let limit = state.load_limit.unwrap();
         let margins = state.pulleys.iter().map(|pulley| pulley.torque_margin);
         let margins: Vec<_> = margins.map(Option::unwrap).collect();
@@ -589,14 +562,14 @@ fn friction_that_sticks_or_slides_has_margins_and_a_limit() {
         FrictionLaw::Epp { stiffness: 4e8 },
         FrictionLaw::VectorEpp { stiffness: 4e7 },
     ] {
-        let belt_loop = with_law(accessories(Closure::SetupTension(500.0)), law);
-        let state = solve_with_margins(&belt_loop, &options).unwrap();
+        let drive = with_law(accessories(Closure::SetupTension(500.0)), law);
+        let state = solve_with_margins(&drive, &options).unwrap();
         let margins = state.pulleys.iter().map(|pulley| pulley.torque_margin);
         let margins: Vec<_> = margins.map(Option::unwrap).collect();
         let limit = state.load_limit.unwrap().factor;
         println!("{law:?}: margins {margins:?}, limit {limit}");
         assert!(margins.iter().all(|margin| *margin > limit));
-        let loaded = |factor: f64| solve_to(&times(&belt_loop, factor), &options);
+        let loaded = |factor: f64| solve_to(&times(&drive, factor), &options);
         loaded(0.99 * limit).unwrap();
         match loaded(1.01 * limit).unwrap_err() {
             LoopError::Overloaded { load_factor, .. } => {
@@ -612,11 +585,11 @@ fn friction_that_sticks_or_slides_has_margins_and_a_limit() {
 fn a_stiff_belt_in_a_wide_groove_carries_what_a_flat_belt_does() {
     let mut last = f64::INFINITY;
     for stiffness in [3e6, 3e7] {
-        let belt_loop = in_wide_grooves(stiffness);
-        let state = solve_with_margins(&belt_loop, &SolveOptions::default()).unwrap();
+        let drive = in_wide_grooves(stiffness);
+        let state = solve_with_margins(&drive, &SolveOptions::default()).unwrap();
         let driven = 1..state.pulleys.len();
         let deviations = driven.map(|index| {
-            let (pulley, stated) = (&state.pulleys[index], &belt_loop.pulleys[index]);
+            let (pulley, stated) = (&state.pulleys[index], &drive.pulleys[index]);
             let slack = state.spans[index - 1]
                 .tractive_tension
                 .min(state.spans[index].tractive_tension);
@@ -634,36 +607,36 @@ fn a_stiff_belt_in_a_wide_groove_carries_what_a_flat_belt_does() {
 
 #[test]
 fn statements_out_of_range_are_refused() {
-    let refused = |change: &dyn Fn(&mut BeltLoop)| {
-        let mut belt_loop = tensioned(Closure::SetupTension(500.0));
-        change(&mut belt_loop);
-        solve(&belt_loop)
+    let refused = |change: &dyn Fn(&mut Drive)| {
+        let mut drive = tensioned(Closure::SetupTension(500.0));
+        change(&mut drive);
+        solve(&drive)
             .expect_err("a statement out of range")
             .to_string()
     };
-    let outside = refused(&|belt_loop| belt_loop.pulleys[3].half_angle = Some(0.3));
+    let outside = refused(&|drive| drive.pulleys[3].half_angle = Some(0.3));
     assert!(
         outside.contains("idler") && outside.contains("groove"),
         "{outside}"
     );
-    let steep = refused(&|belt_loop| belt_loop.pulleys[1].half_angle = Some(1.6));
+    let steep = refused(&|drive| drive.pulleys[1].half_angle = Some(1.6));
     assert!(steep.contains("alternator"), "{steep}");
-    let soft = refused(&|belt_loop| {
-        let BeltKind::V(belt) = &mut belt_loop.belt.kind else {
+    let soft = refused(&|drive| {
+        let BeltKind::V(belt) = &mut drive.belt.kind else {
             panic!("a V-belt")
         };
         belt.radial_stiffness = 1e6;
     });
     assert!(soft.contains("pressed through the groove"), "{soft}");
-    let slack = refused(&|belt_loop| belt_loop.closure = Closure::UnstretchedLength(2.0));
+    let slack = refused(&|drive| drive.closure = Closure::UnstretchedLength(2.0));
     assert!(
         slack.contains("slack") || slack.contains("idler"),
         "{slack}"
     );
     let fast = solve(&{
-        let mut belt_loop = accessories(Closure::SetupTension(20.0));
-        belt_loop.pulleys[0].duty = Duty::Driver(400.0);
-        belt_loop
+        let mut drive = accessories(Closure::SetupTension(20.0));
+        drive.pulleys[0].duty = Duty::Driver(400.0);
+        drive
     });
     assert!(matches!(fast, Err(LoopError::LiftsOff { .. })), "{fast:?}");
     let tolerance = SolveOptions { tolerance: 0.1 };
@@ -672,23 +645,23 @@ fn statements_out_of_range_are_refused() {
 }
 
 /// Three or four pulleys; of four one presses on the back, on a spring half of the times.
-fn random_loop(random: &mut Random) -> BeltLoop {
-    let mut belt_loop = match random.between(0.0, 2.0) < 1.0 {
+fn random_loop(random: &mut Random) -> Drive {
+    let mut drive = match random.between(0.0, 2.0) < 1.0 {
         true => accessories(Closure::SetupTension(1.0)),
         false => tensioned(Closure::SetupTension(1.0)),
     };
-    belt_loop.law = FrictionLaw::Bristle {
+    drive.law = FrictionLaw::Bristle {
         stiffness: random.between(5.0, 8.5).exp(),
     };
-    belt_loop.closure = match random.between(0.0, 3.0) {
+    drive.closure = match random.between(0.0, 3.0) {
         choice if choice < 2.0 => Closure::SetupTension(random.between(4.0, 7.2).exp()),
         _ => Closure::SpanTension {
             span: usize::from(choice_of_two(random)),
             tension: random.between(4.0, 7.0).exp(),
         },
     };
-    let driver = belt_loop.pulleys.len() > 3 && random.between(0.0, 1.0) < 0.3;
-    for (index, pulley) in belt_loop.pulleys.iter_mut().enumerate() {
+    let driver = drive.pulleys.len() > 3 && random.between(0.0, 1.0) < 0.3;
+    for (index, pulley) in drive.pulleys.iter_mut().enumerate() {
         pulley.friction_coefficient = random.between(0.2, 0.7);
         match &mut pulley.mount {
             Mount::Fixed(centre) => {
@@ -714,7 +687,7 @@ fn random_loop(random: &mut Random) -> BeltLoop {
             pulley.half_angle = Some(random.between(0.25, 0.5));
         }
     }
-    belt_loop
+    drive
 }
 
 fn choice_of_two(random: &mut Random) -> bool {
@@ -727,16 +700,13 @@ fn random_loops_are_solved_or_refused_for_a_reason() {
     let mut solved = 0;
     let mut reasons = std::collections::BTreeMap::new();
     for _ in 0..LOOPS {
-        let belt_loop = random_loop(&mut random);
-        match solve(&belt_loop) {
+        let drive = random_loop(&mut random);
+        match solve(&drive) {
             Ok(state) => {
                 solved += 1;
                 let text = format!("{state:?}");
-                assert!(
-                    !text.contains("NaN") && !text.contains("inf,"),
-                    "{belt_loop:?}"
-                );
-                for (pulley, stated) in state.pulleys.iter().zip(&belt_loop.pulleys) {
+                assert!(!text.contains("NaN") && !text.contains("inf,"), "{drive:?}");
+                for (pulley, stated) in state.pulleys.iter().zip(&drive.pulleys) {
                     if let Duty::Torque(torque) = stated.duty {
                         close("M", pulley.torque, torque, 1e-12);
                     }
@@ -759,7 +729,7 @@ fn random_loops_are_solved_or_refused_for_a_reason() {
                 let name = format!("{error:?}");
                 let name = name.split([' ', '(', '{']).next().unwrap_or_default();
                 if name == "NotConverged" || name == "Violated" {
-                    println!("{message}\n{belt_loop:?}");
+                    println!("{message}\n{drive:?}");
                 }
                 *reasons.entry(name.to_owned()).or_insert(0) += 1;
             }
@@ -773,15 +743,15 @@ fn random_loops_are_solved_or_refused_for_a_reason() {
 const LOOPS: usize = 60;
 
 /// Three to five pulleys as in [`random_loop`], with a law.
-fn random_loop_with(law: FrictionLaw, random: &mut Random) -> BeltLoop {
-    let mut belt_loop = random_loop(random);
-    belt_loop.law = law;
+fn random_loop_with(law: FrictionLaw, random: &mut Random) -> Drive {
+    let mut drive = random_loop(random);
+    drive.law = law;
     if choice_of_two(random) {
         let mut pump = pulley("pump", [0.02, 0.45], 0.04, Side::Inside, Duty::Torque(2.0));
         pump.friction_coefficient = random.between(0.2, 0.7);
-        belt_loop.pulleys.insert(2, pump);
+        drive.pulleys.insert(2, pump);
     }
-    belt_loop
+    drive
 }
 
 /// Solves random loops, prints the score and returns how many were neither solved nor refused for a reason. A loop
@@ -791,21 +761,21 @@ fn survey(name: &str, count: usize, law: impl Fn(&mut Random) -> FrictionLaw) ->
     let (mut refused, mut failed, mut wrong, mut seconds) = (0, 0, 0, Vec::new());
     for index in 0..count {
         let law = law(&mut random);
-        let belt_loop = random_loop_with(law, &mut random);
+        let drive = random_loop_with(law, &mut random);
         let start = std::time::Instant::now();
-        let outcome = solve(&belt_loop);
+        let outcome = solve(&drive);
         let took = start.elapsed().as_secs_f64();
         match outcome {
             Ok(_) => seconds.push(took),
             Err(error @ (LoopError::NotConverged { .. } | LoopError::Violated(_))) => {
                 failed += 1;
-                println!("{index}, {took:.2} s: {error}\n{belt_loop:?}");
+                println!("{index}, {took:.2} s: {error}\n{drive:?}");
             }
             Err(error) => {
                 refused += 1;
                 println!("{index}, {took:.2} s: {error}");
                 if let LoopError::Overloaded { load_factor, .. } = error
-                    && let Err(error) = solve(&times(&belt_loop, BELOW * load_factor))
+                    && let Err(error) = solve(&times(&drive, BELOW * load_factor))
                 {
                     wrong += 1;
                     println!("{index}, at {BELOW} of that: {error}");
@@ -828,8 +798,8 @@ fn survey(name: &str, count: usize, law: impl Fn(&mut Random) -> FrictionLaw) ->
 const BELOW: f64 = 0.97;
 
 /// The loop with all torques multiplied.
-fn times(belt_loop: &BeltLoop, factor: f64) -> BeltLoop {
-    let mut scaled = belt_loop.clone();
+fn times(drive: &Drive, factor: f64) -> Drive {
+    let mut scaled = drive.clone();
     for pulley in &mut scaled.pulleys {
         if let Duty::Torque(torque) = &mut pulley.duty {
             *torque *= factor;

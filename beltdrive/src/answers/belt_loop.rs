@@ -1,9 +1,9 @@
 //! What is asked of the steady state of a loop of pulleys.
 
-use crate::SolveOptions;
-use crate::belt_loop::{BeltLoop, LoopError, LoopState};
+use crate::belt_loop::{LoopError, LoopState};
 use crate::drive::check;
 use crate::model::model;
+use crate::{Drive, SolveOptions};
 
 /// The steady state of a belt loop, to the relative tolerance 1e-6 where it is a V-belt.
 ///
@@ -12,8 +12,8 @@ use crate::model::model;
 ///
 /// # Errors
 /// Those of [`LoopError`]; of several reasons the first in the order given there.
-pub fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
-    solve_to(belt_loop, &SolveOptions::default())
+pub fn solve(drive: &Drive) -> Result<LoopState, LoopError> {
+    solve_to(drive, &SolveOptions::default())
 }
 
 /// The steady state of a belt loop to a tolerance. Flat belts are solved in closed form, to rounding: on
@@ -21,9 +21,9 @@ pub fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
 ///
 /// # Errors
 /// As [`solve`], and [`LoopError::Tolerance`].
-pub fn solve_to(belt_loop: &BeltLoop, options: &SolveOptions) -> Result<LoopState, LoopError> {
-    check(belt_loop, options)?;
-    model(belt_loop.belt.kind).solve_loop(belt_loop, options)
+pub fn solve_to(drive: &Drive, options: &SolveOptions) -> Result<LoopState, LoopError> {
+    check(drive, options)?;
+    model(drive.belt.kind).solve_loop(drive, options)
 }
 
 /// As [`solve_to`], with what takes longer than the state of a V-belt: how far all torques can be raised at the
@@ -34,19 +34,16 @@ pub fn solve_to(belt_loop: &BeltLoop, options: &SolveOptions) -> Result<LoopStat
 ///
 /// # Errors
 /// As [`solve_to`].
-pub fn solve_with_margins(
-    belt_loop: &BeltLoop,
-    options: &SolveOptions,
-) -> Result<LoopState, LoopError> {
-    check(belt_loop, options)?;
-    model(belt_loop.belt.kind).solve_with_margins(belt_loop, options)
+pub fn solve_with_margins(drive: &Drive, options: &SolveOptions) -> Result<LoopState, LoopError> {
+    check(drive, options)?;
+    model(drive.belt.kind).solve_with_margins(drive, options)
 }
 
 /// Whether the statement and the options are in range.
-fn check(belt_loop: &BeltLoop, options: &SolveOptions) -> Result<(), LoopError> {
+fn check(drive: &Drive, options: &SolveOptions) -> Result<(), LoopError> {
     let tolerance = options.tolerance;
     if !(1e-12..=1e-2).contains(&tolerance) {
         return Err(LoopError::Tolerance { tolerance });
     }
-    check::check(belt_loop)
+    check::check(drive)
 }

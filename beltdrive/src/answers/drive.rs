@@ -141,8 +141,14 @@ pub(crate) fn check(drive: &Drive, options: &SolveOptions) -> Result<(), SolveEr
     if !(1e-12..=1e-2).contains(&tolerance) {
         return Err(SolveError::Tolerance { tolerance });
     }
+    let Some(two) = drive.two_pulleys() else {
+        return Err(SolveError::NotModelled(
+            "this is answered for an open belt round two pulleys that is closed by the tensions of both spans"
+                .into(),
+        ));
+    };
     let by_torque = |span| matches!(span, SpanTension::DrivenTorque(_));
-    let torques = [drive.load.slack, drive.load.tight].map(by_torque);
+    let torques = [two.load.slack, two.load.tight].map(by_torque);
     if let Some(reason) = drive.law.row().unsuited(drive.belt.kind) {
         return Err(SolveError::NotModelled(reason.into()));
     }

@@ -1,9 +1,9 @@
 //! The loops that differ in one number, and which of them have a steady state.
 
-use crate::belt_loop::{BeltLoop, Duty, LoopError, LoopState, solve_to};
-use crate::input::{Diagnostic, DriveFile, FileKey, Stated};
+use crate::belt_loop::{LoopError, LoopState, solve_to};
+use crate::input::{Diagnostic, DriveFile, FileKey};
 use crate::quantity::Measure;
-use crate::{BeltKind, SolveOptions};
+use crate::{BeltKind, Drive, Duty, SolveOptions};
 use std::fmt;
 
 /// What varies.
@@ -51,7 +51,7 @@ impl fmt::Display for Refusal {
 /// A loop and its steady state.
 #[derive(Clone, Debug)]
 pub(super) struct Member {
-    pub(super) belt_loop: BeltLoop,
+    pub(super) drive: Drive,
     pub(super) state: LoopState,
 }
 
@@ -79,31 +79,31 @@ impl<'f> Members<'f> {
     }
 
     /// The loop with a value, SI.
-    pub(super) fn belt_loop(&self, value: f64) -> Result<BeltLoop, Refusal> {
+    pub(super) fn drive(&self, value: f64) -> Result<Drive, Refusal> {
         let stated = match self.varied {
-            Varied::Key(key) => self.file.with(key, value).stated(),
-            Varied::LoadFactor => self.file.stated(),
+            Varied::Key(key) => self.file.with(key, value).drive(),
+            Varied::LoadFactor => self.file.drive(),
         };
-        let mut belt_loop = match stated {
-            Ok(Stated::Loop(belt_loop)) => belt_loop,
-            Ok(Stated::Drive(_)) => return Err(Refusal::NoLoop),
+        let mut drive = match stated {
+            Ok(drive) if drive.two_pulleys().is_some() => return Err(Refusal::NoLoop),
+            Ok(drive) => drive,
             Err(error) => return Err(Refusal::Input(Box::new(error))),
         };
         if *self.varied == Varied::LoadFactor {
-            for pulley in &mut belt_loop.pulleys {
+            for pulley in &mut drive.pulleys {
                 if let Duty::Torque(load) | Duty::Power(load) = &mut pulley.duty {
                     *load *= value;
                 }
             }
         }
-        Ok(belt_loop)
+        Ok(drive)
     }
 
     /// The loop and its steady state with a value, SI.
     pub(super) fn at(&self, value: f64) -> Result<Member, Refusal> {
-        let belt_loop = self.belt_loop(value)?;
-        match solve_to(&belt_loop, self.options) {
-            Ok(state) => Ok(Member { belt_loop, state }),
+        let drive = self.drive(value)?;
+        match solve_to(&drive, self.options) {
+            Ok(state) => Ok(Member { drive, state }),
             Err(error) => Err(Refusal::Loop(Box::new(error))),
         }
     }
@@ -113,8 +113,8 @@ impl<'f> Members<'f> {
     pub(super) fn end_between(&self, inside: f64, outside: f64) -> (f64, f64, Refusal) {
         let [mut inside, mut outside] = [inside, outside];
         let mut refusal = self.at(outside).err();
-        let is_v = |belt_loop: BeltLoop| matches!(belt_loop.belt.kind, BeltKind::V(_));
-        let resolved = match self.belt_loop(inside).is_ok_and(is_v) {
+        let is_v = |drive: Drive| matches!(drive.belt.kind, BeltKind::V(_));
+        let resolved = match self.drive(inside).is_ok_and(is_v) {
             true => LOCATED * self.options.tolerance,
             false => 0.0,
         };

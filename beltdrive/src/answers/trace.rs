@@ -2,10 +2,10 @@
 
 use super::limits::LoopEnd;
 use super::members::{Member, Members, Refusal, Varied};
-use crate::SolveOptions;
-use crate::belt_loop::{BeltLoop, LoopState};
+use crate::belt_loop::LoopState;
 use crate::input::DriveFile;
 use crate::results::branch::samples;
+use crate::{Drive, SolveOptions};
 
 /// Intervals between the states of a branch.
 pub(super) const INTERVALS: usize = 40;
@@ -29,18 +29,18 @@ pub struct LoopPoint {
     /// How far a located value may be off, SI; 0 for one that was chosen.
     pub value_error: f64,
     /// The loop.
-    pub belt_loop: BeltLoop,
+    pub drive: Drive,
     /// Its steady state.
     pub state: LoopState,
 }
 
 impl LoopPoint {
     pub(super) fn new(value: f64, value_error: f64, member: Member) -> Self {
-        let Member { belt_loop, state } = member;
+        let Member { drive, state } = member;
         Self {
             value,
             value_error,
-            belt_loop,
+            drive,
             state,
         }
     }

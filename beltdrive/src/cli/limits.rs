@@ -2,7 +2,7 @@
 
 use super::{common::Common, failure::Failure, origin::Origin, parameter};
 use beltdrive::belt_loop::{self, Varied};
-use beltdrive::input::{Argument, DriveFile, Key, Stated};
+use beltdrive::input::{Argument, DriveFile, Key};
 use beltdrive::plot;
 use beltdrive::quantity::{self, Answer};
 use clap::Args;
@@ -28,10 +28,10 @@ pub(super) struct Limits {
 impl Limits {
     pub(super) fn run(&self) -> Result<(), Failure> {
         let (file, origin) = self.common.file()?;
-        let drive = match file.stated().map_err(Failure::usage)? {
-            Stated::Drive(drive) => drive,
-            Stated::Loop(_) => return self.of_loop(&file, &origin),
-        };
+        let drive = file.drive().map_err(Failure::usage)?;
+        if drive.two_pulleys().is_none() {
+            return self.of_loop(&file, &origin);
+        }
         let key = match &self.parameter {
             Some(value) => parameter::key("--parameter", value, &drive)?,
             None => Key::load(&drive),

@@ -2,7 +2,7 @@
 
 use super::{common::Common, failure::Failure, origin::Origin, parameter};
 use beltdrive::belt_loop::{self, Refusal, Varied};
-use beltdrive::input::{Argument, DriveFile, FileKey, Key, Stated};
+use beltdrive::input::{Argument, DriveFile, FileKey, Key};
 use beltdrive::quantity;
 use beltdrive::{BranchEnd, Drive, plot};
 use clap::Args;
@@ -44,10 +44,10 @@ pub(super) struct Trace {
 impl Trace {
     pub(super) fn run(&self) -> Result<(), Failure> {
         let (file, origin) = self.common.file()?;
-        let drive = match file.stated().map_err(Failure::usage)? {
-            Stated::Drive(drive) => drive,
-            Stated::Loop(_) => return self.of_loop(&file, &origin),
-        };
+        let drive = file.drive().map_err(Failure::usage)?;
+        if drive.two_pulleys().is_none() {
+            return self.of_loop(&file, &origin);
+        }
         let key = parameter::key("--parameter", &self.parameter, &drive)?;
         match &self.curve {
             None => self.branch(&drive, key, &origin),

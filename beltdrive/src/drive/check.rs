@@ -1,9 +1,8 @@
 //! What the statement of a belt loop has to be.
 
-use crate::BeltKind;
-use crate::drive::belt_loop::{BeltLoop, Closure, Duty, Guide, Mount, Tensioner, TensionerLoad};
 use crate::drive::layout::Side;
 use crate::results::loop_error::LoopError;
+use crate::{BeltKind, Closure, Drive, Duty, Guide, Mount, Tensioner, TensionerLoad};
 use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 
@@ -29,8 +28,8 @@ fn refuse(subject: &str, problem: impl Into<Cow<'static, str>>) -> Result<(), Lo
 }
 
 /// The first part of the statement that is out of its range.
-pub(crate) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
-    let belt = belt_loop.belt;
+pub(crate) fn check(drive: &Drive) -> Result<(), LoopError> {
+    let belt = drive.belt;
     if !(positive(belt.mass_per_length) && positive(belt.axial_stiffness)) {
         return refuse(
             "belt",
@@ -49,7 +48,7 @@ pub(crate) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
         }
     };
     let is_flat = normal_force.is_some();
-    let law = belt_loop.law;
+    let law = drive.law;
     if let Some(reason) = law.row().unsuited(belt.kind) {
         return refuse("friction", reason);
     }
@@ -62,7 +61,7 @@ pub(crate) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
         );
     }
     let [mut drivers, mut tensioners] = [0, 0];
-    for pulley in &belt_loop.pulleys {
+    for pulley in &drive.pulleys {
         if !(positive(pulley.radius) && positive(pulley.friction_coefficient)) {
             return refuse(
                 &pulley.name,
@@ -102,6 +101,13 @@ pub(crate) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
             Duty::Driver(_) => return refuse(&pulley.name, "the driver's speed must be positive"),
             Duty::Torque(torque) if finite(torque) => {}
             Duty::Power(power) if finite(power) => {}
+            Duty::Driven if matches!(drive.closure, Closure::BothSpans(_)) => {}
+            Duty::Driven => {
+                return refuse(
+                    &pulley.name,
+                    "it takes what the tensions of both spans leave it, and these do not close the drive",
+                );
+            }
             Duty::Torque(_) => return refuse(&pulley.name, "the torque must be a finite number"),
             Duty::Power(_) => return refuse(&pulley.name, "the power must be a finite number"),
         }
@@ -129,13 +135,19 @@ pub(crate) fn check(belt_loop: &BeltLoop) -> Result<(), LoopError> {
     if tensioners > 1 {
         return refuse("pulleys", "at most one can be on a tensioner");
     }
-    let is_closed = match belt_loop.closure {
+    let is_closed = match drive.closure {
         Closure::UnstretchedLength(length) => positive(length),
         Closure::SetupTension(tension) => positive(tension),
         Closure::SpanTension { span, tension } | Closure::SpanTractiveTension { span, tension } => {
-            positive(tension) && span < belt_loop.pulleys.len()
+            positive(tension) && span < drive.pulleys.len()
         }
         Closure::RestCoordinate(coordinate) => finite(coordinate) && tensioners == 1,
+        Closure::BothSpans(_) => {
+            return refuse(
+                "closure",
+                "the tensions of both spans close an open belt round a driver and a driven pulley",
+            );
+        }
     };
     match is_closed {
         true => Ok(()),

@@ -1,69 +1,91 @@
 //! A drive as its engineer describes it, in SI units.
 
-pub(crate) mod belt_loop;
 pub(crate) mod check;
+mod closure;
 pub(crate) mod layout;
+mod pulley;
+mod tensioner;
+mod two_pulleys;
+
+pub use closure::{Closure, Load, SpanTension};
+pub use pulley::{Duty, Mount, Pulley};
+pub use tensioner::{Guide, Tensioner, TensionerLoad};
+pub use two_pulleys::TwoPulleys;
 
 use crate::{Belt, FrictionLaw};
+use layout::{Layout, LayoutError, PlacedPulley, Sense};
 
-/// A two-pulley belt drive and its load: everything a drive file states.
+/// A belt round two or more pulleys: everything that a drive file states and that decides the steady state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     /// A name for outputs and figures.
     pub title: Option<String>,
     /// The belt.
     pub belt: Belt,
-    /// Coefficient of friction μ > 0 between belt and pulleys.
-    pub friction_coefficient: f64,
-    /// How friction depends on slip.
+    /// How friction depends on slip: [`FrictionLaw::Bristle`] on V-belts only, [`FrictionLaw::CreepRate`] on
+    /// flat belts with a normal force other than [`crate::NormalForce::Thesis`] only.
     pub law: FrictionLaw,
-    /// Pitch radius of the driver, m.
-    pub driver_radius: f64,
-    /// Angular speed ω₂ of the driver, rad/s; positive.
-    pub driver_speed: f64,
-    /// Pitch radius of the driven pulley, m.
-    pub driven_radius: f64,
-    /// Distance between the pulley centres, m; greater than the sum of the radii.
-    pub centre_distance: f64,
-    /// The end tensions that close the drive.
-    pub load: Load,
+    /// Sense in which the belt runs round the loop.
+    pub sense: Sense,
+    /// Turning number ν: 1 for a plain loop, 0 for a crossed belt round two pulleys.
+    pub turning_number: u32,
+    /// The pulleys in the order in which the belt meets them; one of them is the driver.
+    pub pulleys: Vec<Pulley>,
+    /// What fixes how tight the belt is.
+    pub closure: Closure,
 }
 
-/// What is prescribed for the two spans.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Load {
-    /// Tension of the slack span.
-    pub slack: SpanTension,
-    /// Tension of the tight span; at least that of the slack span.
-    pub tight: SpanTension,
-}
+impl Drive {
+    /// The belt round the pulleys with the tensioner, if there is one, at a coordinate.
+    ///
+    /// # Errors
+    /// As [`Layout::new`].
+    pub fn layout(&self, coordinate: f64) -> Result<Layout, LayoutError> {
+        let placed = |pulley: &Pulley| PlacedPulley {
+            name: pulley.name.clone(),
+            centre: match &pulley.mount {
+                Mount::Fixed(centre) => *centre,
+                Mount::Tensioner(tensioner) => tensioner.guide.centre(coordinate)[0],
+            },
+            radius: pulley.radius,
+            side: pulley.side,
+        };
+        let pulleys = self.pulleys.iter().map(placed).collect();
+        Layout::new(self.sense, self.turning_number, pulleys)
+    }
 
-/// What the tension of a span is prescribed by.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum SpanTension {
-    /// Tractive tension F = T − G V, N.
-    Tractive(f64),
-    /// Belt tension T, N.
-    Belt(f64),
-    /// Torque of the driven pulley, N·m, not negative: the tension follows from that of the other
-    /// span. One span at most; flat belts only.
-    DrivenTorque(f64),
-}
-
-impl SpanTension {
-    /// The prescribed number, N or N·m, whatever it is.
-    pub fn value(self) -> f64 {
-        match self {
-            Self::Tractive(value) | Self::Belt(value) | Self::DrivenTorque(value) => value,
+    /// The coordinate from which the equilibrium of the tensioner is sought, rad or m; without one it means
+    /// nothing.
+    pub(crate) fn start_coordinate(&self) -> f64 {
+        match (self.closure, self.tensioner()) {
+            (Closure::RestCoordinate(coordinate), _) => coordinate,
+            (_, Some((_, tensioner))) => tensioner.start_coordinate,
+            (_, None) => 0.0,
         }
     }
 
-    /// Another number of the same kind.
-    pub(crate) fn with_value(self, value: f64) -> Self {
-        match self {
-            Self::Tractive(_) => Self::Tractive(value),
-            Self::Belt(_) => Self::Belt(value),
-            Self::DrivenTorque(_) => Self::DrivenTorque(value),
-        }
+    /// The index of the driver.
+    pub(crate) fn driver(&self) -> usize {
+        let mut pulleys = self.pulleys.iter();
+        let driver = pulleys.position(|pulley| matches!(pulley.duty, Duty::Driver(_)));
+        driver.unwrap_or(0)
+    }
+
+    /// Circumferential speed R ω of the driver, m/s.
+    pub(crate) fn rim_speed(&self) -> f64 {
+        let rims = self.pulleys.iter().map(|pulley| match pulley.duty {
+            Duty::Driver(speed) => speed * pulley.radius,
+            Duty::Torque(_) | Duty::Power(_) | Duty::Driven => 0.0,
+        });
+        rims.sum()
+    }
+
+    /// The index of the pulley on the tensioner, and the tensioner.
+    pub(crate) fn tensioner(&self) -> Option<(usize, &Tensioner)> {
+        let mounts = self.pulleys.iter().map(|pulley| &pulley.mount);
+        mounts.enumerate().find_map(|(index, mount)| match mount {
+            Mount::Tensioner(tensioner) => Some((index, tensioner)),
+            Mount::Fixed(_) => None,
+        })
     }
 }

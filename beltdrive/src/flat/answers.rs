@@ -5,7 +5,7 @@ use super::index;
 use super::solve::refused;
 use crate::answers::drive::check;
 use crate::friction::rim::profile::zones;
-use crate::{Drive, Pulley, SolveError, SolveOptions, Zone};
+use crate::{Drive, Role, SolveError, SolveOptions, Zone};
 
 impl ClosedForm {
     /// The steady state of a flat-belt drive.
@@ -19,7 +19,7 @@ impl ClosedForm {
                 "the closed form is that of flat belts".into(),
             ));
         }
-        Self::find(drive).map_err(|refusal| refused(drive, refusal))
+        Self::find(&drive.pair()).map_err(|refusal| refused(drive, refusal))
     }
 
     /// Speed c = G/m of the unstretched belt, m/s.
@@ -33,19 +33,19 @@ impl ClosedForm {
     }
 
     /// Angular speed of a pulley, rad/s.
-    pub fn angular_speed(&self, pulley: Pulley) -> f64 {
+    pub fn angular_speed(&self, pulley: Role) -> f64 {
         let index = index(pulley);
         self.rim_speed(index) / self.radius(index)
     }
 
     /// Tension `T_o` at which the belt would run as fast as the rim of a pulley, N.
-    pub fn reference_tension(&self, pulley: Pulley) -> f64 {
+    pub fn reference_tension(&self, pulley: Role) -> f64 {
         let contact = &self.contact[index(pulley)];
         contact.arc.belt.tension(contact.reference())
     }
 
     /// The zones of a pulley, in the order in which the belt passes them.
-    pub fn zones(&self, pulley: Pulley) -> Vec<Zone> {
+    pub fn zones(&self, pulley: Role) -> Vec<Zone> {
         self.zones_on(index(pulley))
     }
 

@@ -5,7 +5,7 @@ use super::{DRIVEN, DRIVER};
 use crate::friction::rim::contact::{Arc, Contact};
 use crate::friction::rim::traction::Traction;
 use crate::mechanics::root::bracketed;
-use crate::{BeltKind, Drive, LimitReason, NormalForce, Pulley, SpanTension};
+use crate::{BeltKind, LimitReason, NormalForce, Role, SpanTension, TwoPulleys};
 
 /// Most steps of the secant method for the belt speed, which takes three or four unless the driver all
 /// but slips.
@@ -56,7 +56,7 @@ impl ClosedForm {
     ///
     /// # Panics
     /// If the drive is none of those that [`crate::solve`] passes on.
-    pub(super) fn find(drive: &Drive) -> Result<Self, Refusal> {
+    pub(super) fn find(drive: &TwoPulleys) -> Result<Self, Refusal> {
         let statement = Statement::new(drive);
         let rim = drive.driver_speed * drive.driver_radius;
         let unslipped = statement.unslipped_speed(rim);
@@ -98,7 +98,7 @@ impl ClosedForm {
             };
             let slowest = f64::EPSILON * unslipped;
             let ends = [slowest, unslipped];
-            let slips = Refusal::Slips(LimitReason::Capstan(Pulley::Driver));
+            let slips = Refusal::Slips(LimitReason::Capstan(Role::Driver));
             speed = bracketed(excess, ends, ends.map(excess)).ok_or(slips)?;
         }
         let state = statement.at(speed);
@@ -108,8 +108,8 @@ impl ClosedForm {
         let contact = [
             statement
                 .contact(&state, DRIVEN)
-                .ok_or(slips(Pulley::Driven))?,
-            driver.ok_or(slips(Pulley::Driver))?,
+                .ok_or(slips(Role::Driven))?,
+            driver.ok_or(slips(Role::Driver))?,
         ];
         evaluations += contact[DRIVEN].evaluations;
         let closed_form = Self {
@@ -134,7 +134,7 @@ impl ClosedForm {
 
 /// A drive as the closed form needs it.
 struct Statement<'d> {
-    drive: &'d Drive,
+    drive: &'d TwoPulleys,
     geometry: OpenBelt,
     convention: NormalForce,
 }
@@ -150,7 +150,7 @@ struct Loaded {
 }
 
 impl<'d> Statement<'d> {
-    fn new(drive: &'d Drive) -> Self {
+    fn new(drive: &'d TwoPulleys) -> Self {
         let BeltKind::Flat { normal_force } = drive.belt.kind else {
             panic!("a flat belt was expected")
         };
@@ -268,8 +268,8 @@ impl<'d> Statement<'d> {
             });
         }
         let first = match driven.capacity() < driver.capacity() {
-            true => (driven, Pulley::Driven),
-            false => (driver, Pulley::Driver),
+            true => (driven, Role::Driven),
+            false => (driver, Role::Driver),
         };
         match first {
             (arc, pulley) if arc.load() >= arc.capacity() => {

@@ -1,6 +1,6 @@
 //! The open belt: where it touches the pulleys.
 
-use crate::Drive;
+use crate::TwoPulleys;
 
 /// Plane geometry of an open belt around two pulleys.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub(super) struct OpenBelt {
 impl OpenBelt {
     /// The belt around two pulleys at a distance C: the spans are inclined by α to the line of
     /// centres, sin α = (R₁ − R₂)/C, and the wraps are π ± 2 α.
-    pub(super) fn new(drive: &Drive) -> Self {
+    pub(super) fn new(drive: &TwoPulleys) -> Self {
         let difference = drive.driven_radius - drive.driver_radius;
         let inclination = (difference / drive.centre_distance).asin();
         let pi = std::f64::consts::PI;

@@ -26,7 +26,7 @@ mod trace;
 pub use closed_form::ClosedForm;
 pub(crate) use model::FlatBelts;
 
-use crate::Pulley;
+use crate::Role;
 
 /// Indices of the pulleys.
 const DRIVEN: usize = 0;
@@ -34,10 +34,10 @@ const DRIVEN: usize = 0;
 const DRIVER: usize = 1;
 
 /// The index of a pulley.
-fn index(pulley: Pulley) -> usize {
+fn index(pulley: Role) -> usize {
     match pulley {
-        Pulley::Driven => DRIVEN,
-        Pulley::Driver => DRIVER,
+        Role::Driven => DRIVEN,
+        Role::Driver => DRIVER,
     }
 }
 

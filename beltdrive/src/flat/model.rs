@@ -1,6 +1,6 @@
 //! What is asked of flat belts.
 
-use crate::belt_loop::{BeltLoop, LoopError, LoopState};
+use crate::belt_loop::{LoopError, LoopState};
 use crate::input::Key;
 use crate::model::{Model, Progress};
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
@@ -64,15 +64,15 @@ impl Model for FlatBelts {
         super::stability::stability(drive, modes, progress)
     }
 
-    fn solve_loop(&self, belt_loop: &BeltLoop, _: &SolveOptions) -> Result<LoopState, LoopError> {
-        super::belt_loop::solve(belt_loop)
+    fn solve_loop(&self, drive: &Drive, _: &SolveOptions) -> Result<LoopState, LoopError> {
+        super::belt_loop::solve(drive)
     }
 
     fn solve_with_margins(
         &self,
-        belt_loop: &BeltLoop,
+        drive: &Drive,
         options: &SolveOptions,
     ) -> Result<LoopState, LoopError> {
-        self.solve_loop(belt_loop, options)
+        self.solve_loop(drive, options)
     }
 }

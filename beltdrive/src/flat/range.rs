@@ -2,7 +2,7 @@
 
 use super::closed_form::{ClosedForm, Refusal};
 use crate::input::Key;
-use crate::{Drive, SpanTension, StateErrors, StateSummary};
+use crate::{Drive, Load, SpanTension, StateErrors, StateSummary, TwoPulleys};
 use web_time::Instant;
 
 /// Factor between the values at which an end of the range is looked for.
@@ -47,13 +47,13 @@ impl<'d> Members<'d> {
 
     /// The steady state with a value of the entry.
     pub(super) fn at(&self, value: f64) -> Result<ClosedForm, Refusal> {
-        ClosedForm::find(&self.drive_at(value))
+        ClosedForm::find(&self.drive_at(value).pair())
     }
 
     /// The summary of the steady state with a value of the entry, which the drive carries.
     pub(super) fn summary(&self, value: f64) -> Option<StateSummary> {
         let drive = self.drive_at(value);
-        let solved = ClosedForm::find(&drive).ok()?;
+        let solved = ClosedForm::find(&drive.pair()).ok()?;
         let state = super::state::steady_state(&drive, &solved, Instant::now());
         Some(StateSummary::from(&state))
     }
@@ -115,7 +115,7 @@ impl<'d> Members<'d> {
 
     /// The values of the entry that a drive can have at all; a load ends where it transmits no torque.
     pub(super) fn domain(&self) -> [f64; 2] {
-        let drive = self.drive;
+        let drive = self.drive.pair();
         let [slack, tight] = [drive.load.slack, drive.load.tight];
         let by_tensions = ![slack, tight]
             .iter()
@@ -135,8 +135,14 @@ impl<'d> Members<'d> {
 
     /// The value of this span's tension at which both spans have the same.
     fn equal(&self, other: SpanTension) -> f64 {
-        let mut drive = self.drive.clone();
-        (drive.load.slack, drive.load.tight) = (other, other);
+        let load = Load {
+            slack: other,
+            tight: other,
+        };
+        let drive = TwoPulleys {
+            load,
+            ..self.drive.pair()
+        };
         match ClosedForm::find(&drive) {
             Ok(idle) if self.is_tractive() != matches!(other, SpanTension::Tractive(_)) => {
                 let [tension, _] = idle.tension;
@@ -153,12 +159,13 @@ impl<'d> Members<'d> {
 
     /// A driven torque that changes the tension of a span by a thousandth, N·m.
     fn small_torque(&self) -> f64 {
-        let spans = [self.drive.load.slack, self.drive.load.tight];
+        let drive = self.drive.pair();
+        let spans = [drive.load.slack, drive.load.tight];
         let tensions = spans.map(|span| match span {
             SpanTension::DrivenTorque(_) => 0.0,
             tension => tension.value(),
         });
-        1e-3 * tensions[0].max(tensions[1]) * self.drive.driven_radius
+        1e-3 * tensions[0].max(tensions[1]) * drive.driven_radius
     }
 
     /// Whether the entry is a tractive tension.

@@ -6,8 +6,8 @@ use crate::friction::epp;
 use crate::friction::rim::contact::{Arc, Contact};
 use crate::friction::rim::traction::Traction;
 use crate::{
-    Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SolveOptions, SpanTension, SteadyState,
-    ZoneKind, solve,
+    Belt, BeltKind, FrictionLaw, Load, NormalForce, SolveOptions, SpanTension, SteadyState,
+    TwoPulleys, ZoneKind, solve,
 };
 use std::f64::consts::PI;
 
@@ -46,9 +46,8 @@ fn transition(contact: &Contact) -> f64 {
 }
 
 /// The drive of Kim (2009), tables 1 and 2.
-fn kim(law: FrictionLaw, slack: f64, tight: f64, normal_force: NormalForce) -> Drive {
-    Drive {
-        title: None,
+fn kim(law: FrictionLaw, slack: f64, tight: f64, normal_force: NormalForce) -> TwoPulleys {
+    TwoPulleys {
         belt: Belt {
             ribs: 1,
             mass_per_length: MASS,
@@ -183,7 +182,7 @@ fn finite_element_drive(friction_coefficient: f64) -> SteadyState {
     const UNSTRETCHED: f64 = 0.95;
     let centre_distance = 0.1 * PI;
     let length = UNSTRETCHED * (2.0 * centre_distance + 2.0 * PI * 0.1);
-    let mut drive = Drive {
+    let mut drive = TwoPulleys {
         belt: Belt {
             ribs: 1,
             mass_per_length: 0.8288 / UNSTRETCHED,
@@ -211,7 +210,7 @@ fn finite_element_drive(friction_coefficient: f64) -> SteadyState {
     for _ in 0..40 {
         drive.load.slack = SpanTension::Belt(slack);
         drive.load.tight = SpanTension::DrivenTorque(25.0 + 2.0 * speed);
-        let solved = solve(&drive, &SolveOptions::default()).unwrap();
+        let solved = solve(&drive.into(), &SolveOptions::default()).unwrap();
         speed = solved.driven.angular_speed;
         slack *= solved.belt_length / length;
         slack += 7600.0 * (solved.belt_length / length - 1.0);

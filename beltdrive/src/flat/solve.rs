@@ -10,7 +10,7 @@ use web_time::Instant;
 /// The steady state of a flat-belt drive.
 pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
-    let solved = ClosedForm::find(drive).map_err(|refusal| refused(drive, refusal))?;
+    let solved = ClosedForm::find(&drive.pair()).map_err(|refusal| refused(drive, refusal))?;
     let mut state = steady_state(drive, &solved, start);
     state.convergence.tolerance = options.tolerance;
     state.verified().map(|()| state)

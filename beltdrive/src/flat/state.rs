@@ -73,10 +73,11 @@ fn closing_error(solved: &ClosedForm) -> f64 {
 fn pulley_state(drive: &Drive, solved: &ClosedForm, pulley: usize) -> PulleyState {
     let contact = &solved.contact[pulley];
     let arc = contact.arc;
-    let radius = [drive.driven_radius, drive.driver_radius][pulley];
+    let pair = drive.pair();
+    let radius = [pair.driven_radius, pair.driver_radius][pulley];
     PulleyState {
         angular_speed: match pulley {
-            DRIVER => drive.driver_speed,
+            DRIVER => pair.driver_speed,
             _ => solved.rim_speed(pulley) / radius,
         },
         torque: arc.change * radius,

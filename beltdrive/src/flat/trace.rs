@@ -9,8 +9,8 @@ use super::solve::refused;
 use crate::input::Key;
 use crate::results::branch::samples;
 use crate::{
-    Branch, BranchEnd, BranchEvent, Drive, EventKind, LimitReason, Pulley, PulleySummary,
-    SolveError, SolveOptions, TraceConvergence, TracePoint, Zone, ZoneKind,
+    Branch, BranchEnd, BranchEvent, Drive, EventKind, LimitReason, PulleySummary, Role, SolveError,
+    SolveOptions, TraceConvergence, TracePoint, Zone, ZoneKind,
 };
 use web_time::Instant;
 
@@ -118,7 +118,7 @@ impl Trace<'_> {
                 let arcs = pulley.zones.iter().filter(slips);
                 arcs.map(|zone| zone.to - zone.from).sum::<f64>() / pulley.wrap_angle
             };
-            let speed = state.driven.angular_speed / self.members.drive.driver_speed;
+            let speed = state.driven.angular_speed / self.members.drive.pair().driver_speed;
             Some([speed, slip(&state.driven), slip(&state.driver)])
         };
         let (Some(one), Some(between), Some(other)) = (shown(from), shown(middle), shown(to))
@@ -170,7 +170,7 @@ impl Trace<'_> {
             Refusal::Slips(reason) => {
                 let pulley = match reason {
                     LimitReason::Capstan(pulley) => pulley,
-                    _ => Pulley::Driven,
+                    _ => Role::Driven,
                 };
                 self.event(EventKind::GrossSlip(pulley), value);
                 BranchEnd::GrossSlip(pulley)
@@ -229,7 +229,7 @@ impl Trace<'_> {
 /// The zones that appear and vanish.
 fn changes(before: &Zones, after: &Zones) -> Vec<EventKind> {
     let count = |zones: &[ZoneKind], kind| zones.iter().filter(|&&zone| zone == kind).count();
-    let pulleys = [Pulley::Driven, Pulley::Driver];
+    let pulleys = [Role::Driven, Role::Driver];
     let mut events = Vec::new();
     for (pulley, (before, after)) in pulleys.into_iter().zip(before.iter().zip(after)) {
         for kind in ZoneKind::ALL {

@@ -53,7 +53,10 @@ impl Argument<'_> {
         let mut drive = drive.clone();
         key.set(&mut drive, value);
         let is_free = |path: &&str| free.is_some_and(|free| free.path() == *path);
-        match file::contradiction(&drive) {
+        match drive
+            .two_pulleys()
+            .and_then(|two| file::contradiction(&two))
+        {
             Some(contradiction) if !contradiction.between.iter().any(is_free) => {
                 Err(Finding::new(entry.place, contradiction.message))
             }

@@ -3,15 +3,13 @@
 use super::{
     belt, diagnostic::Finding, file, friction, overrides, schema, tensioner, values::Values,
 };
-use crate::belt_loop::{
-    BeltLoop, Closure, Duty, LayoutError, LoopPulley, Mount, Sense, Side, Tensioner,
-};
+use crate::{Closure, Drive, Duty, LayoutError, Mount, Pulley, Sense, Side, Tensioner};
 
 /// What a pulley of a list may do, one of which it does; without one it is an idler.
 const DUTIES: [&str; 3] = ["speed", "torque", "power"];
 
 /// The loop that a list of pulleys states.
-pub(super) fn of_list(values: &Values<'_>) -> Result<BeltLoop, Finding> {
+pub(super) fn of_list(values: &Values<'_>) -> Result<Drive, Finding> {
     let belt = belt::belt(values)?;
     let law = friction::law(values, belt.kind)?;
     let tensioner = tensioner::tensioner(values)?;
@@ -21,7 +19,7 @@ pub(super) fn of_list(values: &Values<'_>) -> Result<BeltLoop, Finding> {
         .collect::<Result<Vec<_>, _>>()?;
     one_driver(values, &pulleys)?;
     foreign(values)?;
-    let belt_loop = BeltLoop {
+    let drive = Drive {
         title: values.text("title").map(str::to_owned),
         belt,
         law,
@@ -30,42 +28,7 @@ pub(super) fn of_list(values: &Values<'_>) -> Result<BeltLoop, Finding> {
         closure: closure(values, tensioner.is_some())?,
         pulleys,
     };
-    oriented(values, belt_loop)
-}
-
-/// The loop of a drive with a driver and a driven pulley.
-pub(super) fn of_two(
-    values: &Values<'_>,
-    duty: Duty,
-    closure: Closure,
-) -> Result<BeltLoop, Finding> {
-    let belt = belt::belt(values)?;
-    let friction_coefficient = values.required_number("friction.coefficient")?;
-    let pulley = |name: &str, x: f64, duty: Duty| {
-        let radius = file::radius(values, &format!("pulleys.{name}"))?;
-        let centre = [x, 0.0];
-        Ok(LoopPulley::new(
-            name,
-            centre,
-            radius,
-            friction_coefficient,
-            duty,
-        ))
-    };
-    let speed = values.required_number("pulleys.driver.speed")?;
-    let distance = values.required_number("layout.centre_distance")?;
-    Ok(BeltLoop {
-        title: values.text("title").map(str::to_owned),
-        belt,
-        law: friction::law(values, belt.kind)?,
-        sense: Sense::CounterClockwise,
-        turning_number: 1,
-        pulleys: vec![
-            pulley("driver", 0.0, Duty::Driver(speed))?,
-            pulley("driven", distance, duty)?,
-        ],
-        closure,
-    })
+    oriented(values, drive)
 }
 
 /// A pulley of the list.
@@ -73,7 +36,7 @@ fn pulley(
     values: &Values<'_>,
     name: &str,
     tensioner: Option<&(String, Tensioner)>,
-) -> Result<LoopPulley, Finding> {
+) -> Result<Pulley, Finding> {
     let key = |name_of_key: &str| format!("pulley.{name}.{name_of_key}");
     let number = |name_of_key: &str| values.number(&key(name_of_key));
     let both = |one: &str, other: &str, expected: &str| {
@@ -127,7 +90,7 @@ fn pulley(
         Some(coefficient) => coefficient,
         None => values.required_number("friction.coefficient")?,
     };
-    Ok(LoopPulley {
+    Ok(Pulley {
         name: name.to_owned(),
         mount,
         radius,
@@ -142,7 +105,7 @@ fn pulley(
 }
 
 /// Whether exactly one pulley has a speed.
-fn one_driver(values: &Values<'_>, pulleys: &[LoopPulley]) -> Result<(), Finding> {
+fn one_driver(values: &Values<'_>, pulleys: &[Pulley]) -> Result<(), Finding> {
     let drivers = pulleys.iter();
     let drivers = drivers.filter(|pulley| matches!(pulley.duty, Duty::Driver(_)));
     let drivers: Vec<_> = drivers.map(|pulley| &pulley.name).collect();
@@ -162,7 +125,7 @@ fn one_driver(values: &Values<'_>, pulleys: &[LoopPulley]) -> Result<(), Finding
 }
 
 /// The turning number: 0 for a crossed belt.
-fn turning_number(pulleys: &[LoopPulley]) -> u32 {
+fn turning_number(pulleys: &[Pulley]) -> u32 {
     match pulleys {
         [one, other] if one.side != other.side => 0,
         _ => 1,
@@ -247,16 +210,16 @@ fn span(values: &Values<'_>) -> Result<usize, Finding> {
 }
 
 /// The loop with the sense in which the belt can run round its pulleys.
-fn oriented(values: &Values<'_>, mut belt_loop: BeltLoop) -> Result<BeltLoop, Finding> {
+fn oriented(values: &Values<'_>, mut drive: Drive) -> Result<Drive, Finding> {
     let senses = [Sense::CounterClockwise, Sense::Clockwise];
     let stated = values.text("layout.sense").map(|word| match word {
         "clockwise" => Sense::Clockwise,
         _ => Sense::CounterClockwise,
     });
-    let coordinate = belt_loop.start_coordinate();
+    let coordinate = drive.start_coordinate();
     let mut layout = |sense| {
-        belt_loop.sense = sense;
-        belt_loop.layout(coordinate)
+        drive.sense = sense;
+        drive.layout(coordinate)
     };
     let found = match stated {
         Some(sense) => layout(sense).map(|_| sense),
@@ -281,8 +244,8 @@ fn oriented(values: &Values<'_>, mut belt_loop: BeltLoop) -> Result<BeltLoop, Fi
     };
     match found {
         Ok(sense) => {
-            belt_loop.sense = sense;
-            Ok(belt_loop)
+            drive.sense = sense;
+            Ok(drive)
         }
         Err(error) => Err(impossible(values, &error)),
     }

@@ -1,42 +1,48 @@
-//! From checked values to what they state: what must be there, and relations between the values.
+//! From checked values to a drive: what must be there, and relations between the values.
 
-use super::{
-    belt, belt_loop, diagnostic::Finding, friction, load, load::Closed, schema, values::Values,
-};
-use crate::belt_loop::BeltLoop;
-use crate::{Drive, Load, SpanTension};
+use super::{belt, belt_loop, diagnostic::Finding, friction, load, schema, values::Values};
+use crate::{Closure, Drive, Duty, Load, Pulley, Sense, SpanTension, TwoPulleys};
 
-/// What a drive file states.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Stated {
-    /// Two pulleys, closed by the tensions of their spans or by one of them and the driven torque.
-    Drive(Drive),
-    /// A loop of any number of pulleys.
-    Loop(BeltLoop),
-}
-
-/// What the values state.
-pub(super) fn stated(values: &Values<'_>) -> Result<Stated, Finding> {
+/// The drive that the values state.
+pub(super) fn drive(values: &Values<'_>) -> Result<Drive, Finding> {
     if values.has(schema::PULLEY) {
-        return belt_loop::of_list(values).map(Stated::Loop);
+        return belt_loop::of_list(values);
     }
     let missing = missing(values);
     if missing.len() > 1 {
         return Err(values.all_missing(&missing));
     }
     let belt = belt::belt(values)?;
-    match load::load(values, belt.kind)? {
-        Closed::Drive(load) => drive(values, load).map(Stated::Drive),
-        Closed::Loop(duty, closure) => {
-            let belt_loop = belt_loop::of_two(values, duty, closure)?;
-            let distance = values.required_number("layout.centre_distance")?;
-            let radii = belt_loop.pulleys.iter().map(|pulley| pulley.radius).sum();
-            match overlap(radii, distance) {
-                Some(found) => Err(found.finding(values)),
-                None => Ok(Stated::Loop(belt_loop)),
-            }
-        }
+    let (duty, closure) = load::load(values, belt.kind)?;
+    let law = friction::law(values, belt.kind)?;
+    let friction_coefficient = values.required_number("friction.coefficient")?;
+    let pulley = |name: &str, x: f64, duty: Duty| {
+        let radius = radius(values, &format!("pulleys.{name}"))?;
+        Ok(Pulley::new(
+            name,
+            [x, 0.0],
+            radius,
+            friction_coefficient,
+            duty,
+        ))
+    };
+    let speed = values.required_number("pulleys.driver.speed")?;
+    let driver = pulley("driver", 0.0, Duty::Driver(speed))?;
+    let distance = values.required_number("layout.centre_distance")?;
+    let driven = pulley("driven", distance, duty)?;
+    let found = overlap(driver.radius + driven.radius, distance);
+    if let Some(found) = found.or_else(|| backwards(closure)) {
+        return Err(found.finding(values));
     }
+    Ok(Drive {
+        title: values.text("title").map(str::to_owned),
+        belt,
+        law,
+        sense: Sense::CounterClockwise,
+        turning_number: 1,
+        pulleys: vec![driver, driven],
+        closure,
+    })
 }
 
 /// What a drive with two pulleys needs and the file does not have, but for its load.
@@ -83,26 +89,6 @@ pub(super) fn radius(values: &Values<'_>, table: &str) -> Result<f64, Finding> {
     }
 }
 
-/// The drive the values state with a load.
-fn drive(values: &Values<'_>, load: Load) -> Result<Drive, Finding> {
-    let belt = belt::belt(values)?;
-    let drive = Drive {
-        title: values.text("title").map(str::to_owned),
-        belt,
-        law: friction::law(values, belt.kind)?,
-        friction_coefficient: values.required_number("friction.coefficient")?,
-        driver_radius: radius(values, "pulleys.driver")?,
-        driver_speed: values.required_number("pulleys.driver.speed")?,
-        driven_radius: radius(values, "pulleys.driven")?,
-        centre_distance: values.required_number("layout.centre_distance")?,
-        load,
-    };
-    match contradiction(&drive) {
-        Some(found) => Err(found.finding(values)),
-        None => Ok(drive),
-    }
-}
-
 /// Values of a drive that do not fit each other.
 pub(super) struct Contradiction {
     /// The entry at fault in a drive file.
@@ -139,14 +125,19 @@ fn overlap(radii: f64, distance: f64) -> Option<Contradiction> {
     })
 }
 
-/// The first contradiction between the values of a drive.
-pub(super) fn contradiction(drive: &Drive) -> Option<Contradiction> {
-    let radii = drive.driver_radius + drive.driven_radius;
-    if let Some(found) = overlap(radii, drive.centre_distance) {
-        return Some(found);
-    }
+/// The first contradiction between the values of a drive with two pulleys.
+pub(super) fn contradiction(two: &TwoPulleys) -> Option<Contradiction> {
+    let radii = two.driver_radius + two.driven_radius;
+    overlap(radii, two.centre_distance).or_else(|| backwards(Closure::BothSpans(two.load)))
+}
+
+/// A tight tension below the slack one.
+fn backwards(closure: Closure) -> Option<Contradiction> {
+    let Closure::BothSpans(Load { slack, tight }) = closure else {
+        return None;
+    };
     let [tractive, belt] = schema::TIGHT;
-    let (path, low, high) = match (drive.load.slack, drive.load.tight) {
+    let (path, low, high) = match (slack, tight) {
         (SpanTension::Tractive(low), SpanTension::Tractive(high)) => (tractive, low, high),
         (SpanTension::Belt(low), SpanTension::Belt(high)) => (belt, low, high),
         _ => return None,

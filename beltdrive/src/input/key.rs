@@ -15,7 +15,8 @@ pub struct Key {
 }
 
 impl Key {
-    /// Every entry that applies to a drive, in the order of the drive file.
+    /// Every entry that applies to a drive closed by the tensions of both spans, in the order of the drive file;
+    /// none for another drive.
     pub fn all(drive: &Drive) -> impl Iterator<Item = Self> {
         ENTRIES
             .iter()
@@ -27,13 +28,13 @@ impl Key {
     /// tension otherwise.
     ///
     /// # Panics
-    /// Never: every drive has one.
+    /// If the drive is not closed by the tensions of both spans.
     pub fn load(drive: &Drive) -> Self {
         let [tractive, belt] = schema::TIGHT;
         [schema::TORQUE, tractive, belt]
             .into_iter()
             .find_map(|path| Self::all(drive).find(|key| key.path() == path))
-            .expect("a drive has a load")
+            .expect("a drive closed by both tensions has a load")
     }
 
     /// The dotted path of the entry in the drive file.
@@ -81,7 +82,7 @@ impl Key {
     /// # Panics
     /// If the entry does not apply to the drive, such as a parameter of another friction law.
     pub fn get(&self, drive: &Drive) -> f64 {
-        *self.slot(&mut drive.clone())
+        self.entry.get(drive).expect(OF_THIS_DRIVE)
     }
 
     /// Changes the value in a drive, SI.
@@ -89,12 +90,12 @@ impl Key {
     /// # Panics
     /// As [`Key::get`].
     pub fn set(&self, drive: &mut Drive, value: f64) {
-        *self.slot(drive) = value;
+        self.entry.set(drive, value).expect(OF_THIS_DRIVE);
     }
 
     /// Whether a drive has the entry.
     pub(super) fn applies(&self, drive: &Drive) -> bool {
-        self.entry.slot(&mut drive.clone()).is_some()
+        self.entry.get(drive).is_some()
     }
 
     /// The key of an entry, unless its dimension has no unit in reports.
@@ -103,11 +104,10 @@ impl Key {
         let measure = dimension.measure()?;
         Some(Self { entry, measure })
     }
-
-    fn slot<'d>(&self, drive: &'d mut Drive) -> &'d mut f64 {
-        self.entry.slot(drive).expect("an entry of this drive")
-    }
 }
+
+/// What [`Key::get`] and [`Key::set`] expect.
+const OF_THIS_DRIVE: &str = "an entry of this drive";
 
 /// Keys are the same if their paths are.
 impl PartialEq for Key {

@@ -6,23 +6,15 @@ use super::{
     schema::{CLOSURE, EFFORT, SLACK, TENSIONS, TIGHT, TORQUE},
     values::Values,
 };
-use crate::belt_loop::{Closure, Duty};
-use crate::{BeltKind, Load, SpanTension};
-
-/// What closes a drive.
-pub(super) enum Closed {
-    /// Two of the slack tension, the tight tension and, for flat belts, the driven torque.
-    Drive(Load),
-    /// What the driven pulley takes, and how tight the belt is, as for any loop.
-    Loop(Duty, Closure),
-}
+use crate::{BeltKind, Closure, Duty, Load, SpanTension};
 
 /// The span that leaves the driver, and the one that leaves the driven pulley.
 const SPANS: [usize; 2] = [0, 1];
 
-/// What closes the drive: two tensions, or one of them, the setup tension or the length of the belt beside
-/// the torque or the power of the driven pulley.
-pub(super) fn load(values: &Values<'_>, belt: BeltKind) -> Result<Closed, Finding> {
+/// What the driven pulley takes and what closes the drive: two tensions, or one of them, the setup tension or
+/// the length of the belt beside the torque or the power of the driven pulley. Of a flat belt a torque beside
+/// a tension stands for the tension of the other span.
+pub(super) fn load(values: &Values<'_>, belt: BeltKind) -> Result<(Duty, Closure), Finding> {
     let slack = span_tension(values, SLACK)?;
     let tight = span_tension(values, TIGHT)?;
     let effort = once(values, &EFFORT)?;
@@ -44,21 +36,16 @@ pub(super) fn load(values: &Values<'_>, belt: BeltKind) -> Result<Closed, Findin
     let torque = effort.filter(|path| is_flat && *path != "load.power");
     let torque = torque.and_then(|path| values.number(path));
     let torque = torque.map(SpanTension::DrivenTorque);
+    let both = |slack, tight| (Duty::Driven, Closure::BothSpans(Load { slack, tight }));
     match (slack, tight, effort, closure) {
-        (Some(slack), Some(tight), None, None) => Ok(Closed::Drive(Load { slack, tight })),
-        (Some(tension), None, Some(effort), None) => Ok(match torque {
-            Some(tight) => Closed::Drive(Load {
-                slack: tension,
-                tight,
-            }),
-            None => Closed::Loop(duty(effort), of_span(SPANS[0], tension)),
+        (Some(slack), Some(tight), None, None) => Ok(both(slack, tight)),
+        (Some(slack), None, Some(effort), None) => Ok(match torque {
+            Some(tight) => both(slack, tight),
+            None => (duty(effort), of_span(SPANS[0], slack)),
         }),
-        (None, Some(tension), Some(effort), None) => Ok(match torque {
-            Some(slack) => Closed::Drive(Load {
-                slack,
-                tight: tension,
-            }),
-            None => Closed::Loop(duty(effort), of_span(SPANS[1], tension)),
+        (None, Some(tight), Some(effort), None) => Ok(match torque {
+            Some(slack) => both(slack, tight),
+            None => (duty(effort), of_span(SPANS[1], tight)),
         }),
         (None, None, Some(effort), Some(path)) => {
             let number = values.number(path).unwrap_or_default();
@@ -66,7 +53,7 @@ pub(super) fn load(values: &Values<'_>, belt: BeltKind) -> Result<Closed, Findin
                 "load.setup_tension" => Closure::SetupTension(number),
                 _ => Closure::UnstretchedLength(number),
             };
-            Ok(Closed::Loop(duty(effort), closure))
+            Ok((duty(effort), closure))
         }
         (Some(_), None, None, None) => {
             Err(values.missing(&[&TIGHT[..], &[TORQUE]].concat()).help(TWO))

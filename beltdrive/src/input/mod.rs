@@ -39,7 +39,6 @@ mod values;
 
 pub use argument::Argument;
 pub use diagnostic::Diagnostic;
-pub use file::Stated;
 pub use file_key::FileKey;
 pub use key::Key;
 
@@ -58,7 +57,7 @@ use values::Values;
 /// let overrides = ["friction.law=epp".to_owned(), "friction.coefficient = 0.35".to_owned()];
 /// let drive = beltdrive::input::parse("kim2009.toml", text, &overrides)?;
 /// assert_eq!(drive.law.name(), "epp");
-/// assert_eq!(drive.friction_coefficient, 0.35);
+/// assert_eq!(drive.pulleys[0].friction_coefficient, 0.35);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 ///
@@ -68,20 +67,6 @@ use values::Values;
 /// missing, a value has the wrong type, unit, dimension or range, or values contradict each other.
 pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Drive, Diagnostic> {
     DriveFile::read(name, text, overrides)?.drive()
-}
-
-/// Why a file states a loop rather than a drive with two tensions.
-fn no_drive(document: &Document) -> Finding {
-    let list = document.entries.get(schema::PULLEY);
-    let load = document.entries.get("load");
-    let place = list
-        .or(load)
-        .map_or(document.end.clone(), |entry| entry.key.clone());
-    let message = match list {
-        Some(_) => "the file has a list of pulleys",
-        None => "the load is not stated by the tensions of the spans",
-    };
-    Finding::new(place, message).expected("[pulleys.driver], [pulleys.driven] and two tensions")
 }
 
 /// A drive file with its overrides, as it stands: any of its quantities can be looked up and changed.
@@ -104,29 +89,14 @@ impl DriveFile {
         }
     }
 
-    /// What the file states.
-    ///
-    /// # Errors
-    /// As [`parse`].
-    pub fn stated(&self) -> Result<Stated, Diagnostic> {
-        let values = Values::check(&self.document, &self.source);
-        let stated = values.and_then(|values| file::stated(&values));
-        stated.map_err(|finding| self.diagnose(finding))
-    }
-
-    /// The drive with two pulleys and two tensions, or one of them and the driven torque, that the file states.
+    /// The drive that the file states.
     ///
     /// # Errors
     /// As [`parse`].
     pub fn drive(&self) -> Result<Drive, Diagnostic> {
-        match self.stated()? {
-            Stated::Drive(drive) => Ok(drive),
-            Stated::Loop(_) => Err(self.diagnose(no_drive(&self.document))),
-        }
-    }
-
-    fn diagnose(&self, finding: Finding) -> Diagnostic {
-        Diagnostic::new(finding, &self.source)
+        let values = Values::check(&self.document, &self.source);
+        let drive = values.and_then(|values| file::drive(&values));
+        drive.map_err(|finding| Diagnostic::new(finding, &self.source))
     }
 }
 

@@ -1,7 +1,7 @@
 //! From checked values to a tensioner: an arm or a slide, with a spring or a weight.
 
 use super::{diagnostic::Finding, values::Values};
-use crate::belt_loop::{Guide, Tensioner, TensionerLoad};
+use crate::{Guide, Tensioner, TensionerLoad};
 
 /// The words of a kind of tensioner in a drive file.
 struct Words {

@@ -1,8 +1,8 @@
-//! The entries that a branch can be traced over, and where their values stand in a drive.
+//! The entries that a branch can be traced over, and where their values stand in a drive with two pulleys.
 
 use super::schema;
 use crate::friction::{ROWS, Row};
-use crate::{BeltKind, Drive, Load, SpanTension, VBelt};
+use crate::{BeltKind, Drive, Load, SpanTension, TwoPulleys, VBelt};
 use std::sync::LazyLock;
 
 /// An entry with the place of its value in a drive.
@@ -18,15 +18,28 @@ pub(super) struct Traceable {
 /// Where the value of an entry stands.
 #[derive(Clone, Copy, Debug)]
 enum Slot {
-    /// At a place of the drive, if the entry applies.
-    Of(fn(&mut Drive) -> Option<&mut f64>),
+    /// At a place of the numbers of the drive, if the entry applies.
+    Of(fn(&mut TwoPulleys) -> Option<&mut f64>),
     /// It is the parameter of a friction law.
     Parameter(&'static Row),
 }
 
 impl Traceable {
+    /// Its value in a drive, SI; `None` where the entry does not apply.
+    pub(super) fn get(&self, drive: &Drive) -> Option<f64> {
+        self.slot(&mut drive.two_pulleys()?).copied()
+    }
+
+    /// Changes its value in a drive, SI; `None` where the entry does not apply.
+    pub(super) fn set(&self, drive: &mut Drive, value: f64) -> Option<()> {
+        let mut two = drive.two_pulleys()?;
+        *self.slot(&mut two)? = value;
+        drive.set_two_pulleys(two);
+        Some(())
+    }
+
     /// Where its value stands; `None` where the entry does not apply.
-    pub(super) fn slot<'d>(&self, drive: &'d mut Drive) -> Option<&'d mut f64> {
+    fn slot<'d>(&self, drive: &'d mut TwoPulleys) -> Option<&'d mut f64> {
         match self.slot {
             Slot::Of(place) => place(drive),
             Slot::Parameter(wanted) => {
@@ -132,7 +145,7 @@ const FROM_PULLEYS: [Traceable; 9] = [
     },
 ];
 
-fn v_belt(drive: &mut Drive) -> Option<&mut VBelt> {
+fn v_belt(drive: &mut TwoPulleys) -> Option<&mut VBelt> {
     match &mut drive.belt.kind {
         BeltKind::V(belt) => Some(belt),
         BeltKind::Flat { .. } => None,

@@ -1,9 +1,9 @@
 //! The tensioner: its equilibrium, its stiffness and how well it holds the tension.
 
-use crate::drive::belt_loop::{BeltLoop, Guide, Tensioner};
 use crate::drive::layout::Layout;
 use crate::mechanics::root::{bracketed, near};
 use crate::results::loop_error::LoopError;
+use crate::{Drive, Guide, Tensioner};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 
@@ -60,18 +60,18 @@ pub(crate) fn length_derivatives(
 /// load Q(q) of the tensioner and the belt are in equilibrium: Q − `F_t` dL/dq = 0; and the belt there.
 /// `tractive` gives `F_t` in N, and about how fast it grows with the length of the loop, N/m.
 pub(crate) fn equilibrium(
-    belt_loop: &BeltLoop,
+    drive: &Drive,
     start: f64,
     towards: Towards,
     which: &'static str,
     tractive: impl FnMut(&Layout) -> Result<[f64; 2], LoopError>,
 ) -> Result<(f64, Layout), LoopError> {
-    let mut layout = belt_loop.layout(start)?;
-    let Some(carried) = belt_loop.tensioner() else {
+    let mut layout = drive.layout(start)?;
+    let Some(carried) = drive.tensioner() else {
         return Ok((start, layout));
     };
     let search = Search {
-        belt_loop,
+        drive,
         carried,
         towards,
         which,
@@ -83,7 +83,7 @@ pub(crate) fn equilibrium(
 
 /// The search for an equilibrium.
 struct Search<'l> {
-    belt_loop: &'l BeltLoop,
+    drive: &'l Drive,
     /// The index of the pulley on the tensioner, and that.
     carried: (usize, &'l Tensioner),
     towards: Towards,
@@ -104,13 +104,13 @@ impl Search<'_> {
         mut tractive: impl FnMut(&Layout) -> Result<[f64; 2], LoopError>,
     ) -> Result<f64, LoopError> {
         let Self {
-            belt_loop,
+            drive,
             towards,
             which,
             ..
         } = *self;
         let (pulley, tensioner) = self.carried;
-        let name = || belt_loop.pulleys[pulley].name.clone();
+        let name = || drive.pulleys[pulley].name.clone();
         let guide = &tensioner.guide;
         // Force along the coordinate, and about its slope.
         let mut force = |coordinate: f64| -> Result<[f64; 2], LoopError> {
@@ -123,7 +123,7 @@ impl Search<'_> {
                 load_slope - tension * curvature - per_length * slope * slope,
             ])
         };
-        let radius = belt_loop.pulleys[pulley].radius;
+        let radius = drive.pulleys[pulley].radius;
         let (largest, longest) = match guide {
             Guide::Rotary { arm_length, .. } => {
                 ((0.5 * radius / arm_length).min(LARGEST_ANGLE), TAU)
@@ -157,7 +157,7 @@ impl Search<'_> {
                 Err(error) => {
                     step *= 0.5;
                     if step < SMALLEST_STEP * largest {
-                        within_travel(belt_loop, here.0)?;
+                        within_travel(drive, here.0)?;
                         return Err(error);
                     }
                 }
@@ -183,7 +183,7 @@ impl Search<'_> {
                 break;
             }
         }
-        within_travel(belt_loop, here.0)?;
+        within_travel(drive, here.0)?;
         Err(LoopError::NoEquilibrium {
             pulley: name(),
             which,
@@ -192,8 +192,8 @@ impl Search<'_> {
 }
 
 /// Whether the tensioner is between its stops.
-pub(crate) fn within_travel(belt_loop: &BeltLoop, coordinate: f64) -> Result<(), LoopError> {
-    match belt_loop.tensioner() {
+pub(crate) fn within_travel(drive: &Drive, coordinate: f64) -> Result<(), LoopError> {
+    match drive.tensioner() {
         Some((
             pulley,
             Tensioner {
@@ -202,7 +202,7 @@ pub(crate) fn within_travel(belt_loop: &BeltLoop, coordinate: f64) -> Result<(),
             },
         )) if coordinate < travel[0] || coordinate > travel[1] => {
             Err(LoopError::TensionerBeyondTravel {
-                pulley: belt_loop.pulleys[pulley].name.clone(),
+                pulley: drive.pulleys[pulley].name.clone(),
                 coordinate,
                 travel: *travel,
             })
@@ -226,7 +226,7 @@ pub(crate) struct Held {
 impl Held {
     /// With the tractive tension `F_t` of the idler, N, and the length `L_0` of the unstretched belt, m.
     pub(crate) fn new(
-        belt_loop: &BeltLoop,
+        drive: &Drive,
         (pulley, tensioner): (usize, &Tensioner),
         layout: &Layout,
         coordinate: f64,
@@ -235,7 +235,7 @@ impl Held {
     ) -> Self {
         let derivatives = length_derivatives(layout, pulley, &tensioner.guide, coordinate);
         let [_, load_slope] = tensioner.load_at(coordinate);
-        let stiffness = belt_loop.belt.axial_stiffness / unstretched;
+        let stiffness = drive.belt.axial_stiffness / unstretched;
         Self::by(derivatives, load_slope, tractive, stiffness)
     }
 

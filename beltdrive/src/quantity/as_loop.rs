@@ -1,14 +1,11 @@
 //! What there is to tell of a drive with two pulleys as the loop that it is.
-//!
-//! The driver stands at the origin, the driven pulley to its right, and the belt runs counter-clockwise: the
-//! slack span leaves the driver below.
 
 use super::belt_loop;
 use super::scale::{HUB_LOAD, Scale};
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value, warning, words};
-use crate::belt_loop::{self as loops, BeltLoop, Closure, Duty, LoopPulley, Mount, Sense, Side};
+use crate::belt_loop as loops;
 use crate::input::Key;
-use crate::{BeltKind, Drive, PulleyState, SteadyState};
+use crate::{BeltKind, Closure, Drive, Duty, Load, PulleyState, SpanTension, SteadyState};
 use std::f64::consts::PI;
 
 /// The groups `pulleys`, `spans` and `loop` of a steady state. That of a flat belt is solved again as a loop,
@@ -26,10 +23,10 @@ pub fn groups(state: &SteadyState) -> [Group; 3] {
 }
 
 /// The groups `pulleys`, `spans` and `loop` of a drive with two pulleys that was solved as a loop.
-pub fn of_loop(belt_loop: &BeltLoop, state: &loops::LoopState) -> [Group; 3] {
-    let mut groups = belt_loop::groups(belt_loop, state);
+pub fn of_loop(drive: &Drive, state: &loops::LoopState) -> [Group; 3] {
+    let mut groups = belt_loop::groups(drive, state);
     let names = ["slack span", "tight span"];
-    let first = belt_loop.driver();
+    let first = drive.driver();
     for (place, subject) in groups[1].subjects.iter_mut().enumerate() {
         subject.head = names[usize::from(place != first)].to_owned();
     }
@@ -51,7 +48,7 @@ pub fn drawn(state: &SteadyState) -> Answer {
     for (subject, pulley) in pulleys.zip([&state.driver, &state.driven]) {
         let [entry, exit] = pulley.inclination;
         let number = |key, measure, value| Quantity::data(key, measure, Value::Number(Some(value)));
-        let coefficient = state.drive.friction_coefficient;
+        let coefficient = state.drive.pair().friction_coefficient;
         let depth = pulley.max_penetration;
         subject.quantities.extend([
             number("friction_coefficient", Measure::Number, coefficient),
@@ -80,70 +77,33 @@ pub(crate) fn heading(drive: &Drive, varied: &[Key]) -> Vec<String> {
     lines
 }
 
-/// The drive as a loop that is closed by its slack tension.
-fn as_loop(state: &SteadyState) -> BeltLoop {
-    let drive = &state.drive;
-    let pulley = |name: &str, x: f64, radius, duty| {
-        LoopPulley::new(name, [x, 0.0], radius, drive.friction_coefficient, duty)
+/// The drive of a state as a loop that is closed by its slack tension.
+fn as_loop(state: &SteadyState) -> Drive {
+    let mut drive = Drive::from(state.drive.pair());
+    drive.title.clone_from(&state.drive.title);
+    drive.pulleys[1].duty = Duty::Torque(state.driven.torque);
+    drive.closure = Closure::SpanTractiveTension {
+        span: 0,
+        tension: state.slack_tractive_tension,
     };
-    let driver = Duty::Driver(drive.driver_speed);
-    let driven = Duty::Torque(state.driven.torque);
-    BeltLoop {
-        title: drive.title.clone(),
-        belt: drive.belt,
-        law: drive.law,
-        sense: Sense::CounterClockwise,
-        turning_number: 1,
-        pulleys: vec![
-            pulley("driver", 0.0, drive.driver_radius, driver),
-            pulley("driven", drive.centre_distance, drive.driven_radius, driven),
-        ],
-        closure: Closure::SpanTractiveTension {
-            span: 0,
-            tension: state.slack_tractive_tension,
-        },
-    }
+    drive
 }
 
-/// The drive with two pulleys that a loop in a known state is, closed by its tractive tensions: if there are
-/// no more than two pulleys with the belt round both on the same side and one coefficient of friction, and
-/// the second one takes power.
-pub fn as_drive(belt_loop: &BeltLoop, state: &loops::LoopState) -> Option<Drive> {
-    let [one, other] = &belt_loop.pulleys[..] else {
+/// A drive with another closure in a known state as one that is closed by the tensions of both spans: if it is
+/// such a drive ([`Drive::two_pulleys`]) but for that, and the second pulley takes power.
+pub fn as_drive(drive: &Drive, state: &loops::LoopState) -> Option<Drive> {
+    let [_, _] = &drive.pulleys[..] else {
         return None;
     };
-    let driver = belt_loop.driver();
-    let [first, second] = if driver == 0 {
-        [one, other]
-    } else {
-        [other, one]
-    };
-    let (Mount::Fixed(here), Mount::Fixed(there)) = (first.mount, second.mount) else {
-        return None;
-    };
-    let is_plain = one.side == Side::Inside
-        && other.side == Side::Inside
-        && one.friction_coefficient == other.friction_coefficient
-        && one.half_angle.is_none()
-        && other.half_angle.is_none();
-    let Duty::Driver(driver_speed) = first.duty else {
-        return None;
-    };
+    let driver = drive.driver();
     let [slack, tight] = [driver, 1 - driver].map(|span| state.spans[span].tractive_tension);
-    (is_plain && slack <= tight).then(|| Drive {
-        title: belt_loop.title.clone(),
-        belt: belt_loop.belt,
-        friction_coefficient: one.friction_coefficient,
-        law: belt_loop.law,
-        driver_radius: first.radius,
-        driver_speed,
-        driven_radius: second.radius,
-        centre_distance: (there[0] - here[0]).hypot(there[1] - here[1]),
-        load: crate::Load {
-            slack: crate::SpanTension::Tractive(slack),
-            tight: crate::SpanTension::Tractive(tight),
-        },
-    })
+    let mut drive = drive.with_load(Load {
+        slack: SpanTension::Tractive(slack),
+        tight: SpanTension::Tractive(tight),
+    });
+    drive.pulleys[1 - driver].duty = Duty::Driven;
+    drive.two_pulleys().filter(|_| slack <= tight)?;
+    Some(drive)
 }
 
 /// How accurate the numbers of a state are.
@@ -160,7 +120,7 @@ fn scale(state: &SteadyState) -> Scale {
 
 /// The groups as the state itself has them.
 fn of_state(state: &SteadyState) -> [Group; 3] {
-    let (drive, scale) = (&state.drive, scale(state));
+    let (pair, scale) = (state.drive.pair(), scale(state));
     let directions = directions(state);
     let tractive = [state.slack_tractive_tension, state.tight_tractive_tension];
     // Of the force with which the belt pulls, from its exit span and against its entry span.
@@ -205,8 +165,8 @@ fn of_state(state: &SteadyState) -> [Group; 3] {
             0 => ("slack span", ["driver", "driven"]),
             _ => ("tight span", ["driven", "driver"]),
         };
-        let speed = state.mass_flow / drive.belt.mass_per_length
-            * (1.0 + tension / drive.belt.axial_stiffness);
+        let speed = state.mass_flow / pair.belt.mass_per_length
+            * (1.0 + tension / pair.belt.axial_stiffness);
         let wave = (speed / (state.mass_flow * tension)).sqrt();
         let frequency = tractive[index] / (2.0 * length) * wave;
         let direction = directions[index].rem_euclid(2.0 * PI);
@@ -249,8 +209,8 @@ fn of_state(state: &SteadyState) -> [Group; 3] {
         ),
     ];
     let pulleys = vec![
-        pulley(0, 0.0, drive.driver_radius),
-        pulley(1, drive.centre_distance, drive.driven_radius),
+        pulley(0, 0.0, pair.driver_radius),
+        pulley(1, pair.centre_distance, pair.driven_radius),
     ];
     let spans = vec![
         span(0, state.slack_tension, state.slack_span),
@@ -266,12 +226,12 @@ fn of_state(state: &SteadyState) -> [Group; 3] {
 /// Directions of the slack and of the tight span, rad from x: of the tangent to circles of radius R cos θ with
 /// the inclinations θ of the belt where it leaves and where it arrives.
 fn directions(state: &SteadyState) -> [f64; 2] {
-    let drive = &state.drive;
+    let pair = state.drive.pair();
     let radius =
         |radius: f64, pulley: &PulleyState, end: usize| radius * pulley.inclination[end].cos();
-    let driver = |end| radius(drive.driver_radius, &state.driver, end);
-    let driven = |end| radius(drive.driven_radius, &state.driven, end);
-    let turned = |q: f64| (q / drive.centre_distance).asin();
+    let driver = |end| radius(pair.driver_radius, &state.driver, end);
+    let driven = |end| radius(pair.driven_radius, &state.driven, end);
+    let turned = |q: f64| (q / pair.centre_distance).asin();
     [
         -turned(driven(0) - driver(1)),
         PI - turned(driver(0) - driven(1)),

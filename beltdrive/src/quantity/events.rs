@@ -2,7 +2,7 @@
 
 use super::words;
 use crate::input::Key;
-use crate::{BeltKind, BranchEnd, Drive, EventKind, LimitReason, Pulley, RangeEnd, ZoneKind};
+use crate::{BeltKind, BranchEnd, Drive, EventKind, LimitReason, RangeEnd, Role, ZoneKind};
 
 /// The word for a kind of event in JSON and CSV.
 pub(crate) fn event_kind(kind: EventKind) -> &'static str {
@@ -20,7 +20,7 @@ pub(crate) fn event_kind(kind: EventKind) -> &'static str {
 }
 
 /// The pulley an event is about, if it is about one.
-pub(crate) fn event_pulley(kind: EventKind) -> Option<Pulley> {
+pub(crate) fn event_pulley(kind: EventKind) -> Option<Role> {
     match kind {
         EventKind::Overhang(pulley)
         | EventKind::GrossSlip(pulley)
@@ -89,10 +89,10 @@ pub(crate) fn event(kind: EventKind, key: Key, drive: &Drive) -> String {
 }
 
 /// Gross slip in words. That of a flat belt may or may not stop the driven pulley.
-fn gross_slip(pulley: Pulley, drive: &Drive) -> String {
+fn gross_slip(pulley: Role, drive: &Drive) -> String {
     match (drive.belt.kind, pulley) {
-        (BeltKind::V(_), Pulley::Driven) => LimitReason::DrivenSlips.to_string(),
-        (BeltKind::V(_), Pulley::Driver) => LimitReason::DriverSlips.to_string(),
+        (BeltKind::V(_), Role::Driven) => LimitReason::DrivenSlips.to_string(),
+        (BeltKind::V(_), Role::Driver) => LimitReason::DriverSlips.to_string(),
         (BeltKind::Flat { .. }, _) => BranchEnd::GrossSlip(pulley).to_string(),
     }
 }
@@ -120,10 +120,10 @@ pub(crate) fn limit_kind(reason: LimitReason) -> &'static str {
 }
 
 /// The pulley a limit is about, if it is about one.
-pub(crate) fn limit_pulley(reason: LimitReason) -> Option<Pulley> {
+pub(crate) fn limit_pulley(reason: LimitReason) -> Option<Role> {
     match reason {
-        LimitReason::DriverSlips | LimitReason::Overhang => Some(Pulley::Driver),
-        LimitReason::DrivenSlips => Some(Pulley::Driven),
+        LimitReason::DriverSlips | LimitReason::Overhang => Some(Role::Driver),
+        LimitReason::DrivenSlips => Some(Role::Driven),
         LimitReason::Capstan(pulley) => Some(pulley),
         LimitReason::LiftsOff => None,
     }
@@ -134,8 +134,8 @@ pub(crate) fn limit_label(reason: LimitReason) -> &'static str {
     match reason {
         LimitReason::Overhang => "fold: driver overhangs",
         LimitReason::DriverSlips => "fold: driver slips",
-        LimitReason::DrivenSlips | LimitReason::Capstan(Pulley::Driven) => "driven pulley slips",
-        LimitReason::Capstan(Pulley::Driver) => "driver slips",
+        LimitReason::DrivenSlips | LimitReason::Capstan(Role::Driven) => "driven pulley slips",
+        LimitReason::Capstan(Role::Driver) => "driver slips",
         LimitReason::LiftsOff => "belt lifts off",
     }
 }
@@ -150,7 +150,7 @@ pub(crate) fn range_end_kind(end: RangeEnd) -> &'static str {
 }
 
 /// The pulley the end of a range is about, if it is about one.
-pub(crate) fn range_end_pulley(end: RangeEnd) -> Option<Pulley> {
+pub(crate) fn range_end_pulley(end: RangeEnd) -> Option<Role> {
     match end {
         RangeEnd::Limit(reason) => limit_pulley(reason),
         RangeEnd::NoLoad | RangeEnd::NotFound => None,
@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn every_event_has_a_short_label_and_words() {
-        let pulleys = [Pulley::Driver, Pulley::Driven];
+        let pulleys = [Role::Driver, Role::Driven];
         let of_pulley = pulleys.into_iter().flat_map(|pulley| {
             let kind = ZoneKind::Elastic;
             [
@@ -212,12 +212,12 @@ mod tests {
     fn gross_slip_of_a_flat_belt_need_not_stop_a_pulley() {
         let drive = sample_flat::epp().drive;
         let key = Key::load(&drive);
-        let words = event(EventKind::GrossSlip(Pulley::Driven), key, &drive);
+        let words = event(EventKind::GrossSlip(Role::Driven), key, &drive);
         assert_eq!(words, "the driven pulley slips grossly");
-        let reason = LimitReason::Capstan(Pulley::Driver);
+        let reason = LimitReason::Capstan(Role::Driver);
         let end = RangeEnd::Limit(reason);
         assert_eq!(range_end_kind(end), "gross slip");
-        assert_eq!(range_end_pulley(end), Some(Pulley::Driver));
+        assert_eq!(range_end_pulley(end), Some(Role::Driver));
     }
 
     #[test]
@@ -230,12 +230,12 @@ mod tests {
             )
         };
         let limit = |reason| of(RangeEnd::Limit(reason));
-        let driver = Some(Pulley::Driver);
+        let driver = Some(Role::Driver);
         let overhang = ("fold", driver, "fold: driver overhangs");
         assert_eq!(limit(LimitReason::Overhang), overhang);
         let slips = ("fold", driver, "fold: driver slips");
         assert_eq!(limit(LimitReason::DriverSlips), slips);
-        let driven = Some(Pulley::Driven);
+        let driven = Some(Role::Driven);
         let slips = ("gross slip", driven, "driven pulley slips");
         assert_eq!(limit(LimitReason::DrivenSlips), slips);
         assert_eq!(of(RangeEnd::NoLoad), ("no load", None, "no load"));
@@ -251,7 +251,7 @@ mod tests {
         let ends = [
             (BranchEnd::Target, "target"),
             (BranchEnd::Returned, "returned"),
-            (BranchEnd::GrossSlip(Pulley::Driven), "gross slip"),
+            (BranchEnd::GrossSlip(Role::Driven), "gross slip"),
             (BranchEnd::NoLoad, "no load"),
             (BranchEnd::Closed, "closed"),
             (BranchEnd::NotConverged { cause }, "not converged"),

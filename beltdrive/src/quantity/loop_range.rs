@@ -32,10 +32,8 @@ pub fn limits(limits: &LoopLimits) -> Answer {
     let mut heading = heading(&limits.smallest.point, &asked);
     heading.extend(ends.map(|(word, limit)| format!("{word}: {}", limit.end)));
     let remarks = ends.iter().flat_map(|(word, limit)| {
-        let LoopPoint {
-            belt_loop, state, ..
-        } = &limit.point;
-        let remarks = warning::messages(&state.warnings(belt_loop)).into_iter();
+        let LoopPoint { drive, state, .. } = &limit.point;
+        let remarks = warning::messages(&state.warnings(drive)).into_iter();
         remarks.map(move |remark| format!("{word}: {remark}"))
     });
     let subjects = ends.map(|(word, limit)| Subject {
@@ -81,14 +79,14 @@ pub fn limit_curve(curve: &LoopLimitCurve) -> Answer {
 
 /// What the loop is, and what is asked of it.
 fn heading(point: &LoopPoint, asked: &str) -> Vec<String> {
-    let mut lines = belt_loop::heading(&point.belt_loop);
+    let mut lines = belt_loop::heading(&point.drive);
     lines.push(asked.to_owned());
     lines
 }
 
 /// What was asked, for programs.
 fn statement(point: &LoopPoint, varied: &Varied) -> Vec<Quantity> {
-    let mut statement = belt_loop::statement(&point.belt_loop);
+    let mut statement = belt_loop::statement(&point.drive);
     statement.push(Quantity::word("parameter", "", varied.name()));
     statement
 }
@@ -136,7 +134,7 @@ fn end(end: Option<&LoopEnd>) -> Vec<Quantity> {
 
 /// A state in a row: first what varies, then what of the state is shown, then the rest of it for programs.
 fn row(first: Vec<Quantity>, point: &LoopPoint) -> Subject {
-    let answer = belt_loop::answer(&point.belt_loop, &point.state);
+    let answer = belt_loop::answer(&point.drive, &point.state);
     let groups = answer.groups.into_iter();
     let mut groups: Vec<_> = groups
         .filter(|group| !["", "checks", "convergence"].contains(&group.key))

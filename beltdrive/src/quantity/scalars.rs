@@ -143,7 +143,8 @@ impl<'a> Scalars<'a> {
             |of: fn(&PulleyErrors) -> f64, size: f64| errors.map_or(scale.error * size.abs(), of);
         let number = Quantity::number;
         // A torque is a difference of tensions.
-        let torque = state.tight_tension * drive.driver_radius.max(drive.driven_radius);
+        let torque =
+            state.tight_tension * drive.pair().driver_radius.max(drive.pair().driven_radius);
         let torque = error(|errors| errors.torque, torque);
         let speed = error(|errors| errors.angular_speed, state.driver.angular_speed);
         let wrap = error(|errors| errors.wrap_angle, 1.0);

@@ -2,7 +2,7 @@
 
 use super::precision::six_digits;
 use super::{Group, Layout, Measure, Quantity, Subject, words};
-use crate::{Pulley, Warning};
+use crate::{Role, Warning};
 
 /// What a warning calls a pulley.
 pub(super) trait Named {
@@ -12,7 +12,7 @@ pub(super) trait Named {
     fn in_words(&self) -> String;
 }
 
-impl Named for Pulley {
+impl Named for Role {
     fn key(&self) -> &str {
         words::pulley(*self)
     }

@@ -3,7 +3,7 @@
 use super::precision::six_digits;
 use super::{Measure, UnitSystem};
 use crate::input::Key;
-use crate::{BeltKind, Check, Drive, FrictionLaw, NormalForce, Pulley, Zone, ZoneKind};
+use crate::{BeltKind, Check, Drive, FrictionLaw, NormalForce, Role, Zone, ZoneKind};
 
 /// A friction law in words, with its parameters and a coefficient that is the same for all pulleys; what
 /// varies has no value.
@@ -76,7 +76,7 @@ pub(crate) fn title(drive: &Drive, varied: &[Key]) -> Vec<String> {
 /// The friction law of a drive in words, with its parameters; what varies has no value.
 pub(crate) fn law_of(drive: &Drive, varied: &[Key]) -> String {
     let paths: Vec<_> = varied.iter().map(Key::path).collect();
-    law(drive.law, Some(drive.friction_coefficient), &paths)
+    law(drive.law, Some(drive.pair().friction_coefficient), &paths)
 }
 
 /// What the speed loss of a belt is called, and for V-belts the note that tells why.
@@ -92,10 +92,10 @@ pub(crate) fn speed_loss(belt: BeltKind) -> (&'static str, Option<String>) {
 }
 
 /// The word for a pulley in columns, JSON and CSV.
-pub(crate) fn pulley(pulley: Pulley) -> &'static str {
+pub(crate) fn pulley(pulley: Role) -> &'static str {
     match pulley {
-        Pulley::Driven => "driven",
-        Pulley::Driver => "driver",
+        Role::Driven => "driven",
+        Role::Driver => "driver",
     }
 }
 

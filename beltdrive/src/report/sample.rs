@@ -1,8 +1,8 @@
 //! Made-up but plausible states with exact plane geometry, for the tests of reports and figures.
 
 use crate::{
-    Belt, BeltKind, Check, Convergence, Drive, FrictionLaw, Load, Profile, Pulley, PulleyState,
-    SpanTension, SteadyState, VBelt, Warning, Zone, ZoneKind,
+    Belt, BeltKind, Check, Convergence, Drive, FrictionLaw, Load, Profile, PulleyState, Role,
+    SpanTension, SteadyState, TwoPulleys, VBelt, Warning, Zone, ZoneKind,
 };
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -35,7 +35,7 @@ pub(crate) fn overhanging() -> SteadyState {
     let mut state = state([100.0, 7000.0], 1.9);
     let inclination = state.driver.inclination[1];
     state.warnings.push(Warning::Overhang {
-        pulley: Pulley::Driver,
+        pulley: Role::Driver,
         inclination,
     });
     state
@@ -143,13 +143,15 @@ fn state([slack, tight]: [f64; 2], overhang: f64) -> SteadyState {
             seconds: 0.0123,
         },
         restart: None,
-        drive,
+        drive: Drive {
+            title: Some("Equal pulleys, \"made up\" <&>".to_owned()),
+            ..drive.into()
+        },
     }
 }
 
-fn drive(slack: f64, tight: f64) -> Drive {
-    Drive {
-        title: Some("Equal pulleys, \"made up\" <&>".to_owned()),
+fn drive(slack: f64, tight: f64) -> TwoPulleys {
+    TwoPulleys {
         belt: Belt {
             ribs: 1,
             mass_per_length: 0.108,
@@ -174,7 +176,7 @@ fn drive(slack: f64, tight: f64) -> Drive {
 }
 
 /// Radial stiffness of the belt in its groove, N/m².
-fn stiffness(drive: &Drive) -> f64 {
+fn stiffness(drive: &TwoPulleys) -> f64 {
     let belt = drive.belt.v();
     belt.radial_stiffness * belt.half_angle.tan()
 }
@@ -191,7 +193,13 @@ fn span(exit: f64, entry: f64) -> (f64, f64) {
 }
 
 /// Tractive tension from one end value to the other, penetration with boundary layers of a rate.
-fn profile(drive: &Drive, wrap: f64, [from, to]: [f64; 2], rate: f64, overhang: f64) -> Profile {
+fn profile(
+    drive: &TwoPulleys,
+    wrap: f64,
+    [from, to]: [f64; 2],
+    rate: f64,
+    overhang: f64,
+) -> Profile {
     let mut profile = Profile::default();
     let stiffness = stiffness(drive) * RADIUS;
     for point in 0..POINTS {

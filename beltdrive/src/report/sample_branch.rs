@@ -3,8 +3,8 @@
 use super::sample;
 use crate::input::Key;
 use crate::{
-    Branch, BranchEnd, BranchEvent, EventKind, LimitCurve, LimitCurvePoint, LimitReason, Pulley,
-    PulleyErrors, StateErrors, StateSummary, TraceConvergence, TracePoint,
+    Branch, BranchEnd, BranchEvent, EventKind, LimitCurve, LimitCurvePoint, LimitReason,
+    PulleyErrors, Role, StateErrors, StateSummary, TraceConvergence, TracePoint,
 };
 
 /// Tight tension at the limit point, N, and where on the branch of arclength 1 it lies.
@@ -17,7 +17,7 @@ pub(crate) fn folded() -> Branch {
     let points: Vec<_> = (0..=60).map(|step| point(f64::from(step) / 60.0)).collect();
     let events = [
         (EventKind::Start, 0.0),
-        (EventKind::Overhang(Pulley::Driver), 0.72),
+        (EventKind::Overhang(Role::Driver), 0.72),
         (EventKind::LimitPoint, FOLD),
         (EventKind::End, 1.0),
     ];

@@ -3,10 +3,10 @@
 
 use crate::{
     Belt, BeltKind, Branch, BranchEnd, BranchEvent, Check, Convergence, Drive, Entry, EventKind,
-    FrictionLaw, LimitCurve, LimitReason, Load, NormalForce, Profile, Pulley, PulleyState,
-    SpanTension, StateSummary, SteadyState, TraceConvergence, TracePoint, Zone, ZoneKind,
+    FrictionLaw, LimitCurve, LimitReason, Load, NormalForce, Profile, PulleyState, Role,
+    SpanTension, StateSummary, SteadyState, TraceConvergence, TracePoint, TwoPulleys, Zone,
+    ZoneKind, input::Key, report::sample_branch,
 };
-use crate::{input::Key, report::sample_branch};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const DRIVER_RADIUS: f64 = 0.1;
@@ -44,13 +44,13 @@ pub(crate) fn creep() -> SteadyState {
 pub(crate) fn branch() -> Branch {
     let drive = epp().drive;
     let appears = EventKind::ZoneAppears {
-        pulley: Pulley::Driven,
+        pulley: Role::Driven,
         kind: ZoneKind::Slip,
     };
     let events = [
         (EventKind::Start, 0.0),
         (appears, 0.02),
-        (EventKind::GrossSlip(Pulley::Driver), 1.0),
+        (EventKind::GrossSlip(Role::Driver), 1.0),
     ];
     Branch {
         key: Key::load(&drive),
@@ -65,7 +65,7 @@ pub(crate) fn branch() -> Branch {
                 errors: None,
             })
             .collect(),
-        end: BranchEnd::GrossSlip(Pulley::Driver),
+        end: BranchEnd::GrossSlip(Role::Driver),
         convergence: TraceConvergence {
             tolerance: 1e-6,
             continuation_steps: 41,
@@ -80,8 +80,8 @@ pub(crate) fn curve() -> LimitCurve {
     let mut curve = sample_branch::curve();
     for (share, limit) in (0..).zip(&mut curve.points) {
         limit.reason = LimitReason::Capstan(match limit.reason {
-            LimitReason::DriverSlips => Pulley::Driver,
-            _ => Pulley::Driven,
+            LimitReason::DriverSlips => Role::Driver,
+            _ => Role::Driven,
         });
         limit.state = point(f64::from(share) / 40.0).state;
     }
@@ -129,7 +129,10 @@ fn state(law: FrictionLaw, tight: f64) -> SteadyState {
         limit: 1e-9,
     };
     SteadyState {
-        drive: drive(law, tight),
+        drive: Drive {
+            title: Some("Flat belt, \"made up\" <&>".to_owned()),
+            ..drive(law, tight).into()
+        },
         mass_flow: MASS * rim,
         belt_length: 2.0 * span + driver.wrap * driver.radius + driven.wrap * driven.radius,
         slack_span: span,
@@ -158,9 +161,8 @@ fn state(law: FrictionLaw, tight: f64) -> SteadyState {
     }
 }
 
-fn drive(law: FrictionLaw, tight: f64) -> Drive {
-    Drive {
-        title: Some("Flat belt, \"made up\" <&>".to_owned()),
+fn drive(law: FrictionLaw, tight: f64) -> TwoPulleys {
+    TwoPulleys {
         belt: Belt {
             ribs: 1,
             mass_per_length: MASS,

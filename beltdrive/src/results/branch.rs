@@ -1,7 +1,7 @@
 //! A branch of steady states over one entry of the drive file.
 
 use crate::input::Key;
-use crate::{Drive, LimitReason, Pulley, StateErrors, StateSummary, ZoneKind};
+use crate::{Drive, LimitReason, Role, StateErrors, StateSummary, ZoneKind};
 use std::fmt;
 
 /// The steady states that belong together over one entry of the drive file, the parameter.
@@ -56,25 +56,25 @@ pub enum EventKind {
     /// A branch point: another branch crosses this one.
     BranchPoint,
     /// The inclination reaches 90° on a pulley.
-    Overhang(Pulley),
+    Overhang(Role),
     /// The pulley slips grossly; the driven pulley then stands still.
-    GrossSlip(Pulley),
+    GrossSlip(Role),
     /// A friction zone appears on a pulley.
     ZoneAppears {
         /// Where.
-        pulley: Pulley,
+        pulley: Role,
         /// The kind of the zone.
         kind: ZoneKind,
     },
     /// A friction zone vanishes from a pulley.
     ZoneVanishes {
         /// Where.
-        pulley: Pulley,
+        pulley: Role,
         /// The kind of the zone.
         kind: ZoneKind,
     },
     /// The belt sinks into the groove of a pulley by its whole height.
-    BeltHeight(Pulley),
+    BeltHeight(Role),
     /// The branch ends.
     End,
 }
@@ -89,7 +89,7 @@ pub enum BranchEnd {
     /// branch starts.
     Returned,
     /// The pulley slips grossly.
-    GrossSlip(Pulley),
+    GrossSlip(Role),
     /// Both spans have the same tension: the drive transmits no torque.
     NoLoad,
     /// The belt is too slack for its speed and lifts off the pulleys.

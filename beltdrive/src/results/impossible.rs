@@ -1,6 +1,6 @@
 //! Why a state that solves the equations is that of no drive.
 
-use crate::Pulley;
+use crate::Role;
 use crate::quantity::precision::six_digits;
 
 /// Why a state that solves the equations is that of no drive.
@@ -28,7 +28,7 @@ pub enum Impossible {
         /// Whether it is the tractive tension F that is negative, or also the belt tension T.
         tractive: bool,
         /// The pulley.
-        pulley: Pulley,
+        pulley: Role,
         /// Angle from the entry, rad.
         angle: f64,
         /// The tension, N.
@@ -42,7 +42,7 @@ pub enum Impossible {
     )]
     Pulls {
         /// The pulley.
-        pulley: Pulley,
+        pulley: Role,
         /// Angle from the entry, rad.
         angle: f64,
         /// Normal force per length there, N/m; negative.
@@ -57,7 +57,7 @@ pub enum Impossible {
     )]
     ExcessFriction {
         /// The pulley.
-        pulley: Pulley,
+        pulley: Role,
         /// Angle from the entry, rad.
         angle: f64,
         /// Friction force per length there, N/m.

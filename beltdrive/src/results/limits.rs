@@ -2,7 +2,7 @@
 
 use super::v_warnings;
 use crate::input::Key;
-use crate::{BeltKind, Branch, Drive, Pulley, StateErrors, StateSummary, Warning};
+use crate::{BeltKind, Branch, Drive, Role, StateErrors, StateSummary, Warning};
 use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 
@@ -78,7 +78,7 @@ pub enum LimitReason {
     DriverSlips,
     /// Friction is exhausted over the whole arc of contact of the pulley of a flat belt: the ratio of
     /// the tensions has reached its capstan limit.
-    Capstan(Pulley),
+    Capstan(Role),
     /// The belt is too slack for its speed and lifts off the pulleys (flat belts).
     LiftsOff,
     /// The belt overhangs at the exit of the driver: a limit point beyond 90° of inclination.
@@ -101,8 +101,8 @@ impl fmt::Display for LimitReason {
         f.write_str(match self {
             Self::DrivenSlips => "the driven pulley slips grossly and stops",
             Self::DriverSlips => "the driver slips grossly",
-            Self::Capstan(Pulley::Driven) => "the belt slips grossly on the driven pulley",
-            Self::Capstan(Pulley::Driver) => "the belt slips grossly on the driver",
+            Self::Capstan(Role::Driven) => "the belt slips grossly on the driven pulley",
+            Self::Capstan(Role::Driver) => "the belt slips grossly on the driver",
             Self::LiftsOff => "the belt is too slack for its speed and lifts off the pulleys",
             Self::Overhang => "the belt overhangs at the exit of the driver",
         })

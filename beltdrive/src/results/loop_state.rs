@@ -1,11 +1,10 @@
 //! The steady state of a belt loop, as it is answered.
 
 use super::warning::{Warning, beyond_model, large_strain, overhangs};
-use crate::drive::belt_loop::BeltLoop;
 use crate::drive::layout::Layout;
 use crate::friction::rim::contact::Contact;
 use crate::friction::rim::profile::profile;
-use crate::{Belt, Check, Profile, Zone};
+use crate::{Belt, Check, Drive, Profile, Zone};
 
 /// The steady state of a belt loop; lists are in belt order.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,15 +86,15 @@ pub struct LoopConvergence {
 
 impl LoopState {
     /// Remarks on the validity of this state of a loop, with the names of its pulleys.
-    pub fn warnings(&self, belt_loop: &BeltLoop) -> Vec<Warning<String>> {
-        let belt = &belt_loop.belt;
+    pub fn warnings(&self, drive: &Drive) -> Vec<Warning<String>> {
+        let belt = &drive.belt;
         let tensions = self.spans.iter().map(|span| span.tension);
         let largest = tensions.fold(0.0, f64::max);
         let name = |pulley: &PulleyState| pulley.name.clone();
         match &self.contacts {
             Contacts::Flat { contacts, .. } => {
                 let against_rims = contacts.iter().map(|contact| contact.strain);
-                Vec::from_iter(large_strain(belt, belt_loop.law, largest, against_rims))
+                Vec::from_iter(large_strain(belt, drive.law, largest, against_rims))
             }
             Contacts::V(profiles) => {
                 let pulleys = self.pulleys.iter();

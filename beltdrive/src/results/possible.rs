@@ -1,6 +1,6 @@
 //! What holds of every state that is shown, examined on the numbers that are shown.
 
-use crate::{BeltKind, Check, Impossible, Profile, Pulley, PulleyState, SteadyState};
+use crate::{BeltKind, Check, Impossible, Profile, PulleyState, Role, SteadyState};
 
 /// Share of the accuracy that a pressure may be negative by, relative to the largest one. At the ends of the
 /// contact it is zero, as accurately as Newton's method meets a condition: a thousandth of the tolerance on a
@@ -97,7 +97,7 @@ fn pressure(state: &SteadyState, accuracy: f64) -> (Check, Impossible) {
 
 /// |f| ≤ μ p.
 fn friction(state: &SteadyState, accuracy: f64) -> (Check, Impossible) {
-    let mu = state.drive.friction_coefficient;
+    let mu = state.drive.pair().friction_coefficient;
     let excess = |profile: &Profile, point: usize| {
         profile.friction_force[point].abs() - mu * profile.normal_force[point]
     };
@@ -211,7 +211,7 @@ fn lengths(state: &SteadyState) -> (Check, Impossible) {
 /// A point of a profile.
 #[derive(Clone, Copy)]
 struct Place {
-    pulley: Pulley,
+    pulley: Role,
     angle: f64,
     friction: f64,
     pressure: f64,
@@ -222,16 +222,13 @@ struct Place {
 /// The point of both profiles where a measure is largest, or not a number.
 fn worst(state: &SteadyState, measure: impl Fn(&Profile, usize) -> f64) -> Place {
     let mut worst = Place {
-        pulley: Pulley::Driven,
+        pulley: Role::Driven,
         angle: 0.0,
         friction: 0.0,
         pressure: 0.0,
         value: f64::NEG_INFINITY,
     };
-    let pulleys = [
-        (Pulley::Driven, &state.driven),
-        (Pulley::Driver, &state.driver),
-    ];
+    let pulleys = [(Role::Driven, &state.driven), (Role::Driver, &state.driver)];
     for (pulley, PulleyState { profile, .. }) in pulleys {
         for point in 0..profile.angle.len() {
             let value = measure(profile, point);

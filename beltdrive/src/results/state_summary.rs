@@ -100,8 +100,8 @@ impl StateErrors {
         };
         Self {
             efficiency: relative,
-            driver: pulley(&state.driver, drive.driver_radius),
-            driven: pulley(&state.driven, drive.driven_radius),
+            driver: pulley(&state.driver, drive.pair().driver_radius),
+            driven: pulley(&state.driven, drive.pair().driven_radius),
         }
     }
 }
@@ -123,8 +123,8 @@ impl PulleySummary {
 impl From<&SteadyState> for StateSummary {
     fn from(state: &SteadyState) -> Self {
         let speed_at_pitch = |pulley: &PulleyState, radius| pulley.angular_speed * radius;
-        let driver = speed_at_pitch(&state.driver, state.drive.driver_radius);
-        let driven = speed_at_pitch(&state.driven, state.drive.driven_radius);
+        let driver = speed_at_pitch(&state.driver, state.drive.pair().driver_radius);
+        let driven = speed_at_pitch(&state.driven, state.drive.pair().driven_radius);
         let convergence = &state.convergence;
         Self {
             mass_flow: state.mass_flow,

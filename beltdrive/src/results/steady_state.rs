@@ -196,17 +196,17 @@ pub struct Profile {
     pub friction_force: Vec<f64>,
 }
 
-/// One of the two pulleys of a drive.
+/// One of the two pulleys of a drive, by what it does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Pulley {
+pub enum Role {
     /// The pulley that is driven by the belt.
     Driven,
     /// The pulley that drives the belt.
     Driver,
 }
 
-impl Pulley {
+impl Role {
     /// The name of the pulley in outputs.
     pub fn name(self) -> &'static str {
         match self {

@@ -1,13 +1,13 @@
 //! What a user must know of a state of a drive with two pulleys and a V-belt that is none for practice.
 
 use super::warning::{Warning, beyond_model as beyond, overhangs};
-use crate::{Drive, Pulley, StateSummary, SteadyState};
+use crate::{Drive, Role, StateSummary, SteadyState};
 
 /// The remarks on a state.
 pub(crate) fn warnings(state: &SteadyState) -> Vec<Warning> {
     let pulleys = [
-        (Pulley::Driven, &state.driven.profile),
-        (Pulley::Driver, &state.driver.profile),
+        (Role::Driven, &state.driven.profile),
+        (Role::Driver, &state.driver.profile),
     ];
     let overhangs = overhangs(pulleys.into_iter());
     let beyond = beyond_model(&state.drive, &StateSummary::from(state));
@@ -18,8 +18,8 @@ pub(crate) fn warnings(state: &SteadyState) -> Vec<Warning> {
 /// stretched too far.
 pub(crate) fn beyond_model(drive: &Drive, state: &StateSummary) -> Vec<Warning> {
     let pulleys = [
-        (Pulley::Driven, state.driven.max_penetration),
-        (Pulley::Driver, state.driver.max_penetration),
+        (Role::Driven, state.driven.max_penetration),
+        (Role::Driver, state.driver.max_penetration),
     ];
     beyond(&drive.belt, state.tight_tension, pulleys.into_iter()).collect()
 }

@@ -1,6 +1,6 @@
 //! What a user must know of a state that the model is not for.
 
-use crate::{Belt, BeltKind, FrictionLaw, NormalForce, Profile, Pulley};
+use crate::{Belt, BeltKind, FrictionLaw, NormalForce, Profile, Role};
 use std::f64::consts::FRAC_PI_2;
 
 /// Strain from which the stiffness per length of a stretched V-belt and that of the unstretched one, which the
@@ -12,7 +12,7 @@ const LARGE_STRAIN: f64 = 0.02;
 
 /// A remark on the validity of a state: of a drive with two pulleys, or of a loop whose pulleys have names.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Warning<P = Pulley> {
+pub enum Warning<P = Role> {
     /// The inclination exceeds 90° on a pulley: the belt overhangs itself, which is a solution of
     /// the equations but not a design.
     Overhang {

@@ -104,7 +104,7 @@ impl<'d> Chart<'d> {
         self.second.set(&mut drive, value);
         let tight = Key::load(&drive);
         // A slack tension above the tight one of the file leaves no load: begin with a light one.
-        let least = 1.5 * drive.load.slack.value();
+        let least = 1.5 * drive.pair().load.slack.value();
         if self.key == tight && tight.get(&drive) < least {
             tight.set(&mut drive, least);
         }

@@ -17,7 +17,7 @@
 use super::belt_problem::{BeltProblem, Zoning, end_angles, in_groove};
 use super::groove::{ANGLE, TENSION};
 use super::{Contact, DRIVEN, DRIVER, Groove, Law, Layout, Regime, Scales, Units};
-use crate::{Drive, SpanTension};
+use crate::{SpanTension, TwoPulleys};
 use bvp::{Ends, Problem, Real, Segment, Solution};
 
 /// Index of the length of segment 0 among the parameters.
@@ -55,7 +55,7 @@ impl DriveProblem {
 
     /// The problem of `drive` in the units `scales`, with one segment on each pulley and the direction of Coulomb
     /// and EPP friction smoothed over the length ℓ/R `lag`. EPP friction is not blended.
-    pub(crate) fn new(drive: &Drive, scales: Scales, lag: f64) -> Self {
+    pub(crate) fn new(drive: &TwoPulleys, scales: Scales, lag: f64) -> Self {
         let (sin_beta, cos_beta) = drive.belt.v().half_angle.sin_cos();
         let units = scales.units;
         let slack = drive.load.slack.value() / units.force;

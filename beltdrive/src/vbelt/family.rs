@@ -133,7 +133,7 @@ impl DriveFamily {
 
     /// Its problem.
     pub(super) fn member(&self, values: &[f64]) -> DriveProblem {
-        let drive = self.drive(values);
+        let drive = self.drive(values).pair();
         let scales = Scales::with_force(&drive, self.force);
         DriveProblem::new(&drive, scales, self.smoothing)
             .with_direction(self.has_direction)

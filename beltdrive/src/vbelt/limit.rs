@@ -99,7 +99,7 @@ impl Path<'_> {
             // The effect of ℓ or ε belongs to the state.
             beyond_or_stuck => beyond_or_stuck.map(|solved| (solved, self.smoothing_effect)),
         };
-        let slack = self.drive.load.slack.value() / self.scales().units.force;
+        let slack = self.drive.pair().load.slack.value() / self.scales().units.force;
         let ratio = target / slack;
         let smaller = SMALLER_LOADS.map(|share| slack * ratio.powf(share));
         let larger = LARGER_LOADS.map(|factor| target * factor);

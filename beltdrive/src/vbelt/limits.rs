@@ -7,7 +7,7 @@ use super::tracer::{Tracer, Until};
 use crate::input::Key;
 use crate::results::possible;
 use crate::{
-    Branch, BranchEnd, BranchEvent, Drive, EventKind, Limit, LimitReason, Limits, RangeEnd,
+    Branch, BranchEnd, BranchEvent, Drive, EventKind, Limit, LimitReason, Limits, Load, RangeEnd,
     SolveError, SolveOptions, StateErrors, StateSummary, TracePoint,
 };
 use continuation::Direction;
@@ -48,7 +48,7 @@ pub(crate) fn limits(
     let largest = up.limit()?;
     let is_load = *key == Key::load(&drive);
     let bottom = if is_load && !matches!(drive.law, crate::FrictionLaw::Bristle { .. }) {
-        (LIGHT * drive.load.slack.value()).min(value)
+        (LIGHT * drive.pair().load.slack.value()).min(value)
     } else {
         low
     };
@@ -113,7 +113,7 @@ pub(super) fn first_state(
 ) -> Result<(Drive, Solved), SolveError> {
     let load = Key::load(drive);
     if *key == load {
-        let ratio = load.get(drive) / drive.load.slack.value();
+        let ratio = load.get(drive) / drive.pair().load.slack.value();
         let own = [ratio]
             .into_iter()
             .chain(EASIER.map(|share| ratio.powf(share)));
@@ -126,7 +126,7 @@ pub(super) fn first_state(
             .map(|has_direction| ratios.iter().map(move |&ratio| (has_direction, ratio)));
         for (has_direction, ratio) in searches.into_iter().flatten() {
             let mut first = drive.clone();
-            load.set(&mut first, drive.load.slack.value() * ratio);
+            load.set(&mut first, drive.pair().load.slack.value() * ratio);
             let mut path = Path::new(&first, tolerance);
             let found = match has_direction {
                 true => path.with_direction(),
@@ -226,7 +226,7 @@ impl Traced<'_> {
 fn no_load(drive: &Drive, key: &Key, tolerance: f64) -> Result<Limit, SolveError> {
     let idle = idle(drive, key);
     let mut path = Path::new(&idle, tolerance);
-    let scaled = idle.load.tight.value() / path.scales().units.force;
+    let scaled = idle.pair().load.tight.value() / path.scales().units.force;
     let solved = match path.at_no_load(scaled) {
         Ok(solved) => solved,
         // Stuck on the way to a smaller ε.
@@ -244,7 +244,7 @@ fn no_load(drive: &Drive, key: &Key, tolerance: f64) -> Result<Limit, SolveError
     let estimate = solved.solution.error_estimate();
     let relative = estimate.map(|estimate| estimate.max(path.smoothing_effect));
     let (value, value_error) = match is_crossed(drive) {
-        false => (idle.load.tight.value(), Some(0.0)),
+        false => (idle.pair().load.tight.value(), Some(0.0)),
         true => {
             let value = match key.path().contains("tractive") {
                 true => state.tight_tractive_tension,
@@ -273,18 +273,21 @@ fn is_slack(key: &Key) -> bool {
 
 /// The drive with the tension of one span replaced by that of the other.
 fn idle(drive: &Drive, key: &Key) -> Drive {
-    let mut idle = drive.clone();
-    match is_slack(key) {
-        true => idle.load.slack = idle.load.tight,
-        false => idle.load.tight = idle.load.slack,
-    }
-    idle
+    let Load { slack, tight } = drive.pair().load;
+    let tension = match is_slack(key) {
+        true => tight,
+        false => slack,
+    };
+    drive.with_load(Load {
+        slack: tension,
+        tight: tension,
+    })
 }
 
 /// The value of a span tension at which both spans have the same: a bound of its values.
 fn equal(drive: &Drive, key: &Key, tolerance: f64) -> Result<f64, SolveError> {
     match is_crossed(drive) {
-        false => Ok(idle(drive, key).load.tight.value()),
+        false => Ok(idle(drive, key).pair().load.tight.value()),
         true => no_load(drive, key, tolerance).map(|limit| limit.value),
     }
 }
@@ -294,7 +297,7 @@ fn equal(drive: &Drive, key: &Key, tolerance: f64) -> Result<f64, SolveError> {
 /// # Errors
 /// The state without load, at which a tension ends, was not found.
 pub(super) fn domain(drive: &Drive, key: &Key, tolerance: f64) -> Result<[f64; 2], SolveError> {
-    let value = key.get(drive);
+    let (value, pair) = (key.get(drive), drive.pair());
     let [mut low, mut high] = [SMALLEST_SHARE * value, f64::INFINITY];
     match key.path() {
         "load.tight_tractive_tension" | "load.tight_tension" => {
@@ -304,9 +307,9 @@ pub(super) fn domain(drive: &Drive, key: &Key, tolerance: f64) -> Result<[f64; 2
             high = equal(drive, key, tolerance)?;
         }
         "groove.half_angle" => high = 0.49 * PI,
-        "layout.centre_distance" => low = 1.001 * (drive.driver_radius + drive.driven_radius),
-        "pulleys.driver.radius" => high = 0.999 * drive.centre_distance - drive.driven_radius,
-        "pulleys.driven.radius" => high = 0.999 * drive.centre_distance - drive.driver_radius,
+        "layout.centre_distance" => low = 1.001 * (pair.driver_radius + pair.driven_radius),
+        "pulleys.driver.radius" => high = 0.999 * pair.centre_distance - pair.driven_radius,
+        "pulleys.driven.radius" => high = 0.999 * pair.centre_distance - pair.driver_radius,
         _ => {}
     }
     Ok([low, high])

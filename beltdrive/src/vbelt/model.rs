@@ -1,6 +1,6 @@
 //! What is asked of V-belts.
 
-use crate::belt_loop::{BeltLoop, LoopError, LoopState};
+use crate::belt_loop::{LoopError, LoopState};
 use crate::input::Key;
 use crate::model::{Model, Progress};
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
@@ -65,19 +65,15 @@ impl Model for VBelts {
         Err(SolveError::NotModelled(reason.into()))
     }
 
-    fn solve_loop(
-        &self,
-        belt_loop: &BeltLoop,
-        options: &SolveOptions,
-    ) -> Result<LoopState, LoopError> {
-        super::belt_loop::solve(belt_loop, options.tolerance)
+    fn solve_loop(&self, drive: &Drive, options: &SolveOptions) -> Result<LoopState, LoopError> {
+        super::belt_loop::solve(drive, options.tolerance)
     }
 
     fn solve_with_margins(
         &self,
-        belt_loop: &BeltLoop,
+        drive: &Drive,
         options: &SolveOptions,
     ) -> Result<LoopState, LoopError> {
-        super::belt_loop::solve_with_margins(belt_loop, options.tolerance)
+        super::belt_loop::solve_with_margins(drive, options.tolerance)
     }
 }

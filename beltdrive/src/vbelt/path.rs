@@ -159,8 +159,8 @@ fn intervals(guess: &dyn bvp::Guess) -> usize {
 }
 
 /// The search for one steady state of a drive or a loop, and what it has cost so far.
-pub(super) struct Path<'a, D = Drive> {
-    pub(super) drive: &'a D,
+pub(super) struct Path<'a> {
+    pub(super) drive: &'a Drive,
     pub(super) tolerance: f64,
     /// Cost of all problems solved or tried.
     pub(super) stats: Stats,
@@ -170,8 +170,8 @@ pub(super) struct Path<'a, D = Drive> {
     pub(super) smoothing_effect: f64,
 }
 
-impl<'a, D> Path<'a, D> {
-    pub(super) fn new(drive: &'a D, tolerance: f64) -> Self {
+impl<'a> Path<'a> {
+    pub(super) fn new(drive: &'a Drive, tolerance: f64) -> Self {
         Self {
             drive,
             tolerance,

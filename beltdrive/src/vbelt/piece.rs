@@ -11,7 +11,7 @@ use super::watched::FIRST_ZONE;
 use super::zones::Cut;
 use super::{BeltProblem, DriveProblem, Law};
 use crate::results::difficulty;
-use crate::{BranchEnd, Drive, EventKind, Pulley};
+use crate::{BranchEnd, Drive, EventKind, Role};
 use bvp::{Control, Family, Scheme};
 use continuation::{Branch, Direction, Kind, Options, Point};
 
@@ -226,7 +226,7 @@ impl Tracer<'_> {
         let state = describe(&Path::new(&drive, self.tolerance), here);
         let kind = self.kind(point, here);
         // Beyond a state at which the driven pulley stands there are no drive states.
-        if here.driven_speed() < 0.0 && kind != Some(EventKind::GrossSlip(Pulley::Driven)) {
+        if here.driven_speed() < 0.0 && kind != Some(EventKind::GrossSlip(Role::Driven)) {
             return None;
         }
         // A step may have passed the place where a zone appears: its state is none, but a guess.

@@ -1,6 +1,6 @@
 //! The units in which the equations of a drive are pure numbers of order one.
 
-use crate::{Belt, Drive};
+use crate::{Belt, TwoPulleys};
 use bvp::Real;
 
 /// The units of a drive or a loop. A scaled quantity times its unit is the quantity in SI.
@@ -96,13 +96,13 @@ pub(crate) struct Scales {
 
 impl Scales {
     /// Units by the largest prescribed tension: tensions are then of order one at every load.
-    pub(crate) fn new(drive: &Drive) -> Self {
+    pub(crate) fn new(drive: &TwoPulleys) -> Self {
         let force = drive.load.tight.value().max(drive.load.slack.value());
         Self::with_force(drive, force)
     }
 
     /// Units with a given reference force in N, to compare states of different loads.
-    pub(crate) fn with_force(drive: &Drive, force: f64) -> Self {
+    pub(crate) fn with_force(drive: &TwoPulleys, force: f64) -> Self {
         let speed = drive.driver_speed * drive.driver_radius;
         Self {
             units: Units::new(&drive.belt, speed, force),
@@ -162,9 +162,8 @@ pub(super) mod tests {
     use crate::{BeltKind, FrictionLaw, Load, SpanTension, VBelt};
 
     /// The drive of Kim (2009), table 3, with unequal radii if asked for.
-    pub(in crate::vbelt) fn kim(law: FrictionLaw, driven_radius: f64) -> Drive {
-        Drive {
-            title: None,
+    pub(in crate::vbelt) fn kim(law: FrictionLaw, driven_radius: f64) -> TwoPulleys {
+        TwoPulleys {
             belt: Belt {
                 ribs: 1,
                 mass_per_length: 0.108,

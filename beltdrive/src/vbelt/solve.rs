@@ -4,7 +4,7 @@ use super::limit::Found;
 use super::path::{Path, Solved, Stuck};
 use super::state::{describe, steady_state};
 use crate::results::possible;
-use crate::{Drive, SolveError, SolveOptions, SpanTension, SteadyState};
+use crate::{Drive, Load, SolveError, SolveOptions, SpanTension, SteadyState};
 use std::mem::discriminant;
 use web_time::Instant;
 
@@ -77,12 +77,13 @@ pub(super) fn forwards(drive: &Drive, state: &SteadyState) -> Result<(), SolveEr
 
 /// Whether the tension of one span is stated as tractive and that of the other as belt tension.
 pub(super) fn is_crossed(drive: &Drive) -> bool {
-    discriminant(&drive.load.slack) != discriminant(&drive.load.tight)
+    let Load { slack, tight } = drive.pair().load;
+    discriminant(&slack) != discriminant(&tight)
 }
 
 /// The state found, or the reason why the load is not carried or not reached.
 pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<Solved, SolveError> {
-    let (drive, scales) = (path.drive, path.scales());
+    let (load, scales) = (path.drive.pair().load, path.scales());
     let found = found.map_err(|Stuck { last, cause }| SolveError::NotConverged {
         tight: last.map(|last| last.tight_tension() * scales.units.force),
         cause: Box::new(cause),
@@ -95,11 +96,11 @@ pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<So
                 return Err(SolveError::Impossible(fault));
             }
             Err(SolveError::NoSteadyState {
-                quantity: match drive.load.tight {
+                quantity: match load.tight {
                     SpanTension::Tractive(_) => "tight tractive tension",
                     _ => "tight tension",
                 },
-                asked: drive.load.tight.value(),
+                asked: load.tight.value(),
                 limit: state.tight_tension() * scales.units.force,
                 reason: limit.reason,
                 driven_speed: state.driven_speed()

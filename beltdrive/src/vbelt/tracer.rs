@@ -87,8 +87,10 @@ impl<'d> Tracer<'d> {
             near: None,
             no_load: match key {
                 _ if is_crossed(drive) => None,
-                key if key == Key::load(drive) => Some(drive.load.slack.value()),
-                key if key.path().starts_with("load.slack") => Some(drive.load.tight.value()),
+                key if key == Key::load(drive) => Some(drive.pair().load.slack.value()),
+                key if key.path().starts_with("load.slack") => {
+                    Some(drive.pair().load.tight.value())
+                }
                 _ => None,
             },
         }

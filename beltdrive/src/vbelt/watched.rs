@@ -4,7 +4,7 @@ use super::curve::Curve;
 use super::path::Solved;
 use super::tracer::Tracer;
 use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, INCLINATION, PENETRATION, Regime};
-use crate::{EventKind, Pulley, ZoneKind};
+use crate::{EventKind, Role, ZoneKind};
 use continuation::{Branch, Kind, Point, System};
 use std::f64::consts::FRAC_PI_2;
 
@@ -66,12 +66,12 @@ impl Tracer<'_> {
 
     /// What happens at a point.
     pub(super) fn kind(&self, point: &Point, here: &Solved) -> Option<EventKind> {
-        let pulleys = [Pulley::Driven, Pulley::Driver];
+        let pulleys = [Role::Driven, Role::Driver];
         match point.kind {
             Kind::Start if self.points.is_empty() => Some(EventKind::Start),
             Kind::LimitPoint => Some(EventKind::LimitPoint),
             Kind::BranchPoint => Some(EventKind::BranchPoint),
-            Kind::Event(DRIVEN_STOPS) => Some(EventKind::GrossSlip(Pulley::Driven)),
+            Kind::Event(DRIVEN_STOPS) => Some(EventKind::GrossSlip(Role::Driven)),
             Kind::Event(index) if OVERHANG.contains(&index) => {
                 Some(EventKind::Overhang(pulleys[index - OVERHANG[0]]))
             }

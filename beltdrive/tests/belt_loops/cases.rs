@@ -1,11 +1,11 @@
 //! Loops that were solved with 40 digits, and once more by integrating along every contact.
 
 use super::invariants::{close, hold};
-use beltdrive::belt_loop::{
-    BeltLoop, Closure, Duty, Guide, LoadedState, LoopError, LoopPulley, Mount, Sense, Side,
-    Tensioner, TensionerLoad, solve,
+use beltdrive::belt_loop::{LoadedState, LoopError, solve};
+use beltdrive::{
+    Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, NormalForce, Pulley, Sense,
+    Side, Tensioner, TensionerLoad,
 };
-use beltdrive::{Belt, BeltKind, FrictionLaw, NormalForce};
 use serde_json::Value;
 
 /// Relative bound of all quantities, and absolute bound of speed losses.
@@ -13,12 +13,12 @@ const WITHIN: f64 = 1e-12;
 const SPEED_LOSS: f64 = 1e-15;
 
 /// The cases: name, loop, and what is known of it.
-pub(crate) fn read() -> Vec<(String, BeltLoop, Value)> {
+pub(crate) fn read() -> Vec<(String, Drive, Value)> {
     let all: Value = serde_json::from_str(include_str!("cases.json")).unwrap();
     let cases = all["cases"].as_array().unwrap();
     let case = |case: &Value| {
         let name = case["id"].as_str().unwrap().to_owned();
-        (name, belt_loop(&case["input"]), case.clone())
+        (name, drive(&case["input"]), case.clone())
     };
     cases.iter().map(case).collect()
 }
@@ -33,8 +33,8 @@ fn numbers<const N: usize>(value: &Value) -> [f64; N] {
     std::array::from_fn(|index| number(&value[index]))
 }
 
-fn belt_loop(input: &Value) -> BeltLoop {
-    let pulley = |pulley: &Value| LoopPulley {
+fn drive(input: &Value) -> Drive {
+    let pulley = |pulley: &Value| Pulley {
         name: pulley["name"].as_str().unwrap().to_owned(),
         mount: match pulley.get("x_m") {
             Some(x) => Mount::Fixed([number(x), number(&pulley["y_m"])]),
@@ -53,7 +53,7 @@ fn belt_loop(input: &Value) -> BeltLoop {
         },
     };
     let closure = &input["closure"];
-    BeltLoop {
+    Drive {
         title: None,
         belt: Belt {
             ribs: 1,
@@ -120,13 +120,13 @@ fn compare(name: &str, known: &Value, found: &[(&str, f64)]) {
 #[test]
 fn solved_loops_have_every_number() {
     let mut count = 0;
-    for (name, belt_loop, case) in read() {
+    for (name, drive, case) in read() {
         let Some(known) = case.get("result") else {
             continue;
         };
         count += 1;
-        let state = solve(&belt_loop).unwrap_or_else(|error| panic!("{name}: {error}"));
-        hold(&belt_loop, &state);
+        let state = solve(&drive).unwrap_or_else(|error| panic!("{name}: {error}"));
+        hold(&drive, &state);
         let limit = state.load_limit.as_ref().unwrap();
         compare(
             &name,
@@ -232,10 +232,10 @@ fn a_refused_loop_has_every_margin() {
         .into_iter()
         .filter(|(_, _, case)| case.get("refusal").is_some());
     let mut count = 0;
-    for (name, belt_loop, case) in refused {
+    for (name, drive, case) in refused {
         count += 1;
         let known = &case["refusal"];
-        let error = solve(&belt_loop).expect_err(&name);
+        let error = solve(&drive).expect_err(&name);
         let LoopError::GrossSlip {
             pulley,
             load_factor,

@@ -1,7 +1,9 @@
 //! What holds in every steady state of a belt loop.
 
-use beltdrive::belt_loop::{BeltLoop, Closure, Duty, Guide, LoopState, Mount, TensionerLoad};
-use beltdrive::{BeltKind, FrictionLaw, NormalForce};
+use beltdrive::belt_loop::LoopState;
+use beltdrive::{
+    BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, NormalForce, TensionerLoad,
+};
 use std::f64::consts::TAU;
 
 /// Whether two numbers agree, relative.
@@ -17,9 +19,9 @@ pub(crate) fn close(what: &str, found: f64, expected: f64, within: f64) {
 
 /// Balances of torques, forces and powers, the closing of the polygon, the length of the belt and the
 /// equilibrium of the tensioner.
-pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
+pub(crate) fn hold(drive: &Drive, state: &LoopState) {
     let count = state.spans.len();
-    let belt = belt_loop.belt;
+    let belt = drive.belt;
     let axial = belt.axial_stiffness;
     let largest = state
         .spans
@@ -28,8 +30,8 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
         .fold(0.0, f64::max);
     let small = 1e-11 * largest;
     let flow = state.mass_flow;
-    let is_thesis = normal_force(belt_loop) == NormalForce::Thesis;
-    let traction = |index: usize| traction(belt_loop, state, index);
+    let is_thesis = normal_force(drive) == NormalForce::Thesis;
+    let traction = |index: usize| traction(drive, state, index);
     close("L", state.layout.length(), state.length, 1e-15);
     close(
         "rest",
@@ -45,7 +47,7 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
     for index in 0..count {
         let (span, pulley) = (&state.spans[index], &state.pulleys[index]);
         let behind = &state.spans[(index + count - 1) % count];
-        let stated = &belt_loop.pulleys[index];
+        let stated = &drive.pulleys[index];
         // Torque, and the belt on the way.
         let change = match is_thesis {
             true => traction(index) - traction((index + count - 1) % count),
@@ -92,18 +94,18 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
             *sum = [sum[0] + load[0], sum[1] + load[1]];
         }
         let side = match stated.side {
-            beltdrive::belt_loop::Side::Inside => 1.0,
-            beltdrive::belt_loop::Side::Outside => -1.0,
+            beltdrive::Side::Inside => 1.0,
+            beltdrive::Side::Outside => -1.0,
         };
         turned += side * pulley.wrap;
-        let on_pulley = unstretched_on(belt_loop, state, index);
+        let on_pulley = unstretched_on(drive, state, index);
         let on_span = span.length / (1.0 + span.tension / axial);
         unstretched = unstretched
             .zip(on_pulley)
             .map(|(sum, arc)| sum + arc + on_span);
     }
     // With the friction force as the slope of the tension on every interval, and as fine as that allows.
-    let on_pulleys = (0..count).map(|index| by_profile(belt_loop, state, index));
+    let on_pulleys = (0..count).map(|index| by_profile(drive, state, index));
     let on_spans = state
         .spans
         .iter()
@@ -121,7 +123,7 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
     );
     let resting = 1e-12 * state.rest_tension * count as f64;
     assert!(hub[1].iter().all(|part| part.abs() < resting), "{hub:?}");
-    assert!((turned - TAU * f64::from(belt_loop.turning_number)).abs() < 1e-12);
+    assert!((turned - TAU * f64::from(drive.turning_number)).abs() < 1e-12);
     if let Some(unstretched) = unstretched {
         close("L_0", unstretched, state.unstretched_length, 2e-12);
     }
@@ -141,7 +143,7 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
         1e-11 * (1.0 + state.power_in),
     );
 
-    match belt_loop.closure {
+    match drive.closure {
         Closure::SetupTension(tension) => close("T_s", state.rest_tension, tension, 1e-10),
         Closure::UnstretchedLength(length) => close("L_0", state.unstretched_length, length, 1e-14),
         Closure::SpanTension { span, tension } => {
@@ -157,8 +159,9 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
                 .map(|tensioner| tensioner.rest_coordinate);
             assert_eq!(found, Some(coordinate));
         }
+        Closure::BothSpans(_) => unreachable!("no loop is closed by two tensions"),
     }
-    for (index, pulley) in belt_loop.pulleys.iter().enumerate() {
+    for (index, pulley) in drive.pulleys.iter().enumerate() {
         let Mount::Tensioner(tensioner) = pulley.mount else {
             continue;
         };
@@ -167,7 +170,7 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
             // The derivative of the centre by differences of the layout.
             let step = 1e-6;
             let centre = |coordinate| {
-                belt_loop
+                drive
                     .layout(coordinate)
                     .map(|layout| layout.pulleys()[index].centre)
             };
@@ -201,37 +204,36 @@ pub(crate) fn hold(belt_loop: &BeltLoop, state: &LoopState) {
     }
 }
 
-fn normal_force(belt_loop: &BeltLoop) -> NormalForce {
-    match belt_loop.belt.kind {
+fn normal_force(drive: &Drive) -> NormalForce {
+    match drive.belt.kind {
         BeltKind::Flat { normal_force } => normal_force,
         BeltKind::V(_) => panic!("a flat belt"),
     }
 }
 
 /// The traction of a span with the convention `thesis`, N.
-fn traction(belt_loop: &BeltLoop, state: &LoopState, index: usize) -> f64 {
-    state.spans[index].tension * dynamic_stiffness(belt_loop, state)
-        / belt_loop.belt.axial_stiffness
+fn traction(drive: &Drive, state: &LoopState, index: usize) -> f64 {
+    state.spans[index].tension * dynamic_stiffness(drive, state) / drive.belt.axial_stiffness
 }
 
 /// D = EA − m v², N.
-fn dynamic_stiffness(belt_loop: &BeltLoop, state: &LoopState) -> f64 {
+fn dynamic_stiffness(drive: &Drive, state: &LoopState) -> f64 {
     let speeds = state.spans.iter().map(|span| span.speed);
-    let speed = match normal_force(belt_loop) {
+    let speed = match normal_force(drive) {
         NormalForce::Thesis => speeds.fold(f64::INFINITY, f64::min),
         NormalForce::Inertia | NormalForce::Exact => state.unstretched_speed,
     };
-    let belt = belt_loop.belt;
+    let belt = drive.belt;
     belt.axial_stiffness - belt.mass_per_length * speed * speed
 }
 
 /// Unstretched length of the belt on a pulley from its profile, m, by the trapezoidal rule with end
 /// corrections: the slope of the tension is EA f/D.
-fn by_profile(belt_loop: &BeltLoop, state: &LoopState, index: usize) -> f64 {
+fn by_profile(drive: &Drive, state: &LoopState, index: usize) -> f64 {
     let profile = state.profile(index);
-    let stiffness = dynamic_stiffness(belt_loop, state);
+    let stiffness = dynamic_stiffness(drive, state);
     let sense = state.pulleys[index].torque.signum();
-    let stretch = |point: usize| 1.0 + profile.tension[point] / belt_loop.belt.axial_stiffness;
+    let stretch = |point: usize| 1.0 + profile.tension[point] / drive.belt.axial_stiffness;
     let slope = |point: usize| {
         -sense * profile.friction_force[point] / (stiffness * stretch(point).powi(2))
     };
@@ -246,15 +248,15 @@ fn by_profile(belt_loop: &BeltLoop, state: &LoopState, index: usize) -> f64 {
 /// Unstretched length of the belt on a pulley by its closed form, m: adhesion or elastic friction, then
 /// slip. `None` for other friction and other conventions than `inertia`, where soft bristles let the belt
 /// stick again after it has slipped, and where the strain at the entry is below the smallest number.
-fn unstretched_on(belt_loop: &BeltLoop, state: &LoopState, index: usize) -> Option<f64> {
-    let is_inertia = normal_force(belt_loop) == NormalForce::Inertia;
-    if !is_inertia || matches!(belt_loop.law, FrictionLaw::CreepRate { .. }) {
+fn unstretched_on(drive: &Drive, state: &LoopState, index: usize) -> Option<f64> {
+    let is_inertia = normal_force(drive) == NormalForce::Inertia;
+    if !is_inertia || matches!(drive.law, FrictionLaw::CreepRate { .. }) {
         return None;
     }
     let count = state.spans.len();
-    let (stated, pulley) = (&belt_loop.pulleys[index], &state.pulleys[index]);
-    let axial = belt_loop.belt.axial_stiffness;
-    let stiffness = axial - belt_loop.belt.mass_per_length * state.unstretched_speed.powi(2);
+    let (stated, pulley) = (&drive.pulleys[index], &state.pulleys[index]);
+    let axial = drive.belt.axial_stiffness;
+    let stiffness = axial - drive.belt.mass_per_length * state.unstretched_speed.powi(2);
     let entering = state.spans[(index + count - 1) % count].tractive_tension;
     let leaving = state.spans[index].tractive_tension;
     let slip_rate = stated.friction_coefficient / stated.radius;
@@ -265,7 +267,7 @@ fn unstretched_on(belt_loop: &BeltLoop, state: &LoopState, index: usize) -> Opti
         * (leaving / slipped * ((axial + slipped) / (axial + leaving)))
             .ln()
             .abs();
-    let unslipped = match belt_loop.law {
+    let unslipped = match drive.law {
         FrictionLaw::Epp {
             stiffness: bristles,
         } if pulley.torque != 0.0 => {

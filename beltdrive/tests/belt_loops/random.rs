@@ -3,14 +3,15 @@
 use super::invariants::hold;
 use super::pulley;
 use super::random_numbers::Random;
-use beltdrive::belt_loop::{
-    BeltLoop, Closure, Duty, Guide, LoopError, Mount, Sense, Side, Tensioner, TensionerLoad, solve,
+use beltdrive::belt_loop::{LoopError, solve};
+use beltdrive::{
+    Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, NormalForce, Sense, Side,
+    Tensioner, TensionerLoad,
 };
-use beltdrive::{Belt, BeltKind, FrictionLaw, NormalForce};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-fn random_loop(random: &mut Random) -> BeltLoop {
+fn random_loop(random: &mut Random) -> Drive {
     let count = random.between(2.0, 10.0).floor();
     let law = match random.between(0.0, 5.0) {
         choice if choice < 2.0 => FrictionLaw::Coulomb,
@@ -111,7 +112,7 @@ fn random_loop(random: &mut Random) -> BeltLoop {
     if is_crossed {
         pulleys[1].side = Side::Outside;
     }
-    BeltLoop {
+    Drive {
         title: None,
         belt: Belt {
             ribs: 1,
@@ -128,20 +129,17 @@ fn random_loop(random: &mut Random) -> BeltLoop {
 }
 
 /// The loop with another closure that is often met.
-fn with_random_closure(mut belt_loop: BeltLoop, random: &mut Random) -> BeltLoop {
-    let Closure::SetupTension(tension) = belt_loop.closure else {
-        return belt_loop;
+fn with_random_closure(mut drive: Drive, random: &mut Random) -> Drive {
+    let Closure::SetupTension(tension) = drive.closure else {
+        return drive;
     };
-    let starts = belt_loop
-        .pulleys
-        .iter()
-        .find_map(|pulley| match pulley.mount {
-            Mount::Tensioner(tensioner) => Some(tensioner.start_coordinate),
-            Mount::Fixed(_) => None,
-        });
-    let span = random.between(0.0, belt_loop.pulleys.len() as f64);
-    belt_loop.closure = match (random.between(0.0, 4.0), starts) {
-        (choice, _) if choice < 1.0 => belt_loop.closure,
+    let starts = drive.pulleys.iter().find_map(|pulley| match pulley.mount {
+        Mount::Tensioner(tensioner) => Some(tensioner.start_coordinate),
+        Mount::Fixed(_) => None,
+    });
+    let span = random.between(0.0, drive.pulleys.len() as f64);
+    drive.closure = match (random.between(0.0, 4.0), starts) {
+        (choice, _) if choice < 1.0 => drive.closure,
         #[expect(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -152,15 +150,15 @@ fn with_random_closure(mut belt_loop: BeltLoop, random: &mut Random) -> BeltLoop
             tension,
         },
         (choice, Some(start)) if choice < 3.0 => Closure::RestCoordinate(start),
-        (_, start) => match belt_loop.layout(start.unwrap_or(0.0)) {
+        (_, start) => match drive.layout(start.unwrap_or(0.0)) {
             Ok(layout) => {
-                let strain = tension / belt_loop.belt.axial_stiffness;
+                let strain = tension / drive.belt.axial_stiffness;
                 Closure::UnstretchedLength(layout.length() / (1.0 + strain))
             }
-            Err(_) => belt_loop.closure,
+            Err(_) => drive.closure,
         },
     };
-    belt_loop
+    drive
 }
 
 #[test]
@@ -169,12 +167,12 @@ fn random_loops_are_solved_or_refused_for_a_reason() {
     let mut solved_with = [0; 10];
     let mut reasons = BTreeMap::new();
     for _ in 0..4000 {
-        let belt_loop = random_loop(&mut random);
-        let belt_loop = with_random_closure(belt_loop, &mut random);
-        match solve(&belt_loop) {
+        let drive = random_loop(&mut random);
+        let drive = with_random_closure(drive, &mut random);
+        match solve(&drive) {
             Ok(state) => {
-                hold(&belt_loop, &state);
-                solved_with[belt_loop.pulleys.len()] += 1;
+                hold(&drive, &state);
+                solved_with[drive.pulleys.len()] += 1;
             }
             Err(error) => {
                 let message = error.to_string();
@@ -188,9 +186,9 @@ fn random_loops_are_solved_or_refused_for_a_reason() {
                     .next()
                     .unwrap_or_default()
                     .to_owned();
-                assert!(name != "NotFound", "{error}\n{belt_loop:?}");
-                assert!(name != "Violated", "{error}\n{belt_loop:?}");
-                assert!(name != "Statement", "{error}\n{belt_loop:?}");
+                assert!(name != "NotFound", "{error}\n{drive:?}");
+                assert!(name != "Violated", "{error}\n{drive:?}");
+                assert!(name != "Statement", "{error}\n{drive:?}");
                 *reasons.entry(name).or_insert(0) += 1;
             }
         }
@@ -209,26 +207,27 @@ fn absurd_loops_have_finite_answers_or_a_reason() {
     let mut random = Random(0x2545_f491_4f6c_dd1d);
     let mut count = 0;
     for _ in 0..4000 {
-        let belt_loop = random_loop(&mut random);
-        let mut belt_loop = with_random_closure(belt_loop, &mut random);
+        let drive = random_loop(&mut random);
+        let mut drive = with_random_closure(drive, &mut random);
         let factor = 10_f64.powf(random.between(-20.0, 20.0));
-        let pulley = &mut belt_loop.pulleys[1];
+        let pulley = &mut drive.pulleys[1];
         match random.between(0.0, 7.0) {
-            choice if choice < 1.0 => belt_loop.belt.mass_per_length *= factor,
-            choice if choice < 2.0 => belt_loop.belt.axial_stiffness *= factor,
+            choice if choice < 1.0 => drive.belt.mass_per_length *= factor,
+            choice if choice < 2.0 => drive.belt.axial_stiffness *= factor,
             choice if choice < 3.0 => pulley.friction_coefficient *= factor,
             choice if choice < 4.0 => pulley.radius *= factor.min(1.0),
             choice if choice < 5.0 => match &mut pulley.duty {
                 Duty::Driver(number) | Duty::Torque(number) | Duty::Power(number) => {
                     *number *= factor;
                 }
+                Duty::Driven => unreachable!("no loop is closed by two tensions"),
             },
-            choice if choice < 6.0 => match &mut belt_loop.law {
+            choice if choice < 6.0 => match &mut drive.law {
                 FrictionLaw::Epp { stiffness: number }
                 | FrictionLaw::CreepRate { velocity: number } => *number *= factor,
                 _ => continue,
             },
-            _ => match &mut belt_loop.closure {
+            _ => match &mut drive.closure {
                 Closure::SetupTension(number)
                 | Closure::UnstretchedLength(number)
                 | Closure::RestCoordinate(number)
@@ -238,22 +237,23 @@ fn absurd_loops_have_finite_answers_or_a_reason() {
                 | Closure::SpanTractiveTension {
                     tension: number, ..
                 } => *number *= factor,
+                Closure::BothSpans(_) => unreachable!("no loop is closed by two tensions"),
             },
         }
-        match solve(&belt_loop) {
+        match solve(&drive) {
             Ok(state) => {
                 count += 1;
                 let text = format!("{state:?}");
                 assert!(
                     !text.contains("NaN") && !text.contains("inf"),
-                    "{belt_loop:?}\n{text}"
+                    "{drive:?}\n{text}"
                 );
             }
             Err(error) => {
                 let text = error.to_string();
                 assert!(
                     !text.contains("NaN") && !text.contains('\n'),
-                    "{belt_loop:?}\n{text}"
+                    "{drive:?}\n{text}"
                 );
             }
         }
@@ -267,14 +267,14 @@ fn gross_slip_begins_at_the_load_limit() {
     let mut random = Random(0x6a09_e667_f3bc_c908);
     let mut count = 0;
     for _ in 0..1500 {
-        let belt_loop = random_loop(&mut random);
-        let mut belt_loop = with_random_closure(belt_loop, &mut random);
-        belt_loop.law = FrictionLaw::Coulomb;
-        let Ok(state) = solve(&belt_loop) else {
+        let drive = random_loop(&mut random);
+        let mut drive = with_random_closure(drive, &mut random);
+        drive.law = FrictionLaw::Coulomb;
+        let Ok(state) = solve(&drive) else {
             continue;
         };
         // The limit is that of the torques.
-        for (pulley, found) in belt_loop.pulleys.iter_mut().zip(&state.pulleys) {
+        for (pulley, found) in drive.pulleys.iter_mut().zip(&state.pulleys) {
             if let Duty::Power(_) = pulley.duty {
                 pulley.duty = Duty::Torque(found.torque);
             }
@@ -288,7 +288,7 @@ fn gross_slip_begins_at_the_load_limit() {
         }
         count += 1;
         let at = |share: f64| {
-            let mut scaled = belt_loop.clone();
+            let mut scaled = drive.clone();
             for pulley in &mut scaled.pulleys {
                 if let Duty::Torque(torque) = &mut pulley.duty {
                     *torque *= share * limit.factor;

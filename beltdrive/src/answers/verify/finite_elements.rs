@@ -3,7 +3,9 @@
 use super::drives::{Failure, state};
 use super::kim_table_2::slip_arc;
 use super::{Comparison, Criterion, Published, Section, computed};
-use crate::{Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SpanTension, SteadyState};
+use crate::{
+    Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SpanTension, SteadyState, TwoPulleys,
+};
 use std::f64::consts::PI;
 
 const COARSE: &str = "a coarse mesh: their speed falls with every refinement, 11.366, 11.348, 11.341, \
@@ -117,8 +119,7 @@ fn finest(solved: &Result<SteadyState, Failure>) -> Vec<Comparison> {
 /// The drive per unstretched length, with a slack tension in N and a driven speed in rad/s, on which
 /// the driven torque depends.
 fn drive(friction_coefficient: f64, slack: f64, speed: f64) -> Drive {
-    Drive {
-        title: None,
+    Drive::from(TwoPulleys {
         belt: Belt {
             ribs: 1,
             mass_per_length: 0.8288 / UNSTRETCHED,
@@ -139,7 +140,7 @@ fn drive(friction_coefficient: f64, slack: f64, speed: f64) -> Drive {
             slack: SpanTension::Belt(slack),
             tight: SpanTension::DrivenTorque(25.0 + 2.0 * speed),
         },
-    }
+    })
 }
 
 /// The state in which the belt has its length: the reference length is that around the pulleys.

@@ -4,7 +4,7 @@ use super::drives::{Failure, kim_flat, state};
 use super::kim_table_2::{SOFTEST, STIFFEST, slip_arc, smallest_stiffness, transition_angle};
 use super::{Comparison, Criterion, Published, Section, computed};
 use crate::input::Key;
-use crate::{Drive, EventKind, FrictionLaw, Pulley, SolveOptions, ZoneKind, limits, trace};
+use crate::{Drive, EventKind, FrictionLaw, Role, SolveOptions, ZoneKind, limits, trace};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 const PLOT: &str = "read off a plot, as a multiple of 10 N";
@@ -22,8 +22,8 @@ pub(super) fn section() -> Section {
     let row = |quantity, unit, text, criterion, computed| {
         Comparison::new(quantity, unit, Published::new(text), criterion, computed)
     };
-    let driven = slip_begins(Pulley::Driven);
-    let driver = slip_begins(Pulley::Driver);
+    let driven = slip_begins(Role::Driven);
+    let driver = slip_begins(Role::Driver);
     let full = |number: &Result<f64, Failure>| computed(number, |number| *number);
     Section {
         title: "Text; T_L = 200 N and k_f = 8.1e7 N/m² where nothing else is said",
@@ -93,7 +93,7 @@ fn drive(tight: f64) -> Result<Drive, Failure> {
 }
 
 /// The tight tension at which a pulley begins to slip, N.
-fn slip_begins(on: Pulley) -> Result<f64, Failure> {
+fn slip_begins(on: Role) -> Result<f64, Failure> {
     let start = drive(210.0)?;
     let key = Key::load(&start);
     let options = SolveOptions::default();
@@ -122,10 +122,10 @@ fn half_slips() -> Result<f64, Failure> {
 /// The tight tension of a pulley that slips over its whole arc, in the convention of the thesis, N.
 fn capstan() -> Result<f64, Failure> {
     let drive = drive(800.0)?;
-    let speed = 119.1 * drive.driven_radius;
+    let speed = 119.1 * drive.pair().driven_radius;
     let axial = drive.belt.axial_stiffness;
     let stiffness = axial - drive.belt.mass_per_length * speed * speed;
-    Ok(SLACK * (drive.friction_coefficient * PI * axial / stiffness).exp())
+    Ok(SLACK * (drive.pair().friction_coefficient * PI * axial / stiffness).exp())
 }
 
 /// The largest tight tension of the drive, N.

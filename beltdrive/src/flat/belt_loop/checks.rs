@@ -1,13 +1,12 @@
 //! The invariants of a state, from the friction law along the contacts and from the geometry, and not from the
 //! equations that were solved.
 
-use crate::Check;
-use crate::drive::belt_loop::{BeltLoop, LoopPulley};
 use crate::friction::rim::contact::Contact;
 use crate::friction::rim::quadrature::integrals;
 use crate::friction::rim::zone::{ContactZone, Friction};
 use crate::results::loop_error::LoopError;
 use crate::results::loop_state::{Contacts, LoopState};
+use crate::{Check, Drive, Pulley};
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
@@ -32,9 +31,9 @@ struct Along {
 }
 
 /// A state with its checks, if it passes them.
-pub(super) fn checked(belt_loop: &BeltLoop, mut state: LoopState) -> Result<LoopState, LoopError> {
+pub(super) fn checked(drive: &Drive, mut state: LoopState) -> Result<LoopState, LoopError> {
     if let Contacts::Flat { contacts, .. } = &state.contacts {
-        state.checks = checks(belt_loop, &state, contacts);
+        state.checks = checks(drive, &state, contacts);
     }
     match state.checks.iter().find(|check| !check.holds()) {
         Some(violated) => Err(LoopError::Violated(violated.clone())),
@@ -42,7 +41,7 @@ pub(super) fn checked(belt_loop: &BeltLoop, mut state: LoopState) -> Result<Loop
     }
 }
 
-fn checks(belt_loop: &BeltLoop, state: &LoopState, contacts: &[Contact]) -> Vec<Check> {
+fn checks(drive: &Drive, state: &LoopState, contacts: &[Contact]) -> Vec<Check> {
     let scale = contacts
         .iter()
         .map(|contact| contact.arc.entry())
@@ -53,7 +52,7 @@ fn checks(belt_loop: &BeltLoop, state: &LoopState, contacts: &[Contact]) -> Vec<
     let (mut hubs, mut polygon) = ([[0.0; 2]; 2], [0.0; 2]);
     let mut turned = 0.0;
     for (index, contact) in contacts.iter().enumerate() {
-        let (stated, pulley) = (&belt_loop.pulleys[index], &state.pulleys[index]);
+        let (stated, pulley) = (&drive.pulleys[index], &state.pulleys[index]);
         let rim = pulley.angular_speed * stated.radius / state.unstretched_speed;
         let along = along(contact, stated, rim);
         torque = torque.max((along.friction - pulley.torque / stated.radius).abs());
@@ -63,11 +62,11 @@ fn checks(belt_loop: &BeltLoop, state: &LoopState, contacts: &[Contact]) -> Vec<
         for (sum, load) in hubs.iter_mut().zip([pulley.hub_load, pulley.rest_hub_load]) {
             *sum = [sum[0] + load[0], sum[1] + load[1]];
         }
-        let sense = state.layout.pulleys()[index].turns(belt_loop.sense);
-        turned += sense * belt_loop.sense.sign() * pulley.wrap;
+        let sense = state.layout.pulleys()[index].turns(drive.sense);
+        turned += sense * drive.sense.sign() * pulley.wrap;
 
         let span = &state.spans[index];
-        unstretched += span.length / (1.0 + span.tension / belt_loop.belt.axial_stiffness);
+        unstretched += span.length / (1.0 + span.tension / drive.belt.axial_stiffness);
         let start = state.layout.spans()[index].start;
         let arrived = state.layout.spans()[(index + count - 1) % count].end;
         let along = [span.direction.cos(), span.direction.sin()];
@@ -75,7 +74,7 @@ fn checks(belt_loop: &BeltLoop, state: &LoopState, contacts: &[Contact]) -> Vec<
             polygon[part] += span.length * along[part] + start[part] - arrived[part];
         }
     }
-    let turned = turned / TAU - f64::from(belt_loop.turning_number);
+    let turned = turned / TAU - f64::from(drive.turning_number);
     let forces = state.spans.iter();
     let forces = forces.flat_map(|span| [span.tension, span.tractive_tension]);
     let slackest = forces.fold(state.rest_tension, f64::min);
@@ -102,7 +101,7 @@ fn checks(belt_loop: &BeltLoop, state: &LoopState, contacts: &[Contact]) -> Vec<
             length.map(f64::abs).into_iter().fold(0.0, f64::max) / state.length,
         ),
         check("turning of the belt", turned.abs()),
-        check("moment of the tensioner", moment(belt_loop, state)),
+        check("moment of the tensioner", moment(drive, state)),
         Check {
             name: "tensions above 0",
             deviation: (-slackest / scale).max(0.0),
@@ -114,9 +113,8 @@ fn checks(belt_loop: &BeltLoop, state: &LoopState, contacts: &[Contact]) -> Vec<
 
 /// By how far the load of the tensioner and the hub load of its idler are out of equilibrium, running and at
 /// rest; 0 without a tensioner.
-fn moment(belt_loop: &BeltLoop, state: &LoopState) -> f64 {
-    let Some(((index, tensioner), found)) = belt_loop.tensioner().zip(state.tensioner.as_ref())
-    else {
+fn moment(drive: &Drive, state: &LoopState) -> f64 {
+    let Some(((index, tensioner), found)) = drive.tensioner().zip(state.tensioner.as_ref()) else {
         return 0.0;
     };
     let pulley = &state.pulleys[index];
@@ -130,7 +128,7 @@ fn moment(belt_loop: &BeltLoop, state: &LoopState) -> f64 {
 }
 
 /// Integrals along a contact with a pulley whose rim has `rim` times the speed of the unstretched belt.
-fn along(contact: &Contact, pulley: &LoopPulley, rim: f64) -> Along {
+fn along(contact: &Contact, pulley: &Pulley, rim: f64) -> Along {
     let (arc, belt) = (contact.arc, contact.arc.belt);
     let limit = belt.slip_rate(pulley.friction_coefficient, pulley.radius);
     let excess = Cell::new(0.0);
@@ -194,26 +192,23 @@ fn slipping<const N: usize>(
 mod tests {
     use super::*;
     use crate::examples;
-    use crate::input::{DriveFile, Stated};
+    use crate::input;
 
     #[test]
     fn every_check_notices_what_it_is_for() {
         let text = examples::find("serpentine").unwrap().text;
-        let file = DriveFile::read("serpentine.toml", text, &[]).unwrap();
-        let Ok(Stated::Loop(mut belt_loop)) = file.stated() else {
-            panic!("a loop");
-        };
-        let state = crate::belt_loop::solve(&belt_loop).unwrap();
-        let noticed = |belt_loop: &BeltLoop, change: fn(&mut LoopState)| {
+        let mut drive = input::parse("serpentine.toml", text, &[]).unwrap();
+        let state = crate::belt_loop::solve(&drive).unwrap();
+        let noticed = |drive: &Drive, change: fn(&mut LoopState)| {
             let mut state = state.clone();
             change(&mut state);
-            match checked(belt_loop, state) {
+            match checked(drive, state) {
                 Ok(_) => "nothing",
                 Err(LoopError::Violated(check)) => check.name,
                 Err(error) => panic!("{error}"),
             }
         };
-        assert_eq!(noticed(&belt_loop, |_| ()), "nothing");
+        assert_eq!(noticed(&drive, |_| ()), "nothing");
         /// What is changed, and the check that notices.
         type Change = (fn(&mut LoopState), &'static str);
         let changes: [Change; 7] = [
@@ -232,12 +227,12 @@ mod tests {
             ),
         ];
         for (change, name) in changes {
-            let found = noticed(&belt_loop, change);
+            let found = noticed(&drive, change);
             assert!(found.starts_with(name), "{name}: {found}");
         }
-        for pulley in &mut belt_loop.pulleys {
+        for pulley in &mut drive.pulleys {
             pulley.friction_coefficient *= 1.0 - 1e-6;
         }
-        assert_eq!(noticed(&belt_loop, |_| ()), "friction within its limit");
+        assert_eq!(noticed(&drive, |_| ()), "friction within its limit");
     }
 }

@@ -99,13 +99,13 @@ impl<'p> Closing<'p> {
     /// A guess of the belt, and of what the torques themselves change.
     fn guess(&self) -> Guess {
         let Problem {
-            belt_loop,
+            drive,
             loads,
             target,
             rim,
             ..
         } = self.running.problem;
-        let (belt, whole) = (belt_loop.belt, self.running.layout.length());
+        let (belt, whole) = (drive.belt, self.running.layout.length());
         let axial = belt.axial_stiffness;
         let (strain, offset) = match *target {
             Target::Unstretched { length, elongation } => {
@@ -113,7 +113,7 @@ impl<'p> Closing<'p> {
                 let spans = self.running.layout.spans().iter().zip(&loads.offsets);
                 let spans: f64 = spans.map(|(span, offset)| span.length * offset).sum();
                 // Most of a contact has the tension of its entry.
-                let pulleys = belt_loop.pulleys.iter().zip(self.running.layout.wraps());
+                let pulleys = drive.pulleys.iter().zip(self.running.layout.wraps());
                 let arcs = pulleys.enumerate().map(|(index, (pulley, wrap))| {
                     pulley.radius * wrap * loads.offsets[self.running.spans(index)[0]]
                 });
@@ -238,7 +238,7 @@ impl<'p> Closing<'p> {
             return Ok(None);
         }
         let largest = self.running.factor * self.running.problem.loads.largest;
-        let axial = self.running.problem.belt_loop.belt.axial_stiffness;
+        let axial = self.running.problem.drive.belt.axial_stiffness;
         let mut step = largest.max(SLACK_STRAIN * axial);
         for _ in 0..DOUBLINGS {
             let high = loosest + step;

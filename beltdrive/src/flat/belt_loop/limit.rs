@@ -75,10 +75,10 @@ pub(super) fn load_limit(
     };
     if factor <= 1.0
         && !is_slip(&at_limit)
-        && let Some((idler, _)) = problem.belt_loop.tensioner()
+        && let Some((idler, _)) = problem.drive.tensioner()
     {
         return Err(LoopError::NoEquilibrium {
-            pulley: problem.belt_loop.pulleys[idler].name.clone(),
+            pulley: problem.drive.pulleys[idler].name.clone(),
             which: "under load",
         });
     }
@@ -87,7 +87,7 @@ pub(super) fn load_limit(
         return Ok(Some(LoadLimit { factor, pulley }));
     }
     Err(LoopError::GrossSlip {
-        pulley: problem.belt_loop.pulleys[pulley].name.clone(),
+        pulley: problem.drive.pulleys[pulley].name.clone(),
         load_factor: factor,
         margin: formal.and_then(|formal| formal.torque_margins[pulley]),
         at_limit: Box::new(at_limit),
@@ -98,7 +98,7 @@ pub(super) fn load_limit(
 /// The load factor limit, above 1, at the equilibrium of the tensioner next to that of the whole load, if it
 /// is found at once.
 fn first_slip(problem: &Problem<'_>, whole: &Loaded) -> Option<f64> {
-    let carried = problem.belt_loop.tensioner();
+    let carried = problem.drive.tensioner();
     let idler = carried.map_or(0, |(pulley, _)| pulley);
     let known = Known::default();
     let slips_first = |layout: &Layout| {
@@ -108,7 +108,7 @@ fn first_slip(problem: &Problem<'_>, whole: &Loaded) -> Option<f64> {
         what: "load factor limit",
     };
     let (_, layout) = equilibrium(
-        problem.belt_loop,
+        problem.drive,
         whole.coordinate,
         problem.towards,
         "at the load factor limit",
@@ -129,9 +129,9 @@ pub(super) fn slips(state: Option<&LoadedState>) -> bool {
 
 /// A loaded loop against the friction of its pulleys, if it presses on all of them.
 pub(super) fn judged(problem: &Problem<'_>, loaded: &Loaded) -> Option<LoadedState> {
-    let Problem { belt_loop, .. } = problem;
+    let Problem { drive, .. } = problem;
     let found = loaded.belt.as_ref()?;
-    let pulleys = belt_loop.pulleys.iter().enumerate();
+    let pulleys = drive.pulleys.iter().enumerate();
     let used = pulleys.map(|(index, pulley)| {
         let load = found.largest_load(pulley, loaded.layout.wraps()[index]);
         let arc = found.contacts[index].arc;
@@ -153,8 +153,8 @@ pub(super) fn judged(problem: &Problem<'_>, loaded: &Loaded) -> Option<LoadedSta
             .map(|&traction| found.belt.tension(traction))
             .collect(),
         tractive_tensions: found.tractive.clone(),
-        mass_flow: belt_loop.belt.mass_per_length * found.speed,
-        tensioner_coordinate: belt_loop.tensioner().map(|_| loaded.coordinate),
+        mass_flow: drive.belt.mass_per_length * found.speed,
+        tensioner_coordinate: drive.tensioner().map(|_| loaded.coordinate),
         friction_utilisations: used.iter().map(|used| used.2).collect(),
         torque_capacities: used.iter().map(|used| used.1).collect(),
         torque_margins: used.iter().map(|used| used.3).collect(),

@@ -1,6 +1,6 @@
 //! What the torques of a loop do to the tractions of its belt.
 
-use crate::drive::belt_loop::BeltLoop;
+use crate::Drive;
 
 /// Tractions that follow from the torques by themselves.
 pub(super) struct Loads {
@@ -14,9 +14,9 @@ pub(super) struct Loads {
 
 impl Loads {
     /// With a torque of each pulley, N·m; that of the driver means nothing, and balances the others.
-    pub(super) fn new(belt_loop: &BeltLoop, torques: &[f64]) -> Self {
-        let pulleys = &belt_loop.pulleys;
-        let driver = belt_loop.driver();
+    pub(super) fn new(drive: &Drive, torques: &[f64]) -> Self {
+        let pulleys = &drive.pulleys;
+        let driver = drive.driver();
         let loads = pulleys.iter().zip(torques);
         let mut changes: Vec<_> = loads
             .map(|(pulley, torque)| torque / pulley.radius)

@@ -4,11 +4,10 @@ use super::closing::{Closing, Known, Target};
 use super::loads::Loads;
 use super::rest::{Rest, rest_of_length};
 use super::running::RunningBelt;
-use crate::drive::belt_loop::BeltLoop;
 use crate::drive::layout::Layout;
 use crate::mechanics::tensioner::{Towards, equilibrium};
 use crate::results::loop_error::LoopError;
-use crate::{FrictionLaw, NormalForce};
+use crate::{Drive, FrictionLaw, NormalForce};
 
 /// The loop under load.
 pub(super) struct Loaded {
@@ -21,7 +20,7 @@ pub(super) struct Loaded {
 
 /// A loop with its torques and what its closure asks of the running belt.
 pub(super) struct Problem<'l> {
-    pub(super) belt_loop: &'l BeltLoop,
+    pub(super) drive: &'l Drive,
     pub(super) loads: Loads,
     pub(super) target: Target,
     pub(super) convention: NormalForce,
@@ -38,7 +37,7 @@ impl Problem<'_> {
     /// Coordinate of the tensioner in the running loop without torques, whose tension is uniform; an error
     /// if the belt lifts off.
     pub(super) fn unloaded(&self) -> Result<f64, LoopError> {
-        let belt = self.belt_loop.belt;
+        let belt = self.drive.belt;
         let rim = self.rim;
         let tractive = |layout: &Layout| {
             let strain = match self.target {
@@ -53,7 +52,7 @@ impl Problem<'_> {
             belt.axial_stiffness * strain - flow * rim
         };
         let presses = |coordinate: f64| {
-            let tractive_tension = tractive(&self.belt_loop.layout(coordinate)?);
+            let tractive_tension = tractive(&self.drive.layout(coordinate)?);
             match tractive_tension > 0.0 {
                 true => Ok(coordinate),
                 false => Err(LoopError::LiftsOff {
@@ -64,7 +63,7 @@ impl Problem<'_> {
             }
         };
         let found = equilibrium(
-            self.belt_loop,
+            self.drive,
             self.start,
             self.towards,
             "without load",
@@ -81,10 +80,10 @@ impl Problem<'_> {
         let lost = LoopError::NotFound {
             what: "tension of the running belt",
         };
-        let pulley = self.belt_loop.tensioner().map_or(0, |(pulley, _)| pulley);
+        let pulley = self.drive.tensioner().map_or(0, |(pulley, _)| pulley);
         let known = Known::default();
         let (coordinate, layout) = equilibrium(
-            self.belt_loop,
+            self.drive,
             self.start,
             self.towards,
             "under load",
@@ -107,7 +106,7 @@ impl Problem<'_> {
     pub(super) fn tension_per_length(&self) -> f64 {
         match self.target {
             Target::Unstretched { length, elongation } => {
-                self.belt_loop.belt.axial_stiffness / (length - elongation)
+                self.drive.belt.axial_stiffness / (length - elongation)
             }
             Target::Tension { .. } | Target::TractiveTension { .. } => 0.0,
         }
@@ -117,7 +116,7 @@ impl Problem<'_> {
     pub(super) fn rest_of(&self, loaded: &Loaded) -> Result<Option<Rest>, LoopError> {
         let rest = loaded.belt.as_ref().map(|belt| {
             let unstretched = loaded.layout.length() - belt.elongation;
-            rest_of_length(self.belt_loop, loaded.coordinate, unstretched)
+            rest_of_length(self.drive, loaded.coordinate, unstretched)
         });
         rest.transpose()
     }

@@ -1,9 +1,9 @@
 //! The belt at rest.
 
-use crate::drive::belt_loop::{BeltLoop, Closure};
 use crate::drive::layout::Layout;
 use crate::mechanics::tensioner::{Held, Towards, equilibrium, length_derivatives};
 use crate::results::loop_error::LoopError;
+use crate::{Closure, Drive};
 
 /// The belt at rest: uniform tension, no friction.
 #[derive(Clone, Debug)]
@@ -18,22 +18,23 @@ pub(super) struct Rest {
 }
 
 /// The belt at rest where its length or its tension at rest is given.
-pub(super) fn rest_of_closure(belt_loop: &BeltLoop, start: f64) -> Result<Rest, LoopError> {
-    let axial = belt_loop.belt.axial_stiffness;
-    let (coordinate, layout) = match belt_loop.closure {
+pub(super) fn rest_of_closure(drive: &Drive, start: f64) -> Result<Rest, LoopError> {
+    let axial = drive.belt.axial_stiffness;
+    let (coordinate, layout) = match drive.closure {
         Closure::UnstretchedLength(length) => {
-            return rest_of_length(belt_loop, start, length);
+            return rest_of_length(drive, start, length);
         }
         Closure::SetupTension(tension) => {
-            equilibrium(belt_loop, start, Towards::Newton, "at rest", |_| {
+            equilibrium(drive, start, Towards::Newton, "at rest", |_| {
                 Ok([tension, 0.0])
             })?
         }
         Closure::RestCoordinate(_)
         | Closure::SpanTension { .. }
-        | Closure::SpanTractiveTension { .. } => (start, belt_loop.layout(start)?),
+        | Closure::SpanTractiveTension { .. }
+        | Closure::BothSpans(_) => (start, drive.layout(start)?),
     };
-    let tension = match (belt_loop.closure, belt_loop.tensioner()) {
+    let tension = match (drive.closure, drive.tensioner()) {
         (Closure::RestCoordinate(_), Some((pulley, tensioner))) => {
             let [slope, _] = length_derivatives(&layout, pulley, &tensioner.guide, coordinate);
             tensioner.load_at(coordinate)[0] / slope
@@ -43,7 +44,7 @@ pub(super) fn rest_of_closure(belt_loop: &BeltLoop, start: f64) -> Result<Rest, 
     };
     let unstretched = layout.length() / (1.0 + tension / axial);
     stable_rest(
-        belt_loop,
+        drive,
         Rest {
             coordinate,
             layout,
@@ -54,20 +55,16 @@ pub(super) fn rest_of_closure(belt_loop: &BeltLoop, start: f64) -> Result<Rest, 
 }
 
 /// The belt of a given unstretched length at rest.
-pub(super) fn rest_of_length(
-    belt_loop: &BeltLoop,
-    start: f64,
-    length: f64,
-) -> Result<Rest, LoopError> {
-    let axial = belt_loop.belt.axial_stiffness;
+pub(super) fn rest_of_length(drive: &Drive, start: f64, length: f64) -> Result<Rest, LoopError> {
+    let axial = drive.belt.axial_stiffness;
     let tension = |layout: &Layout| axial * ((layout.length() - length) / length);
-    let found = equilibrium(belt_loop, start, Towards::Force, "at rest", |layout| {
+    let found = equilibrium(drive, start, Towards::Force, "at rest", |layout| {
         Ok([tension(layout), axial / length])
     });
     let (coordinate, layout) = match found {
         Ok(found) => found,
         Err(error) => {
-            let tension = tension(&belt_loop.layout(start)?);
+            let tension = tension(&drive.layout(start)?);
             return Err(match tension <= 0.0 {
                 true => LoopError::Slack { tension },
                 false => error,
@@ -75,7 +72,7 @@ pub(super) fn rest_of_length(
         }
     };
     stable_rest(
-        belt_loop,
+        drive,
         Rest {
             coordinate,
             tension: tension(&layout),
@@ -86,12 +83,12 @@ pub(super) fn rest_of_length(
 }
 
 /// A belt at rest that is in tension, with its tensioner in a stable equilibrium.
-fn stable_rest(belt_loop: &BeltLoop, rest: Rest) -> Result<Rest, LoopError> {
+fn stable_rest(drive: &Drive, rest: Rest) -> Result<Rest, LoopError> {
     let tension = rest.tension;
     if tension <= 0.0 {
         return Err(LoopError::Slack { tension });
     }
-    let Some((pulley, tensioner)) = belt_loop.tensioner() else {
+    let Some((pulley, tensioner)) = drive.tensioner() else {
         return Ok(rest);
     };
     let Rest {
@@ -101,7 +98,7 @@ fn stable_rest(belt_loop: &BeltLoop, rest: Rest) -> Result<Rest, LoopError> {
     } = rest;
     let carried = (pulley, tensioner);
     let held = Held::new(
-        belt_loop,
+        drive,
         carried,
         &rest.layout,
         coordinate,
@@ -111,7 +108,7 @@ fn stable_rest(belt_loop: &BeltLoop, rest: Rest) -> Result<Rest, LoopError> {
     match tension.is_finite() && held.stiffness > 0.0 {
         true => Ok(rest),
         false => Err(LoopError::NoEquilibrium {
-            pulley: belt_loop.pulleys[pulley].name.clone(),
+            pulley: drive.pulleys[pulley].name.clone(),
             which: "at rest",
         }),
     }

@@ -2,7 +2,6 @@
 
 use super::rest::Rest;
 use super::running::RunningBelt;
-use crate::drive::belt_loop::{BeltLoop, Duty};
 use crate::drive::layout::Layout;
 use crate::friction::rim::profile::zones;
 use crate::friction::rim::zone::Friction;
@@ -12,10 +11,11 @@ use crate::results::loop_error::LoopError;
 use crate::results::loop_state::{
     Contacts, LoadLimit, LoopState, PulleyState, SpanState, TensionerState,
 };
+use crate::{Drive, Duty};
 
 /// A solved loop.
 pub(super) struct Found<'l> {
-    pub(super) belt_loop: &'l BeltLoop,
+    pub(super) drive: &'l Drive,
     pub(super) rest: Rest,
     pub(super) coordinate: f64,
     pub(super) layout: Layout,
@@ -26,10 +26,10 @@ pub(super) struct Found<'l> {
 impl Found<'_> {
     /// The tensioner in the running loop and at rest.
     fn held(&self) -> Option<[Held; 2]> {
-        let carried = self.belt_loop.tensioner()?;
+        let carried = self.drive.tensioner()?;
         let held = |layout, coordinate, tension| {
             let length = self.rest.unstretched;
-            Held::new(self.belt_loop, carried, layout, coordinate, tension, length)
+            Held::new(self.drive, carried, layout, coordinate, tension, length)
         };
         let running = self.belt.tractive[carried.0];
         let Rest {
@@ -45,12 +45,12 @@ impl Found<'_> {
 
     /// Whether the tensioner stays where it is in the running loop.
     pub(super) fn stable(&self) -> Result<(), LoopError> {
-        let held = self.belt_loop.tensioner().zip(self.held());
+        let held = self.drive.tensioner().zip(self.held());
         match held {
             Some((_, [running, _])) if running.stiffness > 0.0 => Ok(()),
             None => Ok(()),
             Some(((pulley, _), _)) => Err(LoopError::NoEquilibrium {
-                pulley: self.belt_loop.pulleys[pulley].name.clone(),
+                pulley: self.drive.pulleys[pulley].name.clone(),
                 which: "under load",
             }),
         }
@@ -64,7 +64,7 @@ impl Found<'_> {
             tractive,
             ..
         } = &self.belt;
-        let stated = self.belt_loop.belt;
+        let stated = self.drive.belt;
         let [span, rest] = [&self.layout, &self.rest.layout].map(|layout| layout.spans()[index]);
         let tension = belt.tension(tractions[index]);
         let moving = speed * (1.0 + belt.strain(tractions[index]));
@@ -98,14 +98,16 @@ impl Found<'_> {
             contacts,
             ..
         } = &self.belt;
-        let (stated, contact) = (&self.belt_loop.pulleys[index], &contacts[index]);
+        let (stated, contact) = (&self.drive.pulleys[index], &contacts[index]);
         let radius = stated.radius;
         let torque = changes[index] * radius;
         let reference = contact.reference();
         let driving = belt.offset() + contacts[driver].reference();
         let angular_speed = match stated.duty {
             Duty::Driver(angular_speed) => angular_speed,
-            Duty::Torque(_) | Duty::Power(_) => speed * (1.0 + belt.strain(reference)) / radius,
+            Duty::Torque(_) | Duty::Power(_) | Duty::Driven => {
+                speed * (1.0 + belt.strain(reference)) / radius
+            }
         };
         let arc_of = |slips: bool| {
             let zones = contact.zones.iter();
@@ -160,7 +162,7 @@ impl Found<'_> {
     }
 
     fn tensioner(&self) -> Option<TensionerState> {
-        let (pulley, tensioner) = self.belt_loop.tensioner()?;
+        let (pulley, tensioner) = self.drive.tensioner()?;
         let [running, rest] = self.held()?;
         Some(TensionerState {
             pulley,
@@ -178,8 +180,8 @@ impl Found<'_> {
 
 /// The answer.
 pub(super) fn state(found: Found<'_>) -> LoopState {
-    let driver = found.belt_loop.driver();
-    let count = found.belt_loop.pulleys.len();
+    let driver = found.drive.driver();
+    let count = found.drive.pulleys.len();
     let pulleys: Vec<_> = (0..count)
         .map(|index| found.pulley(index, driver))
         .collect();
@@ -189,7 +191,7 @@ pub(super) fn state(found: Found<'_>) -> LoopState {
     });
     LoopState {
         unstretched_speed: found.belt.speed,
-        mass_flow: found.belt_loop.belt.mass_per_length * found.belt.speed,
+        mass_flow: found.drive.belt.mass_per_length * found.belt.speed,
         length: found.layout.length(),
         unstretched_length: found.rest.unstretched,
         rest_tension: found.rest.tension,
@@ -207,7 +209,7 @@ pub(super) fn state(found: Found<'_>) -> LoopState {
         layout: found.layout,
         contacts: Contacts::Flat {
             contacts: found.belt.contacts,
-            belt: found.belt_loop.belt,
+            belt: found.drive.belt,
         },
     }
 }

@@ -3,13 +3,12 @@
 use super::elongation::{self, elongation};
 use super::loads::Loads;
 use super::problem::Problem;
-use crate::drive::belt_loop::LoopPulley;
 use crate::drive::layout::Layout;
 use crate::friction::coulomb;
 use crate::friction::rim::contact::{Arc, Contact};
 use crate::friction::rim::traction::Traction;
 use crate::mechanics::root::{ESTIMATED, bracketed, near_with_slope};
-use crate::{FrictionLaw, NormalForce};
+use crate::{FrictionLaw, NormalForce, Pulley};
 use std::cell::Cell;
 
 /// A tension in place of 0, N: its ratio to any other is a number.
@@ -65,7 +64,7 @@ pub(super) struct RunningBelt {
 
 impl RunningBelt {
     /// The largest load |ln(P(L)/P(0))| of a pulley with a wrap angle in rad.
-    pub(super) fn largest_load(&self, pulley: &LoopPulley, wrap: f64) -> f64 {
+    pub(super) fn largest_load(&self, pulley: &Pulley, wrap: f64) -> f64 {
         let radius = pulley.radius;
         self.belt.slip_rate(pulley.friction_coefficient, radius) * radius * wrap
     }
@@ -114,7 +113,7 @@ impl<'p> Running<'p> {
     /// The belt at a speed c. `slackest` is the tension of the slackest span with the convention `thesis`,
     /// where it enters the speed of that span, and its tractive tension with others, N.
     fn moving(&self, speed: f64, slackest: f64) -> Moving {
-        let belt = self.problem.belt_loop.belt;
+        let belt = self.problem.drive.belt;
         let (mass, axial) = (belt.mass_per_length, belt.axial_stiffness);
         let convention = self.problem.convention;
         let is_thesis = convention == NormalForce::Thesis;
@@ -142,7 +141,7 @@ impl<'p> Running<'p> {
     /// Speed c of the belt with the tractive tension `F_o` where it runs as fast as the rim of the driver:
     /// m R ω c² + (EA + `F_o`) c = R ω EA. It is below the critical speed.
     fn rigid_speed(&self, reference: f64) -> f64 {
-        let (belt, rim) = (self.problem.belt_loop.belt, self.problem.rim);
+        let (belt, rim) = (self.problem.drive.belt, self.problem.rim);
         let linear = belt.axial_stiffness + reference;
         let constant = rim * belt.axial_stiffness;
         let root = (linear * linear + 4.0 * belt.mass_per_length * rim * constant).sqrt();
@@ -152,7 +151,7 @@ impl<'p> Running<'p> {
     /// The arc of a pulley.
     fn arc(&self, pulley: usize, moving: Moving) -> Arc {
         let Moving { belt, lowest, .. } = moving;
-        let stated = &self.problem.belt_loop.pulleys[pulley];
+        let stated = &self.problem.drive.pulleys[pulley];
         let [behind, before] = self.spans(pulley).map(|span| self.offset(span));
         let change = self.factor * self.problem.loads.changes[pulley];
         Arc {
@@ -224,7 +223,7 @@ impl<'p> Running<'p> {
         let bound = match at_guess < 0.0 {
             // The belt outruns a driver that is driven.
             true => {
-                let belt = self.problem.belt_loop.belt;
+                let belt = self.problem.drive.belt;
                 let critical = (belt.axial_stiffness / belt.mass_per_length).sqrt();
                 critical.min(2.0 * self.problem.rim) * (1.0 - f64::EPSILON)
             }
@@ -262,7 +261,7 @@ impl<'p> Running<'p> {
         let traction = moving.lowest + self.offset(span);
         match self.problem.convention {
             NormalForce::Thesis => {
-                let belt = self.problem.belt_loop.belt;
+                let belt = self.problem.drive.belt;
                 let (mass, axial) = (belt.mass_per_length, belt.axial_stiffness);
                 let inertia = Traction::new(NormalForce::Inertia, mass, axial, moving.speed);
                 inertia.of_tension(moving.belt.tension(traction))
@@ -328,7 +327,7 @@ impl<'p> Running<'p> {
         let Loads { changes, .. } = &self.problem.loads;
         let bound = |pulley: usize| {
             let [behind, before] = self.spans(pulley).map(|span| self.offset(span));
-            let stated = &self.problem.belt_loop.pulleys[pulley];
+            let stated = &self.problem.drive.pulleys[pulley];
             let load = raised * stated.friction_coefficient * self.layout.wraps()[pulley];
             match self.factor * changes[pulley] {
                 0.0 => 0.0,

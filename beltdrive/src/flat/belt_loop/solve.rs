@@ -8,11 +8,10 @@ use super::problem::{Loaded, Problem};
 use super::rest::rest_of_closure;
 use super::results::{Found, state};
 use super::running::RunningBelt;
-use crate::drive::belt_loop::{BeltLoop, Closure, Duty, LoopPulley};
 use crate::mechanics::tensioner::{Towards, within_travel};
 use crate::results::loop_error::LoopError;
 use crate::results::loop_state::LoopState;
-use crate::{BeltKind, FrictionLaw};
+use crate::{BeltKind, Closure, Drive, Duty, FrictionLaw, Pulley};
 
 /// Largest strain of the belt: at twice its length no belt is linear elastic, and far beyond it the length
 /// of the unstretched belt is lost in rounding.
@@ -37,25 +36,25 @@ const SLOPE: (f64, f64) = (1e-10, 0.9);
 ///
 /// # Errors
 /// Those of [`LoopError`], in the order given there.
-pub(crate) fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
-    let rim = belt_loop.rim_speed();
-    let torque = |pulley: &LoopPulley| match pulley.duty {
-        Duty::Driver(_) => 0.0,
+pub(crate) fn solve(drive: &Drive) -> Result<LoopState, LoopError> {
+    let rim = drive.rim_speed();
+    let torque = |pulley: &Pulley| match pulley.duty {
+        Duty::Driver(_) | Duty::Driven => 0.0,
         Duty::Torque(torque) => torque,
         Duty::Power(power) => power * pulley.radius / rim,
     };
-    let mut torques: Vec<_> = belt_loop.pulleys.iter().map(torque).collect();
+    let mut torques: Vec<_> = drive.pulleys.iter().map(torque).collect();
     // The last torque of each pulley, what its power asked for there, and the slope of that.
     let mut last = vec![[f64::NAN, f64::NAN, 0.0]; torques.len()];
-    let has_powers = belt_loop.pulleys.iter();
+    let has_powers = drive.pulleys.iter();
     let has_powers = { has_powers }.any(|pulley| matches!(pulley.duty, Duty::Power(_)));
     if !has_powers {
-        return with_torques(belt_loop, &torques, true);
+        return with_torques(drive, &torques, true);
     }
     for _ in 0..POWERS {
-        let state = with_torques(belt_loop, &torques, false)?;
+        let state = with_torques(drive, &torques, false)?;
         let mut change = 0.0;
-        for (index, pulley) in belt_loop.pulleys.iter().enumerate() {
+        for (index, pulley) in drive.pulleys.iter().enumerate() {
             if let Duty::Power(power) = pulley.duty {
                 let (torque, [before, asked_before, slope]) = (torques[index], last[index]);
                 let asked = power / state.pulleys[index].angular_speed;
@@ -70,7 +69,7 @@ pub(crate) fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
             }
         }
         if change.is_nan() || change < POWER {
-            return with_torques(belt_loop, &torques, true);
+            return with_torques(drive, &torques, true);
         }
     }
     Err(LoopError::NotFound {
@@ -80,36 +79,32 @@ pub(crate) fn solve(belt_loop: &BeltLoop) -> Result<LoopState, LoopError> {
 
 /// The steady state of a belt loop with given torques; the final one has its load factor limit and its
 /// checks.
-fn with_torques(
-    belt_loop: &BeltLoop,
-    torques: &[f64],
-    is_final: bool,
-) -> Result<LoopState, LoopError> {
-    let start = belt_loop.start_coordinate();
-    belt_loop.layout(start)?;
-    let (rest, target) = match belt_loop.closure {
+fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopState, LoopError> {
+    let start = drive.start_coordinate();
+    drive.layout(start)?;
+    let (rest, target) = match drive.closure {
         Closure::SpanTension { span, tension } => (None, Target::Tension { span, tension }),
         Closure::SpanTractiveTension { span, tension } => {
             (None, Target::TractiveTension { span, tension })
         }
         _ => {
-            let rest = rest_of_closure(belt_loop, start)?;
+            let rest = rest_of_closure(drive, start)?;
             let length = rest.layout.length();
-            let strain = rest.tension / belt_loop.belt.axial_stiffness;
+            let strain = rest.tension / drive.belt.axial_stiffness;
             let elongation = length * strain / (1.0 + strain);
             (Some(rest), Target::Unstretched { length, elongation })
         }
     };
     let mut problem = Problem {
-        belt_loop,
-        loads: Loads::new(belt_loop, torques),
+        drive,
+        loads: Loads::new(drive, torques),
         target,
-        convention: match belt_loop.belt.kind {
-            BeltKind::Flat { normal_force } => belt_loop.law.row().convention(normal_force),
+        convention: match drive.belt.kind {
+            BeltKind::Flat { normal_force } => drive.law.row().convention(normal_force),
             BeltKind::V(_) => panic!("a flat belt was expected"),
         },
-        driver: belt_loop.driver(),
-        rim: belt_loop.rim_speed(),
+        driver: drive.driver(),
+        rim: drive.rim_speed(),
         start: rest.as_ref().map_or(start, |rest| rest.coordinate),
         towards: match rest {
             Some(_) => Towards::Force,
@@ -125,28 +120,28 @@ fn with_torques(
     let at_rest = rest.as_ref().map(|rest| rest.coordinate);
     let running = rigid.belt.as_ref().map(|_| rigid.coordinate);
     for coordinate in at_rest.into_iter().chain(running) {
-        within_travel(belt_loop, coordinate)?;
+        within_travel(drive, coordinate)?;
     }
     let judged = judged(&problem, &rigid);
     let limit = match is_final || slips(judged.as_ref()) {
         true => load_limit(&problem, &rigid, judged.as_ref())?,
         false => None,
     };
-    let loaded = match belt_loop.law {
+    let loaded = match drive.law {
         FrictionLaw::Coulomb => rigid,
         _ => {
             problem.start = rigid.coordinate;
-            problem.loaded(1.0, belt_loop.law)?
+            problem.loaded(1.0, drive.law)?
         }
     };
-    let rest = match belt_loop.closure {
+    let rest = match drive.closure {
         Closure::SpanTension { .. } | Closure::SpanTractiveTension { .. } => {
             problem.rest_of(&loaded)?
         }
         _ => rest,
     };
     let stalls = |pulley: usize| LoopError::Stalls {
-        pulley: belt_loop.pulleys[pulley].name.clone(),
+        pulley: drive.pulleys[pulley].name.clone(),
     };
     let Loaded {
         coordinate,
@@ -159,9 +154,9 @@ fn with_torques(
     let rest = rest.ok_or(LoopError::NotFound {
         what: "state at rest",
     })?;
-    within_travel(belt_loop, coordinate)?;
-    within_travel(belt_loop, rest.coordinate)?;
-    let axial = belt_loop.belt.axial_stiffness;
+    within_travel(drive, coordinate)?;
+    within_travel(drive, rest.coordinate)?;
+    let axial = drive.belt.axial_stiffness;
     presses(&belt)?;
     let tractions = belt.tractions.iter();
     let strains = tractions.map(|&traction| belt.belt.strain(traction));
@@ -174,7 +169,7 @@ fn with_torques(
         return Err(stalls(pulley));
     }
     let found = Found {
-        belt_loop,
+        drive,
         rest,
         coordinate,
         layout,
@@ -183,7 +178,7 @@ fn with_torques(
     };
     found.stable()?;
     match is_final {
-        true => checked(belt_loop, state(found)),
+        true => checked(drive, state(found)),
         false => Ok(state(found)),
     }
 }

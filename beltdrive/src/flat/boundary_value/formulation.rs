@@ -41,7 +41,7 @@
 
 use super::super::{DRIVEN, DRIVER};
 use super::units::Units;
-use crate::{Drive, FrictionLaw, Load, NormalForce, SpanTension, ZoneKind};
+use crate::{FrictionLaw, Load, NormalForce, SpanTension, TwoPulleys, ZoneKind};
 use bvp::{Ends, Problem, Real, Segment};
 use std::ops::Range;
 
@@ -104,7 +104,7 @@ pub(super) struct Formulation {
 impl Formulation {
     /// The problem of `drive` with these wrap angles, convention and zones.
     pub(super) fn new(
-        drive: &Drive,
+        drive: &TwoPulleys,
         wrap: [f64; 2],
         convention: NormalForce,
         zones: &[Vec<ZoneKind>; 2],

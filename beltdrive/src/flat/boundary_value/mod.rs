@@ -17,7 +17,7 @@ use place::{BorderedZone, Place};
 
 use super::closed_form::{ClosedForm, Refusal};
 use super::{DRIVEN, DRIVER};
-use crate::{BeltKind, Drive, FrictionLaw, NormalForce};
+use crate::{BeltKind, FrictionLaw, NormalForce, TwoPulleys};
 use bvp::{Options, Scheme, Solution, Stats};
 use coarse::first_guess;
 use formulation::{Formulation, LENGTHS, REFERENCE, SPANS, SPEED};
@@ -65,7 +65,7 @@ impl BoundaryValue {
     ///
     /// # Panics
     /// If the drive is none of those that [`crate::solve`] passes on.
-    fn solve(drive: &Drive, tolerance: f64, scheme: Scheme) -> Result<Self, Failure> {
+    fn solve(drive: &TwoPulleys, tolerance: f64, scheme: Scheme) -> Result<Self, Failure> {
         Self::of(
             formulation_of(drive).map_err(Failure::Refused)?,
             tolerance,
@@ -166,7 +166,7 @@ impl BoundaryValue {
 
 /// The problem with the kinds of zones that the closed form finds, and like it without regard to the
 /// convention where friction grows with the slip velocity.
-fn formulation_of(drive: &Drive) -> Result<Formulation, Refusal> {
+fn formulation_of(drive: &TwoPulleys) -> Result<Formulation, Refusal> {
     let closed_form = ClosedForm::find(drive)?;
     let zones = [DRIVEN, DRIVER].map(|pulley| {
         let zones = closed_form.contact[pulley].zones.iter();

@@ -1,6 +1,6 @@
 //! The units in which the boundary value problem is stated.
 
-use crate::{Drive, FrictionLaw, SpanTension, ZoneKind};
+use crate::{FrictionLaw, SpanTension, TwoPulleys, ZoneKind};
 
 /// Units that make all states and parameters of order one.
 ///
@@ -34,7 +34,7 @@ pub(super) struct Units {
 
 impl Units {
     /// The units for a drive.
-    pub(super) fn new(drive: &Drive) -> Self {
+    pub(super) fn new(drive: &TwoPulleys) -> Self {
         let (axial, speed) = (
             drive.belt.axial_stiffness,
             drive.driver_speed * drive.driver_radius,

@@ -31,7 +31,7 @@ pub(crate) fn stability(
     progress: &mut dyn FnMut(f64, &str),
 ) -> Result<Stability, SolveError> {
     let start = Instant::now();
-    let solved = ClosedForm::find(drive).map_err(|refusal| refused(drive, refusal))?;
+    let solved = ClosedForm::find(&drive.pair()).map_err(|refusal| refused(drive, refusal))?;
     let mut done = 0.0;
     let mut pulley = |pulley: usize| {
         let motion = motion(drive, &solved, pulley)?;
@@ -85,7 +85,8 @@ fn motion(drive: &Drive, solved: &ClosedForm, pulley: usize) -> Result<AxialMoti
         }
     };
     let tension = arc.belt.tension(arc.entry());
-    let radius = [drive.driven_radius, drive.driver_radius][pulley];
+    let pair = drive.pair();
+    let radius = [pair.driven_radius, pair.driver_radius][pulley];
     Ok(AxialMotion {
         mass_per_length: drive.belt.mass_per_length,
         axial_stiffness: drive.belt.axial_stiffness,
@@ -93,7 +94,7 @@ fn motion(drive: &Drive, solved: &ClosedForm, pulley: usize) -> Result<AxialMoti
         length: arc.length,
         transition,
         elastic,
-        slip_rate: arc.sense * drive.friction_coefficient / radius,
+        slip_rate: arc.sense * pair.friction_coefficient / radius,
     })
 }
 
@@ -157,7 +158,7 @@ fn onset(drive: &Drive, pulley: usize, form: LinearisedForm) -> Result<Onset, So
     };
     let motion_at = |load: f64| {
         let drive = members.drive_at(load);
-        let solved = ClosedForm::find(&drive).map_err(|refusal| refused(&drive, refusal))?;
+        let solved = ClosedForm::find(&drive.pair()).map_err(|refusal| refused(&drive, refusal))?;
         motion(&drive, &solved, pulley)
     };
     // Relative growth beyond rounding, and the mode that grows.

@@ -3,41 +3,40 @@ use super::super::profiles;
 use super::super::tests::check;
 use super::model::Point;
 use super::*;
-use crate::belt_loop::{BeltLoop, Closure, Duty, LoopPulley, Sense, Side, solve};
-use crate::input::{DriveFile, Stated};
+use crate::belt_loop::solve;
+use crate::input;
 use crate::quantity::{belt_loop, two_pulleys};
 use crate::report::sample;
-use crate::{Belt, BeltKind, FrictionLaw, NormalForce, SteadyState, examples};
+use crate::{
+    Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, NormalForce, Pulley, Sense, Side,
+    SteadyState, examples,
+};
 use std::f64::consts::TAU;
 
-fn example(name: &str) -> BeltLoop {
-    let file = DriveFile::read(name, examples::find(name).unwrap().text, &[]);
-    match file.and_then(|file| file.stated()).unwrap() {
-        Stated::Loop(belt_loop) => belt_loop,
-        Stated::Drive(_) => panic!("{name} is no loop"),
-    }
+fn example(name: &str) -> Drive {
+    input::parse(name, examples::find(name).unwrap().text, &[]).unwrap()
 }
 
 /// A loop without its torques.
-fn idle(mut belt_loop: BeltLoop) -> BeltLoop {
-    for pulley in &mut belt_loop.pulleys {
+fn idle(mut drive: Drive) -> Drive {
+    for pulley in &mut drive.pulleys {
         match pulley.duty {
             Duty::Driver(_) => {}
             _ => pulley.duty = Duty::Torque(0.0),
         }
     }
-    belt_loop
+    drive
 }
 
-fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> LoopPulley {
-    LoopPulley {
+fn pulley(name: &str, centre: [f64; 2], radius: f64, side: Side, duty: Duty) -> Pulley {
+    Pulley {
         side,
-        ..LoopPulley::new(name, centre, radius, 0.6, duty)
+        ..Pulley::new(name, centre, radius, 0.6, duty)
     }
 }
 
-fn round_pulleys(title: &str, turning_number: u32, pulleys: Vec<LoopPulley>) -> BeltLoop {
-    BeltLoop {
+fn round_pulleys(title: &str, turning_number: u32, pulleys: Vec<Pulley>) -> Drive {
+    Drive {
         title: Some(title.to_owned()),
         belt: Belt {
             ribs: 1,
@@ -56,7 +55,7 @@ fn round_pulleys(title: &str, turning_number: u32, pulleys: Vec<LoopPulley>) -> 
 }
 
 /// Pulleys on a circle, every third one an idler on the back, two of them driving, with names of 25 letters.
-fn ring(count: u32) -> BeltLoop {
+fn ring(count: u32) -> Drive {
     let pulleys = (0..count).map(|index| {
         let angle = -0.25 * TAU - TAU * f64::from(index) / f64::from(count);
         let (side, radius, at) = match index % 3 {
@@ -82,7 +81,7 @@ fn ring(count: u32) -> BeltLoop {
 }
 
 /// Two pulleys of these radii, whose distance and torque are given.
-fn pair(radii: [f64; 2], distance: f64, torque: f64, side: Side) -> BeltLoop {
+fn pair(radii: [f64; 2], distance: f64, torque: f64, side: Side) -> Drive {
     let turning_number = u32::from(side == Side::Inside);
     let [one, other] = radii;
     let pulleys = vec![
@@ -98,7 +97,7 @@ fn pair(radii: [f64; 2], distance: f64, torque: f64, side: Side) -> BeltLoop {
     round_pulleys("Two pulleys", turning_number, pulleys)
 }
 
-fn loops() -> Vec<BeltLoop> {
+fn loops() -> Vec<Drive> {
     let mut loops: Vec<_> = ["serpentine", "crossed", "back-side-idler", "conveyor"]
         .map(example)
         .into();
@@ -245,9 +244,9 @@ fn the_numbers_are_those_of_the_state() {
 
 #[test]
 fn the_belt_joins_its_spans() {
-    for belt_loop in loops() {
-        let state = solve(&belt_loop).unwrap();
-        let drawn = Loop::of(&belt_loop::answer(&belt_loop, &state));
+    for drive in loops() {
+        let state = solve(&drive).unwrap();
+        let drawn = Loop::of(&belt_loop::answer(&drive, &state));
         for (index, span) in state.layout.spans().iter().enumerate() {
             for (drawn, known) in drawn.span(index).into_iter().zip([span.start, span.end]) {
                 assert!((drawn - Point::from(known)).norm() < 1e-9 * state.length);

@@ -22,8 +22,8 @@ const MODULUS: Stroke = Stroke::dashed(PALETTE[3], 1.5);
 pub(super) fn figure(stability: &Stability) -> String {
     let drive = &stability.drive;
     let pulleys = [
-        ("driver", &stability.driver, drive.driver_radius),
-        ("driven", &stability.driven, drive.driven_radius),
+        ("driver", &stability.driver, drive.pair().driver_radius),
+        ("driven", &stability.driven, drive.pair().driven_radius),
     ];
     // The zone before the slip zone.
     let held = match drive.law {

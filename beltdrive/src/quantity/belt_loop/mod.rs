@@ -9,20 +9,20 @@ pub(crate) use statement::{heading, statement};
 
 use super::scale::Scale;
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, warning, words};
-use crate::Check;
-use crate::belt_loop::{BeltLoop, LoopConvergence, LoopState, SpanState};
+use crate::belt_loop::{LoopConvergence, LoopState, SpanState};
+use crate::{Check, Drive};
 
 /// The steady state of a loop.
-pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
-    let mut groups = vec![Group::single("", statement(belt_loop))];
-    groups.extend(self::groups(belt_loop, state));
-    if let (Some((_, tensioner)), Some(found)) = (belt_loop.tensioner(), &state.tensioner) {
+pub fn answer(drive: &Drive, state: &LoopState) -> Answer {
+    let mut groups = vec![Group::single("", statement(drive))];
+    groups.extend(self::groups(drive, state));
+    if let (Some((_, tensioner)), Some(found)) = (drive.tensioner(), &state.tensioner) {
         let name = &state.pulleys[found.pulley].name;
         let quantities = tensioner::quantities(name, &tensioner.guide, found, &scale(state));
         groups.push(Group::single("tensioner", quantities));
     }
-    let warnings = state.warnings(belt_loop);
-    let (_, of_speed) = words::speed_loss(belt_loop.belt.kind);
+    let warnings = state.warnings(drive);
+    let (_, of_speed) = words::speed_loss(drive.belt.kind);
     groups.push(warning::group(&warnings));
     let checks = state.checks.iter().map(check).collect();
     groups.push(Group::new("checks", Layout::Columns, checks));
@@ -30,7 +30,7 @@ pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
         groups.push(Group::single("convergence", convergence(found)));
     }
     Answer {
-        heading: heading(belt_loop),
+        heading: heading(drive),
         remarks: warning::messages(&warnings),
         groups,
         notes: of_speed
@@ -41,18 +41,18 @@ pub fn answer(belt_loop: &BeltLoop, state: &LoopState) -> Answer {
 }
 
 /// The groups `pulleys`, `spans` and `loop`.
-pub(super) fn groups(belt_loop: &BeltLoop, state: &LoopState) -> [Group; 3] {
+pub(super) fn groups(drive: &Drive, state: &LoopState) -> [Group; 3] {
     let scale = scale(state);
     let count = state.pulleys.len();
-    let pulleys = (0..count).map(|index| pulley::subject(belt_loop, state, index, &scale));
+    let pulleys = (0..count).map(|index| pulley::subject(drive, state, index, &scale));
     let spans = state.spans.iter().enumerate().map(|(index, span)| {
         let names = [index, (index + 1) % count].map(|pulley| &*state.pulleys[pulley].name);
-        self::span(belt_loop, names, span, &scale)
+        self::span(drive, names, span, &scale)
     });
     [
         Group::new("pulleys", Layout::Columns, pulleys.collect()),
         Group::new("spans", Layout::Columns, spans.collect()),
-        Group::single("loop", whole(belt_loop, state, &scale)),
+        Group::single("loop", whole(drive, state, &scale)),
     ]
 }
 
@@ -112,8 +112,8 @@ pub(super) fn scale(state: &LoopState) -> Scale {
     }
 }
 
-fn span(belt_loop: &BeltLoop, [from, to]: [&str; 2], span: &SpanState, scale: &Scale) -> Subject {
-    let ribs = f64::from(belt_loop.belt.ribs);
+fn span(drive: &Drive, [from, to]: [&str; 2], span: &SpanState, scale: &Scale) -> Subject {
+    let ribs = f64::from(drive.belt.ribs);
     let length = |key, label, value| scale.relative(key, label, Measure::Length, value);
     let frequency = |key, label, value| scale.relative(key, label, Measure::Frequency, value);
     Subject::new(
@@ -124,11 +124,7 @@ fn span(belt_loop: &BeltLoop, [from, to]: [&str; 2], span: &SpanState, scale: &S
             scale.force("tension", "belt tension T", span.tension),
             scale.force(
                 "tension_per_rib",
-                if belt_loop.belt.ribs > 1 {
-                    "T per rib"
-                } else {
-                    ""
-                },
+                if drive.belt.ribs > 1 { "T per rib" } else { "" },
                 span.tension / ribs,
             ),
             scale.force(
@@ -153,7 +149,7 @@ fn span(belt_loop: &BeltLoop, [from, to]: [&str; 2], span: &SpanState, scale: &S
     )
 }
 
-fn whole(belt_loop: &BeltLoop, state: &LoopState, scale: &Scale) -> Vec<Quantity> {
+fn whole(drive: &Drive, state: &LoopState, scale: &Scale) -> Vec<Quantity> {
     let length = |key, label, value| scale.relative(key, label, Measure::Length, value);
     let limit = state.load_limit.as_ref();
     vec![
@@ -192,12 +188,12 @@ fn whole(belt_loop: &BeltLoop, state: &LoopState, scale: &Scale) -> Vec<Quantity
             "  where slips first",
             limit.map(|limit| state.pulleys[limit.pulley].name.clone()),
         ),
-        scale.relative("ribs", "", Measure::Number, f64::from(belt_loop.belt.ribs)),
+        scale.relative("ribs", "", Measure::Number, f64::from(drive.belt.ribs)),
         scale.relative(
             "turning_number",
             "",
             Measure::Number,
-            f64::from(belt_loop.turning_number),
+            f64::from(drive.turning_number),
         ),
         Quantity::json(
             "crossing_spans",

@@ -3,30 +3,25 @@
 use super::super::scale::{HUB_LOAD, Scale};
 use super::super::{Measure, Quantity, Subject, Value, words};
 use super::statement::coefficient;
-use crate::belt_loop::{BeltLoop, Duty, LoopState, Side};
-use crate::{BeltKind, Profile};
+use crate::belt_loop::LoopState;
+use crate::{BeltKind, Drive, Duty, Profile, Side};
 
 /// A pulley, with the belt along it.
-pub(super) fn subject(
-    belt_loop: &BeltLoop,
-    state: &LoopState,
-    index: usize,
-    scale: &Scale,
-) -> Subject {
-    let (stated, pulley) = (&belt_loop.pulleys[index], &state.pulleys[index]);
+pub(super) fn subject(drive: &Drive, state: &LoopState, index: usize, scale: &Scale) -> Subject {
+    let (stated, pulley) = (&drive.pulleys[index], &state.pulleys[index]);
     let profile = &state.profile(index);
     let radius = stated.radius;
-    let ribs = f64::from(belt_loop.belt.ribs);
+    let ribs = f64::from(drive.belt.ribs);
     // A torque is a difference of tensions.
     let torque = scale.tension * radius;
-    let is_ribbed = belt_loop.belt.ribs > 1;
+    let is_ribbed = drive.belt.ribs > 1;
     let side = match stated.side {
         Side::Inside => "inside",
         Side::Outside => "outside",
     };
     let duty = match stated.duty {
         Duty::Driver(_) => "driver",
-        Duty::Torque(_) => "torque",
+        Duty::Torque(_) | Duty::Driven => "torque",
         Duty::Power(_) => "power",
     };
     let mut quantities = vec![
@@ -37,7 +32,7 @@ pub(super) fn subject(
         Quantity::data("radius", Measure::Length, Value::Number(Some(radius))),
         scale.relative(
             "friction_coefficient",
-            match coefficient(belt_loop) {
+            match coefficient(drive) {
                 Some(_) => "",
                 None => "coefficient of friction",
             },
@@ -83,7 +78,7 @@ pub(super) fn subject(
         ),
         scale.against(
             "speed_loss",
-            words::speed_loss(belt_loop.belt.kind).0,
+            words::speed_loss(drive.belt.kind).0,
             Measure::Share,
             pulley.speed_loss,
             1.0,
@@ -108,7 +103,7 @@ pub(super) fn subject(
         pulley.rest_hub_load,
     ));
     quantities.push(scale.zones(&pulley.zones));
-    if let BeltKind::V(_) = belt_loop.belt.kind {
+    if let BeltKind::V(_) = drive.belt.kind {
         let groove = pulley.groove.as_ref();
         let inclination = |end: usize| groove.map(|groove| groove.inclination[end]);
         quantities.extend([

@@ -2,7 +2,8 @@
 
 use super::super::scale::Scale;
 use super::super::{Measure, Quantity, Value};
-use crate::belt_loop::{Guide, TensionerState};
+use crate::Guide;
+use crate::belt_loop::TensionerState;
 
 /// The tensioner, in this guide with its pulley of this name.
 pub(super) fn quantities(

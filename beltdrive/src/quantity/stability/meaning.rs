@@ -3,7 +3,7 @@
 use super::words::{is_neutral, pulleys};
 use crate::input::Key;
 use crate::quantity::value;
-use crate::{Drive, FormStability, Onset, Pulley, PulleyStability, Stability};
+use crate::{Drive, FormStability, Onset, PulleyStability, Role, Stability};
 
 /// The sentence.
 pub(super) fn meaning(stability: &Stability) -> String {
@@ -81,7 +81,7 @@ fn since(drive: &Drive, form: &FormStability) -> String {
 }
 
 /// At which other load a form that is stable at this one turns unstable.
-fn other_load(drive: &Drive, pulley: Pulley, form: &FormStability) -> Option<String> {
+fn other_load(drive: &Drive, pulley: Role, form: &FormStability) -> Option<String> {
     let Some(Onset::At { load, mode }) = form.onset else {
         return None;
     };

@@ -14,7 +14,7 @@ use super::parameter::parameter;
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value, two_pulleys};
 use crate::input::Key;
 use crate::{
-    AxialMode, Drive, FormStability, LinearisedForm, Onset, Pulley, PulleyStability, Stability,
+    AxialMode, Drive, FormStability, LinearisedForm, Onset, PulleyStability, Role, Stability,
 };
 use std::f64::consts::TAU;
 use words::{form_description, form_key, form_word, least_stable, pulleys};
@@ -85,10 +85,10 @@ pub fn answer(stability: &Stability) -> Answer {
 }
 
 /// The motion on a pulley.
-fn pulley(drive: &Drive, pulley: Pulley, on: &PulleyStability) -> Vec<Quantity> {
+fn pulley(drive: &Drive, pulley: Role, on: &PulleyStability) -> Vec<Quantity> {
     let radius = match pulley {
-        Pulley::Driver => drive.driver_radius,
-        Pulley::Driven => drive.driven_radius,
+        Role::Driver => drive.pair().driver_radius,
+        Role::Driven => drive.pair().driven_radius,
     };
     let slips = on.transition < on.contact_length;
     let length = |key, value| Quantity::number(key, "", Measure::Length, value, 0.0);

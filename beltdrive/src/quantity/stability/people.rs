@@ -4,12 +4,12 @@ use super::words::{error, form_word, is_neutral, least_stable};
 use crate::input::Key;
 use crate::quantity::parameter::parameter;
 use crate::quantity::{Measure, Quantity, Subject};
-use crate::{AxialMode, FormStability, Onset, Pulley, PulleyStability};
+use crate::{AxialMode, FormStability, Onset, PulleyStability, Role};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 
 /// The modes on a pulley, in all forms beside each other, for people.
-pub(super) fn modes(pulley: Pulley, on: &PulleyStability) -> Vec<Subject> {
+pub(super) fn modes(pulley: Role, on: &PulleyStability) -> Vec<Subject> {
     let count = on.forms.iter().map(|form| form.modes.len()).min();
     let row = |index: usize| {
         let first = Quantity {
@@ -47,7 +47,7 @@ fn growth(label: impl Into<Cow<'static, str>>, mode: &AxialMode) -> Quantity {
 }
 
 /// What the spectrum in a form comes to, for people.
-pub(super) fn summary(key: Key, pulley: Pulley, form: &FormStability) -> Subject {
+pub(super) fn summary(key: Key, pulley: Role, form: &FormStability) -> Subject {
     let (largest, number) = least_stable(form);
     let word = |label: &'static str, word: &str| Quantity::word("", label, word.to_owned());
     let of_mode = |label, number: Option<usize>, otherwise| match number {

@@ -2,7 +2,7 @@
 
 use crate::quantity::precision::known;
 use crate::results::stability::ROUNDING;
-use crate::{AxialMode, FormStability, LinearisedForm, Pulley, PulleyStability, Stability};
+use crate::{AxialMode, FormStability, LinearisedForm, PulleyStability, Role, Stability};
 
 /// Significant digits of an eigenvalue in text.
 const DIGITS: f64 = 6.0;
@@ -46,10 +46,10 @@ pub(super) fn form_description(form: LinearisedForm) -> &'static str {
 }
 
 /// Both pulleys.
-pub(super) fn pulleys(stability: &Stability) -> [(Pulley, &PulleyStability); 2] {
+pub(super) fn pulleys(stability: &Stability) -> [(Role, &PulleyStability); 2] {
     [
-        (Pulley::Driver, &stability.driver),
-        (Pulley::Driven, &stability.driven),
+        (Role::Driver, &stability.driver),
+        (Role::Driven, &stability.driven),
     ]
 }
 

@@ -15,14 +15,14 @@ pub(super) fn rest_near(
     start: f64,
     layout: &Layout,
 ) -> Result<(RestProblem, Rest), LoopError> {
-    let belt_loop = search.drive;
-    let axial = belt_loop.belt.axial_stiffness;
+    let drive = search.drive;
+    let axial = drive.belt.axial_stiffness;
     let (coordinate, tension) = match known {
         Known::Length(length) => {
-            let grooves = groove_compliances(belt_loop, layout);
+            let grooves = groove_compliances(drive, layout);
             let compliance = length / axial + grooves.iter().sum::<f64>();
             let tension = |layout: &Layout| (layout.length() - length) / compliance;
-            let found = equilibrium(belt_loop, start, Towards::Force, "at rest", |layout| {
+            let found = equilibrium(drive, start, Towards::Force, "at rest", |layout| {
                 Ok([tension(layout), compliance.recip()])
             });
             match found {
@@ -34,33 +34,31 @@ pub(super) fn rest_near(
             }
         }
         Known::Tension(tension) => {
-            let found = equilibrium(belt_loop, start, Towards::Newton, "at rest", |_| {
+            let found = equilibrium(drive, start, Towards::Newton, "at rest", |_| {
                 Ok([tension, 0.0])
             });
             (found?.0, tension)
         }
         Known::Equilibrium => {
-            let tension = belt_loop
-                .tensioner()
-                .map_or(f64::NAN, |(pulley, tensioner)| {
-                    let guide = &tensioner.guide;
-                    let [slope, _] = length_derivatives(layout, pulley, guide, start);
-                    tensioner.load_at(start)[0] / slope
-                });
+            let tension = drive.tensioner().map_or(f64::NAN, |(pulley, tensioner)| {
+                let guide = &tensioner.guide;
+                let [slope, _] = length_derivatives(layout, pulley, guide, start);
+                tensioner.load_at(start)[0] / slope
+            });
             (start, tension)
         }
     };
     if tension <= 0.0 {
         return Err(LoopError::Slack { tension });
     }
-    let layout = belt_loop.layout(coordinate)?;
-    let problem = RestProblem::new(belt_loop, &layout, tension, known);
+    let layout = drive.layout(coordinate)?;
+    let problem = RestProblem::new(drive, &layout, tension, known);
     let problem = match known {
         Known::Equilibrium => problem.held(coordinate),
         _ => problem,
     };
     let pressed = |(pulley, largest): (usize, f64)| LoopError::PressedThrough {
-        pulley: belt_loop.pulleys[pulley].name.clone(),
+        pulley: drive.pulleys[pulley].name.clone(),
         largest,
     };
     let guess = RestGuess::new(&problem, tension, coordinate).map_err(pressed)?;

@@ -18,8 +18,7 @@ use super::contacts::Touching;
 use super::plane::{Laid, Plane};
 use super::problem::LoopProblem;
 use super::unknowns::FLOW;
-use crate::Check;
-use crate::drive::belt_loop::Mount;
+use crate::{Check, Mount};
 use std::f64::consts::FRAC_PI_2;
 
 /// What the checks look at.

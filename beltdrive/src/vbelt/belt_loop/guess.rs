@@ -16,7 +16,7 @@ use super::rest::Rest;
 use super::round::Target;
 use super::seat::Seat;
 use super::unknowns::FLOW;
-use crate::drive::belt_loop::BeltLoop;
+use crate::Drive;
 use crate::drive::layout::{Layout, Side};
 
 /// A first approximation to the solution of a [`LoopProblem`].
@@ -31,9 +31,9 @@ pub(super) struct LoopGuess<'a> {
 
 /// About how much the belt sinks round each pulley, as length of the loop per tractive tension, m/N; 0 on its
 /// back.
-pub(super) fn groove_compliances(belt_loop: &BeltLoop, layout: &Layout) -> Vec<f64> {
-    let groove = belt_loop.belt.v();
-    let pulleys = belt_loop.pulleys.iter().zip(layout.wraps());
+pub(super) fn groove_compliances(drive: &Drive, layout: &Layout) -> Vec<f64> {
+    let groove = drive.belt.v();
+    let pulleys = drive.pulleys.iter().zip(layout.wraps());
     let compliances = pulleys.map(|(pulley, wrap)| match pulley.side {
         Side::Inside => {
             let half_angle = pulley.half_angle.unwrap_or(groove.half_angle);
@@ -46,33 +46,33 @@ pub(super) fn groove_compliances(belt_loop: &BeltLoop, layout: &Layout) -> Vec<f
 
 /// Tractive tensions of the spans of a loop that the friction of its pulleys does not limit, N.
 pub(super) fn tractive_tensions(
-    belt_loop: &BeltLoop,
+    drive: &Drive,
     layout: &Layout,
     target: Target,
     rest: Option<&Rest>,
     factor: f64,
 ) -> Vec<f64> {
-    let belt = belt_loop.belt;
-    let rim = belt_loop.rim_speed();
-    let count = belt_loop.pulleys.len();
-    let driver = belt_loop.driver();
+    let belt = drive.belt;
+    let rim = drive.rim_speed();
+    let count = drive.pulleys.len();
+    let driver = drive.driver();
     let mut offsets = vec![0.0; count];
     for step in 1..count {
         let pulley = (driver + step) % count;
-        let stated = &belt_loop.pulleys[pulley];
+        let stated = &drive.pulleys[pulley];
         offsets[pulley] = offsets[(pulley + count - 1) % count]
             + factor * stated.duty.torque_at(rim / stated.radius) / stated.radius;
     }
     let centrifugal = belt.mass_per_length * rim * rim;
-    let level = match (target, rest, belt_loop.tensioner()) {
+    let level = match (target, rest, drive.tensioner()) {
         (Target::Tension { span, tension }, _, _) => tension - centrifugal - offsets[span],
         (Target::Tractive { span, tension }, _, _) => tension - offsets[span],
         (Target::Length(_), None, _) => f64::NAN,
         (Target::Length(_), Some(rest), Some((idler, _))) => rest.tension - offsets[idler],
         (Target::Length(_), Some(rest), None) => {
             let [mut by_tension, mut by_pressure, mut moment] = [0.0; 3];
-            let grooves = groove_compliances(belt_loop, layout);
-            for (index, pulley) in belt_loop.pulleys.iter().enumerate() {
+            let grooves = groove_compliances(drive, layout);
+            for (index, pulley) in drive.pulleys.iter().enumerate() {
                 let sinking = grooves[index];
                 let behind = offsets[(index + count - 1) % count];
                 let mean = 0.5 * (behind + offsets[index]);

@@ -12,8 +12,8 @@
 //! pulley θ is 0.
 
 use super::super::EndAngles;
-use crate::drive::belt_loop::{BeltLoop, Mount};
 use crate::drive::layout::{Layout, Side, tangent};
+use crate::{Drive, Mount};
 use bvp::Real;
 use std::f64::consts::TAU;
 
@@ -51,14 +51,14 @@ pub(super) struct Laid<T> {
 
 impl Plane {
     /// The pulleys of a loop whose pitch line is laid out in `layout`.
-    pub(super) fn new(belt_loop: &BeltLoop, layout: &Layout) -> Self {
-        let pulleys = belt_loop.pulleys.iter().zip(layout.wraps());
+    pub(super) fn new(drive: &Drive, layout: &Layout) -> Self {
+        let pulleys = drive.pulleys.iter().zip(layout.wraps());
         let spots = pulleys.map(|(pulley, &wrap)| Spot {
             mount: pulley.mount,
             radius: pulley.radius,
             turns: match pulley.side {
-                Side::Inside => belt_loop.sense.sign(),
-                Side::Outside => -belt_loop.sense.sign(),
+                Side::Inside => drive.sense.sign(),
+                Side::Outside => -drive.sense.sign(),
             },
             wrap,
         });

@@ -29,9 +29,8 @@ use super::round::Target;
 use super::seat::Seat;
 use super::tensioner::{coordinate_unit, unbalanced};
 use super::unknowns::{FLOW, Unknowns};
-use crate::FrictionLaw;
-use crate::drive::belt_loop::{BeltLoop, Duty, Tensioner};
 use crate::drive::layout::Layout;
+use crate::{Drive, Duty, FrictionLaw, Tensioner};
 use bvp::{Ends, Problem, Real, Segment, Solution};
 use std::ops::Range;
 
@@ -65,22 +64,22 @@ impl LoopProblem {
     /// The problem of a loop whose pitch line is laid out in `layout`, in units of `units`, with one segment on
     /// each pulley and the direction of Coulomb and EPP friction smoothed over the length ℓ/R `lag`.
     pub(super) fn new(
-        belt_loop: &BeltLoop,
+        drive: &Drive,
         layout: &Layout,
         units: Units,
         target: Target,
         law: FrictionLaw,
         lag: f64,
     ) -> Self {
-        let pulleys = belt_loop.pulleys.iter();
-        let seats = pulleys.map(|pulley| Seat::new(belt_loop, pulley, units, law, lag));
+        let pulleys = drive.pulleys.iter();
+        let seats = pulleys.map(|pulley| Seat::new(drive, pulley, units, law, lag));
         let seats: Vec<_> = seats.collect();
-        let loads = belt_loop.pulleys.iter().map(|pulley| match pulley.duty {
-            Duty::Driver(_) => Load::Driver,
+        let loads = drive.pulleys.iter().map(|pulley| match pulley.duty {
+            Duty::Driver(_) | Duty::Driven => Load::Driver,
             Duty::Torque(torque) => Load::Torque(torque / units.torque(pulley.radius)),
             Duty::Power(power) => Load::Power(power / units.power()),
         });
-        let (tensioner, driver) = (belt_loop.tensioner(), belt_loop.driver());
+        let (tensioner, driver) = (drive.tensioner(), drive.driver());
         let is_epp = matches!(law, FrictionLaw::Epp { .. });
         let zones = seats.iter().map(|seat| match seat {
             Seat::Groove(_) => vec![Regime::of_contact(law)],
@@ -89,7 +88,7 @@ impl LoopProblem {
         });
         let zones: Vec<_> = zones.collect();
         let problem = Self {
-            plane: Plane::new(belt_loop, layout),
+            plane: Plane::new(drive, layout),
             units,
             loads: loads.collect(),
             factor: Some(1.0),

@@ -12,8 +12,8 @@ use super::plane::{Laid, Plane, Spot};
 use super::seat::frictionless;
 use super::solve::Search;
 use super::tensioner::{coordinate_unit, unbalanced};
-use crate::drive::belt_loop::{BeltLoop, Mount, Tensioner};
 use crate::drive::layout::{Layout, Side};
+use crate::{Drive, Mount, Tensioner};
 use bvp::{Control, Ends, Options, Problem, Real, Segment, Solution};
 
 /// What is known of the belt at rest.
@@ -43,23 +43,23 @@ pub(super) struct RestProblem {
 
 impl RestProblem {
     /// Of a loop whose pitch line is laid out in `layout`, in units of a force of about the tension.
-    pub(super) fn new(belt_loop: &BeltLoop, layout: &Layout, force: f64, known: Known) -> Self {
-        let units = Units::new(&belt_loop.belt, 1.0, force);
-        let pulleys = belt_loop.pulleys.iter().enumerate();
+    pub(super) fn new(drive: &Drive, layout: &Layout, force: f64, known: Known) -> Self {
+        let units = Units::new(&drive.belt, 1.0, force);
+        let pulleys = drive.pulleys.iter().enumerate();
         let grooves = pulleys.filter(|(_, pulley)| pulley.side == Side::Inside);
         let grooves: Vec<_> = grooves
-            .map(|(index, pulley)| (index, frictionless(belt_loop, pulley, units)))
+            .map(|(index, pulley)| (index, frictionless(drive, pulley, units)))
             .collect();
         let segments = grooves
             .iter()
             .map(|(_, groove)| Segment::new(groove.states() + 1));
         Self {
-            plane: Plane::new(belt_loop, layout),
+            plane: Plane::new(drive, layout),
             units,
             known,
             segments: segments.collect(),
             grooves,
-            tensioner: belt_loop
+            tensioner: drive
                 .tensioner()
                 .map(|(pulley, tensioner)| (pulley, *tensioner)),
             held: None,

@@ -52,12 +52,12 @@ pub(super) fn running<'l>(
     rest: Option<&Rest>,
     coordinate: f64,
 ) -> Result<Running<'l>, LoopError> {
-    let belt_loop = search.drive;
-    let layout = belt_loop.layout(coordinate)?;
+    let drive = search.drive;
+    let layout = drive.layout(coordinate)?;
     presses(search, target, &layout)?;
     let start = |factor: f64| Start {
-        belt_loop,
-        tractive: tractive_tensions(belt_loop, &layout, target, rest, factor),
+        drive,
+        tractive: tractive_tensions(drive, &layout, target, rest, factor),
         layout: layout.clone(),
         target,
         coordinate,

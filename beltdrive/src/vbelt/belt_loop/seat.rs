@@ -2,9 +2,8 @@
 
 use super::super::{Groove, Law, Strand, Units};
 use super::back::Back;
-use crate::FrictionLaw;
-use crate::drive::belt_loop::{BeltLoop, Duty, LoopPulley};
 use crate::drive::layout::Side;
+use crate::{Drive, Duty, FrictionLaw, Pulley};
 
 /// How the belt touches a pulley.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,8 +20,8 @@ impl Seat {
     /// That of a pulley, with a friction law whose direction is smoothed over the length ℓ/R `lag`. The tension at
     /// which the displacement of EPP friction does not grow is a parameter of the loop and left out here.
     pub(super) fn new(
-        belt_loop: &BeltLoop,
-        pulley: &LoopPulley,
+        drive: &Drive,
+        pulley: &Pulley,
         units: Units,
         law: FrictionLaw,
         lag: f64,
@@ -34,7 +33,7 @@ impl Seat {
                 strand: units.strand(),
                 friction_coefficient,
                 law,
-                ..frictionless(belt_loop, pulley, units)
+                ..frictionless(drive, pulley, units)
             }),
             (Side::Outside, Duty::Torque(0.0) | Duty::Power(0.0)) => Self::Idle,
             (Side::Outside, _) => Self::Back(Back {
@@ -65,8 +64,8 @@ impl Seat {
 }
 
 /// The groove of a pulley without friction, in a belt without inertia.
-pub(super) fn frictionless(belt_loop: &BeltLoop, pulley: &LoopPulley, units: Units) -> Groove {
-    let belt = belt_loop.belt.v();
+pub(super) fn frictionless(drive: &Drive, pulley: &Pulley, units: Units) -> Groove {
+    let belt = drive.belt.v();
     let (sin_beta, cos_beta) = pulley.half_angle.unwrap_or(belt.half_angle).sin_cos();
     Groove {
         strand: Strand {

@@ -6,14 +6,14 @@ use super::rest::{Known, Rest, RestProblem};
 use super::round::Target;
 use super::running::{Running, running};
 use super::state::state;
-use crate::drive::belt_loop::{BeltLoop, Closure};
 use crate::mechanics::tensioner::within_travel;
 use crate::results::difficulty;
 use crate::results::loop_error::LoopError;
 use crate::results::loop_state::LoopState;
+use crate::{Closure, Drive};
 
 /// The search for the steady state of a loop.
-pub(super) type Search<'l> = Path<'l, BeltLoop>;
+pub(super) type Search<'l> = Path<'l>;
 
 /// A loop at rest and running.
 struct Found<'l> {
@@ -23,27 +23,24 @@ struct Found<'l> {
 }
 
 /// The steady state of a loop with a V-belt.
-pub(crate) fn solve(belt_loop: &BeltLoop, tolerance: f64) -> Result<LoopState, LoopError> {
-    let mut search = Search::new(belt_loop, tolerance);
+pub(crate) fn solve(drive: &Drive, tolerance: f64) -> Result<LoopState, LoopError> {
+    let mut search = Search::new(drive, tolerance);
     let Found {
         at_rest,
         rest,
         running,
-    } = search.find()?;
+    } = search.search()?;
     state(&mut search, &rest, &at_rest, &running.solved)
 }
 
 /// As [`solve`], with what takes longer than the state: the torque margin of every pulley and the load limit.
-pub(crate) fn solve_with_margins(
-    belt_loop: &BeltLoop,
-    tolerance: f64,
-) -> Result<LoopState, LoopError> {
-    let mut search = Search::new(belt_loop, tolerance);
+pub(crate) fn solve_with_margins(drive: &Drive, tolerance: f64) -> Result<LoopState, LoopError> {
+    let mut search = Search::new(drive, tolerance);
     let Found {
         at_rest,
         rest,
         running,
-    } = search.find()?;
+    } = search.search()?;
     let solved = &running.solved;
     let mut found = state(&mut search, &rest, &at_rest, solved)?;
     let Ok(rough) = running.roughly(&mut search) else {
@@ -61,15 +58,15 @@ pub(crate) fn solve_with_margins(
 
 impl<'l> Search<'l> {
     /// The loop at rest and running, in the order in which the closure gives them.
-    fn find(&mut self) -> Result<Found<'l>, LoopError> {
-        let belt_loop = self.drive;
-        let start = match (belt_loop.closure, belt_loop.tensioner()) {
+    fn search(&mut self) -> Result<Found<'l>, LoopError> {
+        let drive = self.drive;
+        let start = match (drive.closure, drive.tensioner()) {
             (Closure::RestCoordinate(coordinate), _) => coordinate,
             (_, Some((_, tensioner))) => tensioner.start_coordinate,
             (_, None) => 0.0,
         };
-        let layout = belt_loop.layout(start)?;
-        let target = match belt_loop.closure {
+        let layout = drive.layout(start)?;
+        let target = match drive.closure {
             Closure::UnstretchedLength(length) => Err(Known::Length(length)),
             Closure::SetupTension(tension) => Err(Known::Tension(tension)),
             Closure::RestCoordinate(_) => Err(Known::Equilibrium),
@@ -77,12 +74,13 @@ impl<'l> Search<'l> {
             Closure::SpanTractiveTension { span, tension } => {
                 Ok(Target::Tractive { span, tension })
             }
+            Closure::BothSpans(_) => unreachable!("two pulleys are solved as two pulleys"),
         };
         let target = match target {
             Ok(target) => target,
             Err(known) => {
                 let (at_rest, rest) = rest_near(self, known, start, &layout)?;
-                within_travel(belt_loop, rest.coordinate)?;
+                within_travel(drive, rest.coordinate)?;
                 let target = Target::Length(rest.unstretched);
                 let running = running(self, target, Some(&rest), rest.coordinate)?;
                 return self.found(at_rest, rest, running);
@@ -92,7 +90,7 @@ impl<'l> Search<'l> {
         let problem = &running.solved.problem;
         let [length, _] = running.solved.round(|round| round.lengths());
         let coordinate = problem.coordinate(running.solved.solution.parameters());
-        let layout = belt_loop.layout(coordinate)?;
+        let layout = drive.layout(coordinate)?;
         let (at_rest, rest) = rest_near(self, Known::Length(length), coordinate, &layout)?;
         self.found(at_rest, rest, running)
     }

@@ -6,13 +6,12 @@ use super::super::path::Effort;
 use super::guess::LoopGuess;
 use super::problem::LoopProblem;
 use super::round::Target;
-use crate::FrictionLaw;
-use crate::drive::belt_loop::BeltLoop;
 use crate::drive::layout::Layout;
+use crate::{Drive, FrictionLaw};
 
 /// A loop under a share of its load.
 pub(super) struct Start<'l> {
-    pub(super) belt_loop: &'l BeltLoop,
+    pub(super) drive: &'l Drive,
     pub(super) layout: Layout,
     pub(super) target: Target,
     /// Tractive tensions of the spans without creep, N.
@@ -37,21 +36,20 @@ impl Asked for Start<'_> {
     const FIRST: Effort = Effort::Start;
 
     fn law(&self) -> FrictionLaw {
-        self.belt_loop.law
+        self.drive.law
     }
 
     fn largest_curvature(&self) -> f64 {
-        let pulleys = self.belt_loop.pulleys.iter();
+        let pulleys = self.drive.pulleys.iter();
         let curvatures = pulleys.map(|pulley| pulley.friction_coefficient / pulley.radius);
         curvatures.fold(0.0, f64::max)
     }
 
     fn problem(&self, law: FrictionLaw, lag: f64) -> LoopProblem {
-        let belt_loop = self.belt_loop;
+        let drive = self.drive;
         let force = self.tractive.iter().copied().fold(0.0, f64::max);
-        let units = Units::new(&belt_loop.belt, belt_loop.rim_speed(), force);
-        LoopProblem::new(belt_loop, &self.layout, units, self.target, law, lag)
-            .with_factor(self.factor)
+        let units = Units::new(&drive.belt, drive.rim_speed(), force);
+        LoopProblem::new(drive, &self.layout, units, self.target, law, lag).with_factor(self.factor)
     }
 
     fn guess<'p>(&self, problem: &'p LoopProblem) -> impl bvp::Guess + 'p {

@@ -12,13 +12,12 @@ use super::rest_guess::RestNear;
 use super::solve::Search;
 use super::tensioner::{held, length_derivatives};
 use super::unknowns::FLOW;
-use crate::drive::belt_loop::{Duty, Mount};
 use crate::mechanics::span::{DEFLECTION, first_frequency, rest_frequency};
 use crate::results::loop_error::LoopError;
 use crate::results::loop_state::{
     Contacts, GrooveState, LoopConvergence, LoopState, PulleyState, SpanState, TensionerState,
 };
-use crate::{Profile, Zone, ZoneKind};
+use crate::{Duty, Mount, Profile, Zone, ZoneKind};
 
 /// A solved loop with what follows from its solution at once.
 struct Seen<'a> {
@@ -316,7 +315,7 @@ pub(super) fn state(
     solved: &Solved<LoopProblem>,
 ) -> Result<LoopState, LoopError> {
     let seen = Seen::new(solved, rest);
-    let belt_loop = search.drive;
+    let drive = search.drive;
     let checks = Checked {
         solved,
         laid: &seen.laid,
@@ -332,7 +331,7 @@ pub(super) fn state(
     if let Some(violated) = checks.iter().find(|check| !check.holds()) {
         return Err(LoopError::Violated(violated.clone()));
     }
-    let count = belt_loop.pulleys.len();
+    let count = drive.pulleys.len();
     let pulleys: Vec<_> = (0..count)
         .map(|pulley| seen.pulley(search, pulley))
         .collect();
@@ -348,8 +347,8 @@ pub(super) fn state(
     let units = solved.problem.units;
     let meshes = 0..solved.problem.zoning().count();
     Ok(LoopState {
-        layout: belt_loop.layout(seen.coordinate)?,
-        rest_layout: belt_loop.layout(rest.coordinate)?,
+        layout: drive.layout(seen.coordinate)?,
+        rest_layout: drive.layout(rest.coordinate)?,
         unstretched_speed: seen.flow * units.speed,
         mass_flow: seen.flow * units.mass_flow(),
         length,

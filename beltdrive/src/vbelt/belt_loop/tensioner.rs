@@ -4,8 +4,8 @@ use super::plane::{Laid, Plane};
 use super::rest::{Known, Rest, RestProblem};
 use super::rest_guess::RestNear;
 use super::solve::Search;
-use crate::drive::belt_loop::{Guide, Tensioner};
 use crate::mechanics::tensioner::Held;
+use crate::{Guide, Tensioner};
 use bvp::Real;
 
 /// Share of the tension over which the compliance of the belt is a difference.

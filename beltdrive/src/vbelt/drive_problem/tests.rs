@@ -1,10 +1,9 @@
 //! The statement is complete, free of units, and differentiated exactly.
 
 use super::*;
-use crate::FrictionLaw;
 use crate::vbelt::limit_excess;
 use crate::vbelt::scaling::tests::kim;
-use crate::{BeltKind, VBelt};
+use crate::{BeltKind, FrictionLaw, VBelt};
 use bvp::Equations;
 use proptest::prelude::*;
 
@@ -65,7 +64,7 @@ fn belt_and_tractive_tension_state_the_same_load() {
     let tractive = kim(FrictionLaw::Coulomb, 0.2);
     let scales = Scales::new(&tractive);
     let flow = 0.95;
-    let mut belt = tractive.clone();
+    let mut belt = tractive;
     let strand = scales.units.strand();
     let tension = |span: SpanTension| {
         SpanTension::Belt(
@@ -94,7 +93,7 @@ fn the_equations_do_not_depend_on_units() {
         // Lengths in other units by a factor l, times by t, masses by m.
         let (l, t, m) = (3.7, 0.21, 11.0);
         let force = m * l / (t * t);
-        let mut other = drive.clone();
+        let mut other = drive;
         other.belt.mass_per_length *= m / l;
         other.belt.axial_stiffness *= force;
         other.belt.kind = BeltKind::V(VBelt {

@@ -29,7 +29,7 @@ fn places(pulleys: usize) -> impl Iterator<Item = Vec<Loose>> {
         .chain([everywhere(Loose::Never)])
 }
 
-impl<D> Path<'_, D> {
+impl Path<'_> {
     /// EPP friction by way of bristles, if it is found so and friction obeys its law.
     pub(super) fn epp<A: Asked>(
         &mut self,
@@ -113,16 +113,17 @@ impl<D> Path<'_, D> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::FrictionLaw;
     use crate::vbelt::groove::{ANGLE, INCLINATION, PENETRATION, TENSION};
     use crate::vbelt::laws::AtLoad;
     use crate::vbelt::scaling::tests::kim;
     use crate::vbelt::{DRIVER, Regime};
+    use crate::{Drive, FrictionLaw};
 
     #[test]
     fn a_belt_that_sticks_is_that_of_a_normalised_direction() {
         // Soft friction: the belt on the driver sticks behind its elastic zone.
         let drive = kim(FrictionLaw::Epp { stiffness: 1e6 }, 0.25);
+        let drive = Drive::from(drive);
         let mut path = Path::new(&drive, 1e-6);
         let asked = AtLoad {
             drive: &drive,

@@ -17,7 +17,7 @@ const EFFECT_SHARE: f64 = 0.3;
 /// Zones are found anew at most so often; if they still change, the check of the state says so.
 const MAX_CUTS: usize = 8;
 
-impl<D> Path<'_, D> {
+impl Path<'_> {
     /// A solution with its zones found anew, until every zone is of the kind it was taken for. Rough solutions
     /// keep zones that could not be changed: those of a shorter ℓ may be found again.
     pub(super) fn split_zones<P: BeltProblem>(

@@ -23,7 +23,7 @@ mod vector;
 use super::carried::Carried;
 use super::path::{Effort, Path, Solved, Stuck};
 use super::{BeltProblem, DriveProblem, Guess, Law, Scales};
-use crate::{Drive, FrictionLaw};
+use crate::{Drive, FrictionLaw, TwoPulleys};
 use std::f64::consts::LN_10;
 
 use finish::RESOLVED;
@@ -85,14 +85,14 @@ impl Asked for AtLoad<'_> {
     }
 
     fn largest_curvature(&self) -> f64 {
-        let radius = self.drive.driver_radius.min(self.drive.driven_radius);
-        self.drive.friction_coefficient / radius
+        let pair = self.drive.pair();
+        pair.friction_coefficient / pair.driver_radius.min(pair.driven_radius)
     }
 
     fn problem(&self, law: FrictionLaw, lag: f64) -> DriveProblem {
-        let drive = Drive {
+        let drive = TwoPulleys {
             law,
-            ..self.drive.clone()
+            ..self.drive.pair()
         };
         DriveProblem::new(&drive, Scales::new(&drive), lag).with_tight_tension(self.tight)
     }
@@ -102,7 +102,7 @@ impl Asked for AtLoad<'_> {
     }
 }
 
-impl<D> Path<'_, D> {
+impl Path<'_> {
     /// The steady state that is asked for, from nothing.
     pub(super) fn seek<A: Asked>(
         &mut self,
@@ -233,12 +233,12 @@ impl<D> Path<'_, D> {
 impl Path<'_> {
     /// The units of the drive.
     pub(super) fn scales(&self) -> Scales {
-        Scales::new(self.drive)
+        Scales::new(&self.drive.pair())
     }
 
     /// The scaled tight tension of the drive.
     pub(super) fn target(&self) -> f64 {
-        self.drive.load.tight.value() / self.scales().units.force
+        self.drive.pair().load.tight.value() / self.scales().units.force
     }
 
     /// The steady state with the law of the drive at the scaled tight tension `tight`, from
@@ -286,8 +286,9 @@ impl Path<'_> {
     /// The steady state of the drive from that of a neighbouring drive with a law of the same kind,
     /// at the same ℓ or ε and with the same zones.
     pub(super) fn neighbour(&mut self, solved: &Solved) -> Result<Solved, bvp::Error> {
-        let scales = Scales::with_force(self.drive, solved.problem.scales().units.force);
-        let problem = DriveProblem::new(self.drive, scales, solved.problem.smoothing())
+        let drive = self.drive.pair();
+        let scales = Scales::with_force(&drive, solved.problem.scales().units.force);
+        let problem = DriveProblem::new(&drive, scales, solved.problem.smoothing())
             .with_direction(solved.problem.has_direction())
             .with_zones(&solved.problem.regimes());
         self.attempt(problem, &Carried(solved), Effort::Final)

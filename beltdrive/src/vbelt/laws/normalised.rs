@@ -13,7 +13,7 @@ use crate::vbelt::path::{Effort, Path, Solved, Stuck};
 /// works: of the order of the largest slip.
 const FIRST_EPSILONS: [f64; 3] = [1e-3, 1e-2, 1e-1];
 
-impl<D> Path<'_, D> {
+impl Path<'_> {
     /// The law of the drive with a normalised direction.
     pub(super) fn normalised<A: Asked>(
         &mut self,

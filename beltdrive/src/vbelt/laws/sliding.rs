@@ -20,7 +20,7 @@ const LED_LAGS: [f64; 3] = [1e-5, 1e-6, 1e-7];
 /// slip. Where the traction turns the wrong way round it is 0.03 and more, elsewhere less than 1e-6.
 const WRONG_WAY: f64 = 1e-4;
 
-impl<D> Path<'_, D> {
+impl Path<'_> {
     /// Coulomb friction by way of bristles, if it is found so and friction obeys its law.
     pub(super) fn coulomb<A: Asked>(
         &mut self,

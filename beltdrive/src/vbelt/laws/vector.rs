@@ -20,7 +20,7 @@ const SHARPNESS: [i32; 2] = [2, 4];
 /// Length over which the traction is led on the way: the mesh resolves it easily.
 const FIRST_LEAD: f64 = 1e-2;
 
-impl<D> Path<'_, D> {
+impl Path<'_> {
     /// Vector EPP friction by way of bristles.
     pub(super) fn vector<A: Asked>(
         &mut self,

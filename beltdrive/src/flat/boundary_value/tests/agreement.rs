@@ -13,7 +13,7 @@ const FINE: Scheme = Scheme::Gauss { stages: 6 };
 
 /// The largest relative differences of tension, displacement, normal force, friction, speed of the driven
 /// pulley, reference tensions and borders.
-fn deviations(drive: &Drive, found: &BoundaryValue) -> [f64; 7] {
+fn deviations(drive: &TwoPulleys, found: &BoundaryValue) -> [f64; 7] {
     let exact = ClosedForm::find(drive).unwrap();
     let mut worst = [0.0_f64; 7];
     let mut note = |index: usize, difference: f64, scale: f64| {
@@ -72,7 +72,7 @@ fn show(values: &[f64; 7]) -> String {
 }
 
 /// Drives of every law, convention, kind of load and ratio of radii.
-fn sample() -> Vec<(String, Drive)> {
+fn sample() -> Vec<(String, TwoPulleys)> {
     let mut drives = Vec::new();
     let mut laws = vec![FrictionLaw::Coulomb];
     laws.extend([1e6, 1e7, 8.1e7, 1e9, 1e12].map(|stiffness| FrictionLaw::Epp { stiffness }));

@@ -3,7 +3,7 @@
 mod agreement;
 mod order;
 
-use crate::{Belt, BeltKind, Drive, FrictionLaw, Load, NormalForce, SpanTension};
+use crate::{Belt, BeltKind, FrictionLaw, Load, NormalForce, SpanTension, TwoPulleys};
 
 /// The drive of Kim (2009) with a law of friction, a convention and a load.
 fn drive(
@@ -11,9 +11,8 @@ fn drive(
     normal_force: NormalForce,
     slack: SpanTension,
     tight: SpanTension,
-) -> Drive {
-    Drive {
-        title: None,
+) -> TwoPulleys {
+    TwoPulleys {
         belt: Belt {
             ribs: 1,
             mass_per_length: 0.1036,

@@ -1,17 +1,16 @@
 //! The statement is complete, with any zones, on the back of the belt and with a tensioner.
 
 use super::*;
-use crate::drive::belt_loop::{Closure, Guide, LoopPulley, Mount, TensionerLoad};
 use crate::drive::layout::{Sense, Side};
-use crate::{Belt, BeltKind, VBelt};
+use crate::{Belt, BeltKind, Closure, Guide, Mount, Pulley, TensionerLoad, VBelt};
 
 /// Angle of the arm, rad.
 const COORDINATE: f64 = 4.7;
 
 /// Driver, a pulley under a torque on the back, two driven pulleys inside, and an idler on a weighted arm on the back.
-fn belt_loop() -> BeltLoop {
-    let pulley = |name, centre, radius, duty| LoopPulley::new(name, centre, radius, 0.4, duty);
-    let on_back = |pulley| LoopPulley {
+fn drive() -> Drive {
+    let pulley = |name, centre, radius, duty| Pulley::new(name, centre, radius, 0.4, duty);
+    let on_back = |pulley| Pulley {
         side: Side::Outside,
         ..pulley
     };
@@ -25,7 +24,7 @@ fn belt_loop() -> BeltLoop {
         start_coordinate: COORDINATE,
         travel: None,
     });
-    BeltLoop {
+    Drive {
         title: None,
         belt: Belt {
             mass_per_length: 0.1,
@@ -53,12 +52,12 @@ fn belt_loop() -> BeltLoop {
 
 #[test]
 fn every_condition_is_written_and_none_is_missing() {
-    let belt_loop = belt_loop();
-    let layout = belt_loop.layout(COORDINATE).unwrap();
-    let units = Units::new(&belt_loop.belt, belt_loop.rim_speed(), 500.0);
+    let drive = drive();
+    let layout = drive.layout(COORDINATE).unwrap();
+    let units = Units::new(&drive.belt, drive.rim_speed(), 500.0);
     let problem = |law| {
         let target = Target::Length(1.3);
-        LoopProblem::new(&belt_loop, &layout, units, target, law, 1e-3)
+        LoopProblem::new(&drive, &layout, units, target, law, 1e-3)
     };
     let epp = problem(FrictionLaw::Epp { stiffness: 1e8 });
     let [elastic, slip, stick] = [Regime::Elastic, Regime::Slip, Regime::Stick];

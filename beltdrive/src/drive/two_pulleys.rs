@@ -1,0 +1,139 @@
+//! A drive with two pulleys by its numbers.
+
+use super::Drive;
+use super::closure::{Closure, Load};
+use super::layout::{Sense, Side};
+use super::pulley::{Duty, Mount, Pulley};
+use crate::{Belt, FrictionLaw};
+
+/// An open belt round a driver and a driven pulley, closed by the tensions of both spans: the numbers that
+/// decide its steady state.
+///
+/// [`Drive::two_pulleys`] gives those of a drive. The drive of such numbers has its driver at the origin and the
+/// driven pulley to the right of it, and its belt runs counter-clockwise: the slack span leaves the driver below.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoPulleys {
+    /// The belt.
+    pub belt: Belt,
+    /// Coefficient of friction μ > 0 between belt and pulleys.
+    pub friction_coefficient: f64,
+    /// How friction depends on slip.
+    pub law: FrictionLaw,
+    /// Pitch radius of the driver, m.
+    pub driver_radius: f64,
+    /// Angular speed ω₂ of the driver, rad/s; positive.
+    pub driver_speed: f64,
+    /// Pitch radius of the driven pulley, m.
+    pub driven_radius: f64,
+    /// Distance between the pulley centres, m; greater than the sum of the radii.
+    pub centre_distance: f64,
+    /// The tensions that close the drive.
+    pub load: Load,
+}
+
+impl From<TwoPulleys> for Drive {
+    fn from(two: TwoPulleys) -> Self {
+        let pulley = |name, x, radius, duty| {
+            Pulley::new(name, [x, 0.0], radius, two.friction_coefficient, duty)
+        };
+        Self {
+            title: None,
+            belt: two.belt,
+            law: two.law,
+            sense: Sense::CounterClockwise,
+            turning_number: 1,
+            pulleys: vec![
+                pulley(
+                    "driver",
+                    0.0,
+                    two.driver_radius,
+                    Duty::Driver(two.driver_speed),
+                ),
+                pulley(
+                    "driven",
+                    two.centre_distance,
+                    two.driven_radius,
+                    Duty::Driven,
+                ),
+            ],
+            closure: Closure::BothSpans(two.load),
+        }
+    }
+}
+
+impl Drive {
+    /// The numbers of this drive, if it is closed by the tensions of both spans: it then has two pulleys at fixed
+    /// centres, both inside the loop, with one coefficient of friction and the groove of the belt.
+    pub fn two_pulleys(&self) -> Option<TwoPulleys> {
+        let (Closure::BothSpans(load), [one, other]) = (self.closure, &self.pulleys[..]) else {
+            return None;
+        };
+        let (driver, driven, driver_speed) = match (one.duty, other.duty) {
+            (Duty::Driver(speed), Duty::Driven) => (one, other, speed),
+            (Duty::Driven, Duty::Driver(speed)) => (other, one, speed),
+            _ => return None,
+        };
+        let (Mount::Fixed(here), Mount::Fixed(there)) = (driver.mount, driven.mount) else {
+            return None;
+        };
+        let is_plain = |pulley: &Pulley| pulley.side == Side::Inside && pulley.half_angle.is_none();
+        let friction_coefficient = driver.friction_coefficient;
+        let is_open = is_plain(driver)
+            && is_plain(driven)
+            && driven.friction_coefficient == friction_coefficient;
+        is_open.then(|| TwoPulleys {
+            belt: self.belt,
+            friction_coefficient,
+            law: self.law,
+            driver_radius: driver.radius,
+            driver_speed,
+            driven_radius: driven.radius,
+            centre_distance: (there[0] - here[0]).hypot(there[1] - here[1]),
+            load,
+        })
+    }
+
+    /// Gives a drive that has such numbers other ones: the driven pulley moves along the line of centres.
+    pub(crate) fn set_two_pulleys(&mut self, two: TwoPulleys) {
+        let driver = self.driver();
+        let centre = |pulley: &Pulley| match pulley.mount {
+            Mount::Fixed(centre) => centre,
+            Mount::Tensioner(_) => [f64::NAN; 2],
+        };
+        let [here, there] = [driver, 1 - driver].map(|pulley| centre(&self.pulleys[pulley]));
+        let [x, y] = [there[0] - here[0], there[1] - here[1]];
+        self.belt = two.belt;
+        self.law = two.law;
+        self.closure = Closure::BothSpans(two.load);
+        for pulley in &mut self.pulleys {
+            pulley.friction_coefficient = two.friction_coefficient;
+            (pulley.radius, pulley.duty) = match pulley.duty {
+                Duty::Driver(_) => (two.driver_radius, Duty::Driver(two.driver_speed)),
+                duty => (two.driven_radius, duty),
+            };
+        }
+        let distance = x.hypot(y);
+        if two.centre_distance != distance {
+            let along = |part: f64| part / distance * two.centre_distance;
+            let at = [here[0] + along(x), here[1] + along(y)];
+            self.pulleys[1 - driver].mount = Mount::Fixed(at);
+        }
+    }
+
+    /// The same drive with other tensions of both spans.
+    pub(crate) fn with_load(&self, load: Load) -> Self {
+        Self {
+            closure: Closure::BothSpans(load),
+            ..self.clone()
+        }
+    }
+
+    /// As [`Drive::two_pulleys`].
+    ///
+    /// # Panics
+    /// If it is none of them: what is asked of two pulleys is only asked where they are.
+    pub(crate) fn pair(&self) -> TwoPulleys {
+        self.two_pulleys()
+            .expect("two pulleys, closed by the tensions of both spans")
+    }
+}
