@@ -2,7 +2,7 @@
 //!
 //! A [`Drive`](crate::Drive) states the belt, the pulleys in the order in which the belt meets them, what each of
 //! them does, and one [`Closure`](crate::Closure) that fixes how tight the belt is. [`solve`] finds its steady state, or
-//! says why there is none ([`LoopError`]). [`Layout`](crate::Layout) is the plane geometry by itself.
+//! says why there is none ([`SolveError`](crate::SolveError)). [`Layout`](crate::Layout) is the plane geometry by itself.
 //!
 //! # Equations
 //!
@@ -44,15 +44,15 @@
 //! The contacts are those of the two-pulley V-belt. On its back the belt presses with F/R per length, and
 //! friction has the same law in one direction; an idler there turns with the belt. The belt at rest is one
 //! without friction, as deep in every groove as its tension presses it; a groove carries up to k R² tan β/6
-//! at rest ([`LoopError::PressedThrough`]), and a loop whose belt cannot be at rest so is refused even where
+//! at rest ([`SolveError::PressedThrough`](crate::SolveError::PressedThrough)), and a loop whose belt cannot be at rest so is refused even where
 //! friction holds it in motion. The bristles of the loop are found from nothing; where they are not, and for
 //! the margins ([`solve_with_margins`]), all torques are raised together from a small share. A state whose
-//! invariants fail is an error ([`LoopState::checks`], [`LoopError::Violated`]).
+//! invariants fail is an error ([`LoopState::checks`], [`SolveError::Violated`](crate::SolveError::Violated)).
 //!
 //! With elastic/perfectly-plastic friction the displacement grows from the tension `T_o` of the slackest span
 //! on every pulley (its tractive tension where the closure gives one), as in a drive with two pulleys. The
 //! scalar displacement knows no direction, and with soft friction the way to a state is not always found
-//! ([`LoopError::NotConverged`]).
+//! ([`SolveError::Unreached`](crate::SolveError::Unreached)).
 //!
 //! Sources: M. B. Rubin, An exact solution for steady motion of an extensible belt in multipulley belt
 //! drive systems, J. Mech. Des. 122 (2000); S. E. Bechtel, S. Vohra, K. I. Jacob and C. D. Carlson, J.
@@ -94,7 +94,7 @@
 //! assert!((driver.torque + 12.0 + 1.0).abs() < 1e-12);
 //! assert!(pump.torque_margin.is_some_and(|margin| margin > 1.0));
 //! assert!(fan.speed_loss > 0.0 && state.load_limit.is_some());
-//! # Ok::<(), beltdrive::belt_loop::LoopError>(())
+//! # Ok::<(), beltdrive::SolveError>(())
 //! ```
 
 pub use crate::answers::{
@@ -102,7 +102,6 @@ pub use crate::answers::{
     Varied, limit_curve, limits, trace,
 };
 pub use crate::answers::{solve, solve_to, solve_with_margins};
-pub use crate::results::loop_error::{LoadedState, LoopError};
 pub use crate::results::loop_state::{
     GrooveState, LoadLimit, LoopConvergence, LoopState, PulleyState, SpanState, TensionerState,
 };

@@ -125,7 +125,7 @@ pub use friction::FrictionLaw;
 pub use results::branch::{
     Branch, BranchEnd, BranchEvent, EventKind, TraceConvergence, TracePoint,
 };
-pub use results::error::{SolveError, SolveOptions};
+pub use results::error::{LoadedState, SolveError, SolveOptions};
 pub use results::impossible::Impossible;
 pub use results::limit_curve::{LimitCurve, LimitCurvePoint};
 pub use results::limits::{Limit, LimitReason, Limits, RangeEnd};

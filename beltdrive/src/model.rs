@@ -1,7 +1,7 @@
 //! What a model of belts answers. A model is a folder with an implementation of [`Model`], and a line of
 //! [`model`].
 
-use crate::belt_loop::{LoopError, LoopState};
+use crate::belt_loop::LoopState;
 use crate::input::Key;
 use crate::{
     BeltKind, Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState,
@@ -63,15 +63,18 @@ pub(crate) trait Model {
     ) -> Result<Stability, SolveError>;
 
     /// As [`crate::belt_loop::solve_to`].
-    fn solve_loop(&self, belt_loop: &Drive, options: &SolveOptions)
-    -> Result<LoopState, LoopError>;
+    fn solve_loop(
+        &self,
+        belt_loop: &Drive,
+        options: &SolveOptions,
+    ) -> Result<LoopState, SolveError>;
 
     /// As [`crate::belt_loop::solve_with_margins`].
     fn solve_with_margins(
         &self,
         belt_loop: &Drive,
         options: &SolveOptions,
-    ) -> Result<LoopState, LoopError>;
+    ) -> Result<LoopState, SolveError>;
 }
 
 /// The model of a kind of belt.

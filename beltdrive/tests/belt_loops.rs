@@ -9,11 +9,12 @@ mod random;
 #[path = "support/random.rs"]
 mod random_numbers;
 
-use beltdrive::belt_loop::{LoopError, LoopState, solve};
+use beltdrive::belt_loop::{LoopState, solve};
 use beltdrive::flat::ClosedForm;
 use beltdrive::{
     Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Layout, LayoutError, Load, Mount,
-    NormalForce, Pulley, Role, Sense, Side, SpanTension, Tensioner, TensionerLoad, TwoPulleys,
+    NormalForce, Pulley, Role, Sense, Side, SolveError, SpanTension, Tensioner, TensionerLoad,
+    TwoPulleys,
 };
 use invariants::{close, hold};
 
@@ -257,7 +258,7 @@ fn a_power_is_the_torque_at_the_speed_of_its_pulley() {
         assert!((found.pulleys[2].power / state.pulleys[2].power - 1.0).abs() < 1e-13);
         // Creep brings the driven pulley to a standstill before it takes any power.
         drive.pulleys[2].duty = Duty::Power(1e5);
-        assert!(matches!(solve(&drive), Err(LoopError::GrossSlip { .. })));
+        assert!(matches!(solve(&drive), Err(SolveError::GrossSlip { .. })));
     }
 }
 
@@ -419,14 +420,14 @@ fn refusals_come_in_order_and_name_the_pulley() {
     drive.pulleys.push(overlapping);
     let overlap = refused(&drive);
     assert!(
-        matches!(&overlap, LoopError::Layout(LayoutError::Overlap { one, other, .. })
+        matches!(&overlap, SolveError::Layout(LayoutError::Overlap { one, other, .. })
             if one == "driver" && other == "idler")
     );
     // Outside the loop, but away from the belt.
     drive.pulleys[2] = pulley("idler", [0.2, 0.4], 0.05, Side::Outside, Duty::Torque(0.0));
     let missed = refused(&drive);
     assert!(
-        matches!(&missed, LoopError::Layout(LayoutError::NegativeWrap { pulley, wrap })
+        matches!(&missed, SolveError::Layout(LayoutError::NegativeWrap { pulley, wrap })
             if pulley == "idler" && *wrap < 0.0 && *wrap > -1.5),
         "{missed}"
     );
@@ -437,7 +438,7 @@ fn refusals_come_in_order_and_name_the_pulley() {
     drive.pulleys.push(top);
     let through = refused(&drive);
     assert!(
-        matches!(&through, LoopError::Layout(LayoutError::SpanThroughPulley { from, to, pulley })
+        matches!(&through, SolveError::Layout(LayoutError::SpanThroughPulley { from, to, pulley })
             if from == "driver" && to == "driven" && pulley == "deep"),
         "{through}"
     );
@@ -446,7 +447,7 @@ fn refusals_come_in_order_and_name_the_pulley() {
     let turns = refused(&drive);
     assert!(matches!(
         turns,
-        LoopError::Layout(LayoutError::TurningNumber {
+        SolveError::Layout(LayoutError::TurningNumber {
             stated: 2,
             found: 1
         })
@@ -456,13 +457,13 @@ fn refusals_come_in_order_and_name_the_pulley() {
     let long = Closure::UnstretchedLength(1.01 * state.length);
     assert!(matches!(
         refused(&two(FrictionLaw::Coulomb, long)),
-        LoopError::Slack { tension } if tension < 0.0
+        SolveError::Slack { tension } if tension < 0.0
     ));
     let mut fast = two(FrictionLaw::Coulomb, setup);
     fast.pulleys[0].duty = Duty::Driver(1500.0);
     assert!(matches!(
         refused(&fast),
-        LoopError::LiftsOff { tractive_tension, .. } if tractive_tension < 0.0
+        SolveError::LiftsOff { tractive_tension, .. } if tractive_tension < 0.0
     ));
     let mut stopped = tensioned(Closure::RestCoordinate(AT_REST), FrictionLaw::Coulomb);
     let Mount::Tensioner(tensioner) = &mut stopped.pulleys[1].mount else {
@@ -471,7 +472,7 @@ fn refusals_come_in_order_and_name_the_pulley() {
     tensioner.travel = Some([0.0, AT_REST + 1e-4]);
     let beyond = refused(&stopped);
     assert!(
-        matches!(&beyond, LoopError::TensionerBeyondTravel { pulley, coordinate, .. }
+        matches!(&beyond, SolveError::TensionerBeyondTravel { pulley, coordinate, .. }
             if pulley == "idler" && *coordinate > AT_REST + 1e-4)
     );
     // So large a torque that even the formal state does not press on the pulleys.
@@ -479,7 +480,7 @@ fn refusals_come_in_order_and_name_the_pulley() {
     heavy.pulleys[1].duty = Duty::Torque(1e3);
     assert!(matches!(
         refused(&heavy),
-        LoopError::GrossSlip { formal: None, margin: None, load_factor, .. } if load_factor < 0.1
+        SolveError::GrossSlip { formal: None, margin: None, load_factor, .. } if load_factor < 0.1
     ));
     // Friction that does not know of the inertia of the belt carries a load at which the belt lifts off.
     let tension = 0.14 * 9.0 * 9.0 + 1.0;
@@ -493,14 +494,14 @@ fn refusals_come_in_order_and_name_the_pulley() {
     };
     let lifted = refused(&loose);
     assert!(
-        matches!(lifted, LoopError::LiftsOff { is_loaded: true, tractive_tension, .. }
+        matches!(lifted, SolveError::LiftsOff { is_loaded: true, tractive_tension, .. }
             if tractive_tension < 0.0 && tractive_tension > -3.0),
         "{lifted}"
     );
     let creep = FrictionLaw::CreepRate { velocity: 0.01 };
     let blind = refused(&with(two(creep, setup), NormalForce::Thesis));
-    assert!(matches!(&blind, LoopError::Statement { problem, .. } if problem.contains("thesis")));
+    assert!(matches!(&blind, SolveError::Statement { problem, .. } if problem.contains("thesis")));
     let mut bad = two(FrictionLaw::Coulomb, setup);
     bad.pulleys[1].friction_coefficient = f64::NAN;
-    assert!(matches!(refused(&bad), LoopError::Statement { subject, .. } if subject == "driven"));
+    assert!(matches!(refused(&bad), SolveError::Statement { subject, .. } if subject == "driven"));
 }

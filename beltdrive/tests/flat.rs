@@ -110,7 +110,7 @@ fn the_largest_load_is_the_capstan_limit_of_the_pulley_with_less_wrap() {
             assert!((ratio / capstan - 1.0).abs() < 1e-12, "{ratio} {capstan}");
             load.set(&mut stated, found.largest.value * (1.0 + 1e-12));
             let error = beltdrive::solve(&stated, &SolveOptions::default()).unwrap_err();
-            let SolveError::GrossSlip { limit, reason, .. } = error else {
+            let SolveError::NoSteadyState { limit, reason, .. } = error else {
                 panic!("{error}");
             };
             assert_eq!(
@@ -140,7 +140,7 @@ fn a_belt_that_is_too_slack_for_its_speed_lifts_off() {
     let mut drive = plain(FrictionLaw::Coulomb, NormalForce::Inertia);
     drive.load.slack = SpanTension::Belt(0.25 * 15.0 * 15.0 * 0.99);
     let error = solve(&drive).unwrap_err();
-    assert!(matches!(error, SolveError::LiftsOff { .. }), "{error}");
+    assert!(matches!(error, SolveError::TooSlack { .. }), "{error}");
     drive.load.slack = SpanTension::Belt(100.0);
     drive.load.tight = SpanTension::Belt(105.0);
     let drive = Drive::from(drive);
@@ -290,9 +290,9 @@ proptest! {
     fn every_drive_is_solved_or_refused_with_its_limit(drive in any_drive()) {
         match solve(&drive) {
             Ok(state) => verify(&drive, &state)?,
-            Err(SolveError::GrossSlip { asked, limit, .. }) => prop_assert!(asked > limit),
+            Err(SolveError::NoSteadyState { asked, limit, .. }) => prop_assert!(asked > limit),
             // A belt stretched by some ten per cent runs at a tension that the guess above misses.
-            Err(SolveError::LiftsOff { tension, centrifugal, .. }) => {
+            Err(SolveError::TooSlack { tension, centrifugal, .. }) => {
                 prop_assert!(tension <= centrifugal);
             }
             Err(error) => prop_assert!(false, "{error}"),

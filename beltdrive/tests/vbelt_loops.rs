@@ -3,10 +3,10 @@
 #[path = "support/random.rs"]
 mod random_numbers;
 
-use beltdrive::belt_loop::{LoopError, LoopState, solve, solve_to, solve_with_margins};
+use beltdrive::belt_loop::{LoopState, solve, solve_to, solve_with_margins};
 use beltdrive::{
     Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, Pulley, Sense, Side,
-    SolveOptions, Tensioner, TensionerLoad, VBelt, Warning, examples, input,
+    SolveError, SolveOptions, Tensioner, TensionerLoad, VBelt, Warning, examples, input,
 };
 use random_numbers::Random;
 
@@ -467,7 +467,7 @@ fn a_load_beyond_the_limit_is_refused_with_the_limit() {
         );
         for share in [1.005, 1.5, 20.0] {
             match at(share).expect_err("more than the loop carries") {
-                LoopError::Overloaded {
+                SolveError::Overloaded {
                     pulley,
                     load_factor,
                     ..
@@ -572,7 +572,7 @@ fn friction_that_sticks_or_slides_has_margins_and_a_limit() {
         let loaded = |factor: f64| solve_to(&times(&drive, factor), &options);
         loaded(0.99 * limit).unwrap();
         match loaded(1.01 * limit).unwrap_err() {
-            LoopError::Overloaded { load_factor, .. } => {
+            SolveError::Overloaded { load_factor, .. } => {
                 close("limit", 1.01 * limit * load_factor, limit, 1e-4);
             }
             error => panic!("{error}"),
@@ -638,10 +638,10 @@ fn statements_out_of_range_are_refused() {
         drive.pulleys[0].duty = Duty::Driver(400.0);
         drive
     });
-    assert!(matches!(fast, Err(LoopError::LiftsOff { .. })), "{fast:?}");
+    assert!(matches!(fast, Err(SolveError::LiftsOff { .. })), "{fast:?}");
     let tolerance = SolveOptions { tolerance: 0.1 };
     let tolerance = solve_to(&accessories(Closure::SetupTension(500.0)), &tolerance);
-    assert!(matches!(tolerance, Err(LoopError::Tolerance { .. })));
+    assert!(matches!(tolerance, Err(SolveError::Tolerance { .. })));
 }
 
 /// Three or four pulleys; of four one presses on the back, on a spring half of the times.
@@ -767,14 +767,14 @@ fn survey(name: &str, count: usize, law: impl Fn(&mut Random) -> FrictionLaw) ->
         let took = start.elapsed().as_secs_f64();
         match outcome {
             Ok(_) => seconds.push(took),
-            Err(error @ (LoopError::NotConverged { .. } | LoopError::Violated(_))) => {
+            Err(error @ (SolveError::Unreached { .. } | SolveError::Violated(_))) => {
                 failed += 1;
                 println!("{index}, {took:.2} s: {error}\n{drive:?}");
             }
             Err(error) => {
                 refused += 1;
                 println!("{index}, {took:.2} s: {error}");
-                if let LoopError::Overloaded { load_factor, .. } = error
+                if let SolveError::Overloaded { load_factor, .. } = error
                     && let Err(error) = solve(&times(&drive, BELOW * load_factor))
                 {
                     wrong += 1;

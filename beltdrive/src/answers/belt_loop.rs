@@ -1,9 +1,9 @@
 //! What is asked of the steady state of a loop of pulleys.
 
-use crate::belt_loop::{LoopError, LoopState};
+use crate::belt_loop::LoopState;
 use crate::drive::check;
 use crate::model::model;
-use crate::{Drive, SolveOptions};
+use crate::{Drive, SolveError, SolveOptions};
 
 /// The steady state of a belt loop, to the relative tolerance 1e-6 where it is a V-belt.
 ///
@@ -11,8 +11,8 @@ use crate::{Drive, SolveOptions};
 /// friction at the same closure, whatever its friction law.
 ///
 /// # Errors
-/// Those of [`LoopError`]; of several reasons the first in the order given there.
-pub fn solve(drive: &Drive) -> Result<LoopState, LoopError> {
+/// Those of [`SolveError`]; of several reasons the first in the order given there.
+pub fn solve(drive: &Drive) -> Result<LoopState, SolveError> {
     solve_to(drive, &SolveOptions::default())
 }
 
@@ -20,8 +20,8 @@ pub fn solve(drive: &Drive) -> Result<LoopState, LoopError> {
 /// them the tolerance has no effect.
 ///
 /// # Errors
-/// As [`solve`], and [`LoopError::Tolerance`].
-pub fn solve_to(drive: &Drive, options: &SolveOptions) -> Result<LoopState, LoopError> {
+/// As [`solve`], and [`SolveError::Tolerance`].
+pub fn solve_to(drive: &Drive, options: &SolveOptions) -> Result<LoopState, SolveError> {
     check(drive, options)?;
     model(drive.belt.kind).solve_loop(drive, options)
 }
@@ -34,16 +34,16 @@ pub fn solve_to(drive: &Drive, options: &SolveOptions) -> Result<LoopState, Loop
 ///
 /// # Errors
 /// As [`solve_to`].
-pub fn solve_with_margins(drive: &Drive, options: &SolveOptions) -> Result<LoopState, LoopError> {
+pub fn solve_with_margins(drive: &Drive, options: &SolveOptions) -> Result<LoopState, SolveError> {
     check(drive, options)?;
     model(drive.belt.kind).solve_with_margins(drive, options)
 }
 
 /// Whether the statement and the options are in range.
-fn check(drive: &Drive, options: &SolveOptions) -> Result<(), LoopError> {
+fn check(drive: &Drive, options: &SolveOptions) -> Result<(), SolveError> {
     let tolerance = options.tolerance;
     if !(1e-12..=1e-2).contains(&tolerance) {
-        return Err(LoopError::Tolerance { tolerance });
+        return Err(SolveError::Tolerance { tolerance });
     }
     check::check(drive)
 }

@@ -13,7 +13,7 @@ use crate::{
 /// has passed the checks listed in [`SteadyState::checks`].
 ///
 /// # Errors
-/// [`SolveError::NoSteadyState`], [`SolveError::GrossSlip`] and [`SolveError::LiftsOff`] where the
+/// [`SolveError::NoSteadyState`] and [`SolveError::TooSlack`] where the
 /// drive does not carry the load, [`SolveError::NotConverged`] where that could not be decided,
 /// [`SolveError::Violated`] if an invariant fails, [`SolveError::Tolerance`],
 /// [`SolveError::NotModelled`].

@@ -2,9 +2,8 @@
 
 use super::members::{Members, Refusal, Varied};
 use super::trace::LoopPoint;
-use crate::SolveOptions;
-use crate::belt_loop::LoopError;
 use crate::input::DriveFile;
+use crate::{SolveError, SolveOptions};
 
 /// Factor between the values, or the distances from the first one, at which an end is looked for.
 const STEP: f64 = 1.1;
@@ -63,12 +62,12 @@ impl std::fmt::Display for LoopEnd {
         match self {
             Self::Limit(Refusal::Loop(error)) => match &**error {
                 // At the limit there is nothing to say of a load beyond.
-                LoopError::Overloaded {
+                SolveError::Overloaded {
                     pulley,
                     overhangs: true,
                     ..
                 } => write!(f, "the belt overhangs itself on pulley `{pulley}`"),
-                LoopError::GrossSlip { pulley, .. } | LoopError::Overloaded { pulley, .. } => {
+                SolveError::GrossSlip { pulley, .. } | SolveError::Overloaded { pulley, .. } => {
                     write!(f, "pulley `{pulley}` slips grossly")
                 }
                 error => error.fmt(f),

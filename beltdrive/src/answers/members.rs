@@ -1,9 +1,9 @@
 //! The loops that differ in one number, and which of them have a steady state.
 
-use crate::belt_loop::{LoopError, LoopState, solve_to};
+use crate::belt_loop::{LoopState, solve_to};
 use crate::input::{Diagnostic, DriveFile, FileKey};
 use crate::quantity::Measure;
-use crate::{BeltKind, Drive, Duty, SolveOptions};
+use crate::{BeltKind, Drive, Duty, SolveError, SolveOptions};
 use std::fmt;
 
 /// What varies.
@@ -22,7 +22,7 @@ pub enum Refusal {
     /// pulleys.
     Input(Box<Diagnostic>),
     /// The loop has no steady state.
-    Loop(Box<LoopError>),
+    Loop(Box<SolveError>),
     /// The file does not state a loop of pulleys.
     NoLoop,
 }

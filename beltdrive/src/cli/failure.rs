@@ -1,7 +1,7 @@
 //! Why a command fails.
 
 use beltdrive::SolveError;
-use beltdrive::belt_loop::{LoopError, Refusal};
+use beltdrive::belt_loop::Refusal;
 use std::error::Error;
 
 /// Why a command fails: a message for standard error, by exit status.
@@ -24,17 +24,6 @@ impl Failure {
     }
 }
 
-impl From<LoopError> for Failure {
-    fn from(error: LoopError) -> Self {
-        match error {
-            LoopError::Statement { .. } | LoopError::Layout(_) => {
-                Self::Usage(format!("error: {error}"))
-            }
-            _ => Self::Unsolved(format!("error: no steady state: {error}")),
-        }
-    }
-}
-
 impl From<Refusal> for Failure {
     fn from(refusal: Refusal) -> Self {
         match refusal {
@@ -47,13 +36,21 @@ impl From<Refusal> for Failure {
 
 impl From<SolveError> for Failure {
     fn from(error: SolveError) -> Self {
-        let message = format!("error: {error}");
         match error {
             // What was asked makes no sense, whatever the drive carries.
-            SolveError::NotModelled(_)
+            SolveError::Statement { .. }
+            | SolveError::Layout(_)
+            | SolveError::NotModelled(_)
             | SolveError::Backwards { .. }
-            | SolveError::Tolerance { .. } => Self::Usage(message),
-            _ => Self::Unsolved(message),
+            | SolveError::Tolerance { .. } => Self::Usage(format!("error: {error}")),
+            SolveError::NoSteadyState { .. }
+            | SolveError::TooSlack { .. }
+            | SolveError::NotConverged { .. }
+            | SolveError::NoLimit { .. }
+            | SolveError::Impossible(_)
+            | SolveError::Violated(_)
+            | SolveError::Stability { .. } => Self::Unsolved(format!("error: {error}")),
+            _ => Self::Unsolved(format!("error: no steady state: {error}")),
         }
     }
 }

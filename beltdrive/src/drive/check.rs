@@ -1,8 +1,7 @@
 //! What the statement of a belt loop has to be.
 
 use crate::drive::layout::Side;
-use crate::results::loop_error::LoopError;
-use crate::{BeltKind, Closure, Drive, Duty, Guide, Mount, Tensioner, TensionerLoad};
+use crate::{BeltKind, Closure, Drive, Duty, Guide, Mount, SolveError, Tensioner, TensionerLoad};
 use std::borrow::Cow;
 use std::f64::consts::FRAC_PI_2;
 
@@ -20,15 +19,15 @@ const ROUNDED: f64 = 1e-9;
 const LARGEST_FRICTION: f64 = 100.0;
 
 /// A part of the statement that is out of its range.
-fn refuse(subject: &str, problem: impl Into<Cow<'static, str>>) -> Result<(), LoopError> {
-    Err(LoopError::Statement {
+fn refuse(subject: &str, problem: impl Into<Cow<'static, str>>) -> Result<(), SolveError> {
+    Err(SolveError::Statement {
         subject: subject.to_owned(),
         problem: problem.into(),
     })
 }
 
 /// The first part of the statement that is out of its range.
-pub(crate) fn check(drive: &Drive) -> Result<(), LoopError> {
+pub(crate) fn check(drive: &Drive) -> Result<(), SolveError> {
     let belt = drive.belt;
     if !(positive(belt.mass_per_length) && positive(belt.axial_stiffness)) {
         return refuse(

@@ -1,6 +1,6 @@
 //! What is asked of flat belts.
 
-use crate::belt_loop::{LoopError, LoopState};
+use crate::belt_loop::LoopState;
 use crate::input::Key;
 use crate::model::{Model, Progress};
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
@@ -64,7 +64,7 @@ impl Model for FlatBelts {
         super::stability::stability(drive, modes, progress)
     }
 
-    fn solve_loop(&self, drive: &Drive, _: &SolveOptions) -> Result<LoopState, LoopError> {
+    fn solve_loop(&self, drive: &Drive, _: &SolveOptions) -> Result<LoopState, SolveError> {
         super::belt_loop::solve(drive)
     }
 
@@ -72,7 +72,7 @@ impl Model for FlatBelts {
         &self,
         drive: &Drive,
         options: &SolveOptions,
-    ) -> Result<LoopState, LoopError> {
+    ) -> Result<LoopState, SolveError> {
         self.solve_loop(drive, options)
     }
 }

@@ -23,7 +23,7 @@ pub(super) fn refused(drive: &Drive, refusal: Refusal) -> SolveError {
             tension,
             speed,
             centrifugal,
-        } => SolveError::LiftsOff {
+        } => SolveError::TooSlack {
             tension,
             speed,
             centrifugal,
@@ -35,12 +35,14 @@ pub(super) fn refused(drive: &Drive, refusal: Refusal) -> SolveError {
             let key = Key::load(drive);
             let asked = key.get(drive);
             let limit = largest_load(drive, &key);
-            SolveError::GrossSlip {
+            SolveError::NoSteadyState {
                 quantity: key.name(),
                 unit: key.unit(),
                 asked,
                 limit: limit.map_or(f64::NAN, |limit| limit.value),
                 reason: limit.map_or(reason, |limit| limit.reason),
+                driven_speed: None,
+                exit_inclination: None,
             }
         }
     }

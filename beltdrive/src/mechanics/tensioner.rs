@@ -2,8 +2,7 @@
 
 use crate::drive::layout::Layout;
 use crate::mechanics::root::{bracketed, near};
-use crate::results::loop_error::LoopError;
-use crate::{Drive, Guide, Tensioner};
+use crate::{Drive, Guide, SolveError, Tensioner};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 
@@ -64,8 +63,8 @@ pub(crate) fn equilibrium(
     start: f64,
     towards: Towards,
     which: &'static str,
-    tractive: impl FnMut(&Layout) -> Result<[f64; 2], LoopError>,
-) -> Result<(f64, Layout), LoopError> {
+    tractive: impl FnMut(&Layout) -> Result<[f64; 2], SolveError>,
+) -> Result<(f64, Layout), SolveError> {
     let mut layout = drive.layout(start)?;
     let Some(carried) = drive.tensioner() else {
         return Ok((start, layout));
@@ -91,7 +90,7 @@ struct Search<'l> {
 }
 
 impl Search<'_> {
-    fn move_to(&self, layout: &mut Layout, coordinate: f64) -> Result<(), LoopError> {
+    fn move_to(&self, layout: &mut Layout, coordinate: f64) -> Result<(), SolveError> {
         let (pulley, tensioner) = self.carried;
         let [centre, ..] = tensioner.guide.centre(coordinate);
         Ok(layout.move_pulley(pulley, centre)?)
@@ -101,8 +100,8 @@ impl Search<'_> {
         &self,
         start: f64,
         layout: &mut Layout,
-        mut tractive: impl FnMut(&Layout) -> Result<[f64; 2], LoopError>,
-    ) -> Result<f64, LoopError> {
+        mut tractive: impl FnMut(&Layout) -> Result<[f64; 2], SolveError>,
+    ) -> Result<f64, SolveError> {
         let Self {
             drive,
             towards,
@@ -113,7 +112,7 @@ impl Search<'_> {
         let name = || drive.pulleys[pulley].name.clone();
         let guide = &tensioner.guide;
         // Force along the coordinate, and about its slope.
-        let mut force = |coordinate: f64| -> Result<[f64; 2], LoopError> {
+        let mut force = |coordinate: f64| -> Result<[f64; 2], SolveError> {
             self.move_to(layout, coordinate)?;
             let [slope, curvature] = length_derivatives(layout, pulley, guide, coordinate);
             let [tension, per_length] = tractive(layout)?;
@@ -169,7 +168,7 @@ impl Search<'_> {
                     // Between the two the belt cannot be laid round the pulleys.
                     step *= 0.5;
                     if step < SMALLEST_STEP * largest {
-                        return Err(LoopError::NotFound {
+                        return Err(SolveError::NotFound {
                             what: "coordinate of the tensioner",
                         });
                     }
@@ -184,7 +183,7 @@ impl Search<'_> {
             }
         }
         within_travel(drive, here.0)?;
-        Err(LoopError::NoEquilibrium {
+        Err(SolveError::NoEquilibrium {
             pulley: name(),
             which,
         })
@@ -192,7 +191,7 @@ impl Search<'_> {
 }
 
 /// Whether the tensioner is between its stops.
-pub(crate) fn within_travel(drive: &Drive, coordinate: f64) -> Result<(), LoopError> {
+pub(crate) fn within_travel(drive: &Drive, coordinate: f64) -> Result<(), SolveError> {
     match drive.tensioner() {
         Some((
             pulley,
@@ -201,7 +200,7 @@ pub(crate) fn within_travel(drive: &Drive, coordinate: f64) -> Result<(), LoopEr
                 ..
             },
         )) if coordinate < travel[0] || coordinate > travel[1] => {
-            Err(LoopError::TensionerBeyondTravel {
+            Err(SolveError::TensionerBeyondTravel {
                 pulley: drive.pulleys[pulley].name.clone(),
                 coordinate,
                 travel: *travel,

@@ -6,7 +6,6 @@ pub(crate) mod error;
 pub(crate) mod impossible;
 pub(crate) mod limit_curve;
 pub(crate) mod limits;
-pub(crate) mod loop_error;
 pub(crate) mod loop_state;
 pub(crate) mod possible;
 pub(crate) mod stability;

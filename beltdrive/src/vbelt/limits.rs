@@ -12,6 +12,7 @@ use crate::{
 };
 use continuation::Direction;
 use std::f64::consts::PI;
+use std::sync::Arc;
 use web_time::Instant;
 
 /// How far a load is lowered, in logarithms of its ratio to the slack tension, where the drive does
@@ -234,7 +235,7 @@ fn no_load(drive: &Drive, key: &Key, tolerance: f64) -> Result<Limit, SolveError
             Some(last) if last.is_resolved(drive.law, tolerance) => *last,
             _ => {
                 let tight = None;
-                let cause = Box::new(stuck.cause);
+                let cause = Arc::new(stuck.cause);
                 return Err(SolveError::NotConverged { tight, cause });
             }
         },

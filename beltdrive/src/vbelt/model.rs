@@ -1,6 +1,6 @@
 //! What is asked of V-belts.
 
-use crate::belt_loop::{LoopError, LoopState};
+use crate::belt_loop::LoopState;
 use crate::input::Key;
 use crate::model::{Model, Progress};
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
@@ -65,7 +65,7 @@ impl Model for VBelts {
         Err(SolveError::NotModelled(reason.into()))
     }
 
-    fn solve_loop(&self, drive: &Drive, options: &SolveOptions) -> Result<LoopState, LoopError> {
+    fn solve_loop(&self, drive: &Drive, options: &SolveOptions) -> Result<LoopState, SolveError> {
         super::belt_loop::solve(drive, options.tolerance)
     }
 
@@ -73,7 +73,7 @@ impl Model for VBelts {
         &self,
         drive: &Drive,
         options: &SolveOptions,
-    ) -> Result<LoopState, LoopError> {
+    ) -> Result<LoopState, SolveError> {
         super::belt_loop::solve_with_margins(drive, options.tolerance)
     }
 }

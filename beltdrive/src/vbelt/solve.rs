@@ -6,6 +6,7 @@ use super::state::{describe, steady_state};
 use crate::results::possible;
 use crate::{Drive, Load, SolveError, SolveOptions, SpanTension, SteadyState};
 use std::mem::discriminant;
+use std::sync::Arc;
 use web_time::Instant;
 
 /// The steady state of a V-belt drive, from nothing but the drive.
@@ -86,7 +87,7 @@ pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<So
     let (load, scales) = (path.drive.pair().load, path.scales());
     let found = found.map_err(|Stuck { last, cause }| SolveError::NotConverged {
         tight: last.map(|last| last.tight_tension() * scales.units.force),
-        cause: Box::new(cause),
+        cause: Arc::new(cause),
     })?;
     match found {
         Found::State(solved) => Ok(*solved),
@@ -100,12 +101,14 @@ pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<So
                     SpanTension::Tractive(_) => "tight tractive tension",
                     _ => "tight tension",
                 },
+                unit: "N",
                 asked: load.tight.value(),
                 limit: state.tight_tension() * scales.units.force,
                 reason: limit.reason,
-                driven_speed: state.driven_speed()
-                    * scales.units.angular_speed(scales.radius[super::DRIVEN]),
-                exit_inclination: state.exit(super::DRIVER)[super::INCLINATION],
+                driven_speed: Some(
+                    state.driven_speed() * scales.units.angular_speed(scales.radius[super::DRIVEN]),
+                ),
+                exit_inclination: Some(state.exit(super::DRIVER)[super::INCLINATION]),
             })
         }
     }

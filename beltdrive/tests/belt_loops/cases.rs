@@ -1,10 +1,10 @@
 //! Loops that were solved with 40 digits, and once more by integrating along every contact.
 
 use super::invariants::{close, hold};
-use beltdrive::belt_loop::{LoadedState, LoopError, solve};
+use beltdrive::belt_loop::solve;
 use beltdrive::{
-    Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, NormalForce, Pulley, Sense,
-    Side, Tensioner, TensionerLoad,
+    Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, LoadedState, Mount, NormalForce,
+    Pulley, Sense, Side, SolveError, Tensioner, TensionerLoad,
 };
 use serde_json::Value;
 
@@ -236,7 +236,7 @@ fn a_refused_loop_has_every_margin() {
         count += 1;
         let known = &case["refusal"];
         let error = solve(&drive).expect_err(&name);
-        let LoopError::GrossSlip {
+        let SolveError::GrossSlip {
             pulley,
             load_factor,
             margin,

@@ -3,10 +3,10 @@
 use super::invariants::hold;
 use super::pulley;
 use super::random_numbers::Random;
-use beltdrive::belt_loop::{LoopError, solve};
+use beltdrive::belt_loop::solve;
 use beltdrive::{
     Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, NormalForce, Sense, Side,
-    Tensioner, TensionerLoad,
+    SolveError, Tensioner, TensionerLoad,
 };
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -303,10 +303,10 @@ fn gross_slip_begins_at_the_load_limit() {
                 let used = below.pulleys[limit.pulley].friction_utilisation.unwrap();
                 assert!(used > 1.0 - 1e-4, "{used} {scaled:?}");
             }
-            Err(error) => assert!(matches!(error, LoopError::Overstretched { .. }), "{error}"),
+            Err(error) => assert!(matches!(error, SolveError::Overstretched { .. }), "{error}"),
         }
         let (above, scaled) = at(1.0 + 1e-7);
-        let LoopError::GrossSlip {
+        let SolveError::GrossSlip {
             pulley,
             load_factor,
             ..

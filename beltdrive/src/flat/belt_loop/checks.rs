@@ -4,9 +4,8 @@
 use crate::friction::rim::contact::Contact;
 use crate::friction::rim::quadrature::integrals;
 use crate::friction::rim::zone::{ContactZone, Friction};
-use crate::results::loop_error::LoopError;
 use crate::results::loop_state::{Contacts, LoopState};
-use crate::{Check, Drive, Pulley};
+use crate::{Check, Drive, Pulley, SolveError};
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
@@ -31,12 +30,12 @@ struct Along {
 }
 
 /// A state with its checks, if it passes them.
-pub(super) fn checked(drive: &Drive, mut state: LoopState) -> Result<LoopState, LoopError> {
+pub(super) fn checked(drive: &Drive, mut state: LoopState) -> Result<LoopState, SolveError> {
     if let Contacts::Flat { contacts, .. } = &state.contacts {
         state.checks = checks(drive, &state, contacts);
     }
     match state.checks.iter().find(|check| !check.holds()) {
-        Some(violated) => Err(LoopError::Violated(violated.clone())),
+        Some(violated) => Err(SolveError::Violated(violated.clone())),
         None => Ok(state),
     }
 }
@@ -204,7 +203,7 @@ mod tests {
             change(&mut state);
             match checked(drive, state) {
                 Ok(_) => "nothing",
-                Err(LoopError::Violated(check)) => check.name,
+                Err(SolveError::Violated(check)) => check.name,
                 Err(error) => panic!("{error}"),
             }
         };

@@ -2,12 +2,11 @@
 
 use super::closing::{Closing, Known};
 use super::problem::{Loaded, Problem};
-use crate::FrictionLaw;
 use crate::drive::layout::Layout;
 use crate::mechanics::root::bracketed;
 use crate::mechanics::tensioner::equilibrium;
-use crate::results::loop_error::{LoadedState, LoopError};
 use crate::results::loop_state::LoadLimit;
+use crate::{FrictionLaw, LoadedState, SolveError};
 
 /// Largest load factor that is tried: beyond it the torques are but rounding errors of the driver's.
 const LARGEST: f64 = 1e12;
@@ -24,10 +23,10 @@ pub(super) fn load_limit(
     problem: &Problem<'_>,
     whole: &Loaded,
     formal: Option<&LoadedState>,
-) -> Result<Option<LoadLimit>, LoopError> {
+) -> Result<Option<LoadLimit>, SolveError> {
     let state_at = |factor: f64| {
         let loaded = problem.loaded(factor, FrictionLaw::Coulomb)?;
-        Ok::<_, LoopError>(judged(problem, &loaded))
+        Ok::<_, SolveError>(judged(problem, &loaded))
     };
     let at = |factor: f64| state_at(factor).map(|state| excess(state.as_ref()));
     let at_whole = excess(formal);
@@ -58,7 +57,7 @@ pub(super) fn load_limit(
     }
     // A load without an equilibrium of the tensioner is not carried.
     let residual = |factor: f64| at(factor).unwrap_or(1.0);
-    let lost = LoopError::NotFound {
+    let lost = SolveError::NotFound {
         what: "load factor limit",
     };
     let factor = bracketed(residual, [low.0, high.0], [low.1, high.1]).ok_or(lost)?;
@@ -69,7 +68,7 @@ pub(super) fn load_limit(
         (_, true) => return Ok(None),
         (Some(state), false) => state,
         // The tensioner loses its equilibrium before a pulley slips.
-        (None, false) => state_at(factor * (1.0 - AT_SLIP))?.ok_or(LoopError::NotFound {
+        (None, false) => state_at(factor * (1.0 - AT_SLIP))?.ok_or(SolveError::NotFound {
             what: "load factor limit",
         })?,
     };
@@ -77,7 +76,7 @@ pub(super) fn load_limit(
         && !is_slip(&at_limit)
         && let Some((idler, _)) = problem.drive.tensioner()
     {
-        return Err(LoopError::NoEquilibrium {
+        return Err(SolveError::NoEquilibrium {
             pulley: problem.drive.pulleys[idler].name.clone(),
             which: "under load",
         });
@@ -86,7 +85,7 @@ pub(super) fn load_limit(
     if factor > 1.0 {
         return Ok(Some(LoadLimit { factor, pulley }));
     }
-    Err(LoopError::GrossSlip {
+    Err(SolveError::GrossSlip {
         pulley: problem.drive.pulleys[pulley].name.clone(),
         load_factor: factor,
         margin: formal.and_then(|formal| formal.torque_margins[pulley]),
@@ -104,7 +103,7 @@ fn first_slip(problem: &Problem<'_>, whole: &Loaded) -> Option<f64> {
     let slips_first = |layout: &Layout| {
         Closing::new(problem, layout, FrictionLaw::Coulomb, 1.0, &known).slips_first(idler)
     };
-    let lost = LoopError::NotFound {
+    let lost = SolveError::NotFound {
         what: "load factor limit",
     };
     let (_, layout) = equilibrium(

@@ -6,8 +6,7 @@ use super::rest::{Rest, rest_of_length};
 use super::running::RunningBelt;
 use crate::drive::layout::Layout;
 use crate::mechanics::tensioner::{Towards, equilibrium};
-use crate::results::loop_error::LoopError;
-use crate::{Drive, FrictionLaw, NormalForce};
+use crate::{Drive, FrictionLaw, NormalForce, SolveError};
 
 /// The loop under load.
 pub(super) struct Loaded {
@@ -36,7 +35,7 @@ pub(super) struct Problem<'l> {
 impl Problem<'_> {
     /// Coordinate of the tensioner in the running loop without torques, whose tension is uniform; an error
     /// if the belt lifts off.
-    pub(super) fn unloaded(&self) -> Result<f64, LoopError> {
+    pub(super) fn unloaded(&self) -> Result<f64, SolveError> {
         let belt = self.drive.belt;
         let rim = self.rim;
         let tractive = |layout: &Layout| {
@@ -55,7 +54,7 @@ impl Problem<'_> {
             let tractive_tension = tractive(&self.drive.layout(coordinate)?);
             match tractive_tension > 0.0 {
                 true => Ok(coordinate),
-                false => Err(LoopError::LiftsOff {
+                false => Err(SolveError::LiftsOff {
                     tractive_tension,
                     speed: rim,
                     is_loaded: false,
@@ -76,8 +75,8 @@ impl Problem<'_> {
     }
 
     /// The loop under its torques multiplied by a factor.
-    pub(super) fn loaded(&self, factor: f64, law: FrictionLaw) -> Result<Loaded, LoopError> {
-        let lost = LoopError::NotFound {
+    pub(super) fn loaded(&self, factor: f64, law: FrictionLaw) -> Result<Loaded, SolveError> {
+        let lost = SolveError::NotFound {
             what: "tension of the running belt",
         };
         let pulley = self.drive.tensioner().map_or(0, |(pulley, _)| pulley);
@@ -113,7 +112,7 @@ impl Problem<'_> {
     }
 
     /// The belt of a loaded loop at rest, if it presses on all pulleys.
-    pub(super) fn rest_of(&self, loaded: &Loaded) -> Result<Option<Rest>, LoopError> {
+    pub(super) fn rest_of(&self, loaded: &Loaded) -> Result<Option<Rest>, SolveError> {
         let rest = loaded.belt.as_ref().map(|belt| {
             let unstretched = loaded.layout.length() - belt.elongation;
             rest_of_length(self.drive, loaded.coordinate, unstretched)

@@ -2,8 +2,7 @@
 
 use crate::drive::layout::Layout;
 use crate::mechanics::tensioner::{Held, Towards, equilibrium, length_derivatives};
-use crate::results::loop_error::LoopError;
-use crate::{Closure, Drive};
+use crate::{Closure, Drive, SolveError};
 
 /// The belt at rest: uniform tension, no friction.
 #[derive(Clone, Debug)]
@@ -18,7 +17,7 @@ pub(super) struct Rest {
 }
 
 /// The belt at rest where its length or its tension at rest is given.
-pub(super) fn rest_of_closure(drive: &Drive, start: f64) -> Result<Rest, LoopError> {
+pub(super) fn rest_of_closure(drive: &Drive, start: f64) -> Result<Rest, SolveError> {
     let axial = drive.belt.axial_stiffness;
     let (coordinate, layout) = match drive.closure {
         Closure::UnstretchedLength(length) => {
@@ -55,7 +54,7 @@ pub(super) fn rest_of_closure(drive: &Drive, start: f64) -> Result<Rest, LoopErr
 }
 
 /// The belt of a given unstretched length at rest.
-pub(super) fn rest_of_length(drive: &Drive, start: f64, length: f64) -> Result<Rest, LoopError> {
+pub(super) fn rest_of_length(drive: &Drive, start: f64, length: f64) -> Result<Rest, SolveError> {
     let axial = drive.belt.axial_stiffness;
     let tension = |layout: &Layout| axial * ((layout.length() - length) / length);
     let found = equilibrium(drive, start, Towards::Force, "at rest", |layout| {
@@ -66,7 +65,7 @@ pub(super) fn rest_of_length(drive: &Drive, start: f64, length: f64) -> Result<R
         Err(error) => {
             let tension = tension(&drive.layout(start)?);
             return Err(match tension <= 0.0 {
-                true => LoopError::Slack { tension },
+                true => SolveError::Slack { tension },
                 false => error,
             });
         }
@@ -83,10 +82,10 @@ pub(super) fn rest_of_length(drive: &Drive, start: f64, length: f64) -> Result<R
 }
 
 /// A belt at rest that is in tension, with its tensioner in a stable equilibrium.
-fn stable_rest(drive: &Drive, rest: Rest) -> Result<Rest, LoopError> {
+fn stable_rest(drive: &Drive, rest: Rest) -> Result<Rest, SolveError> {
     let tension = rest.tension;
     if tension <= 0.0 {
-        return Err(LoopError::Slack { tension });
+        return Err(SolveError::Slack { tension });
     }
     let Some((pulley, tensioner)) = drive.tensioner() else {
         return Ok(rest);
@@ -107,7 +106,7 @@ fn stable_rest(drive: &Drive, rest: Rest) -> Result<Rest, LoopError> {
     );
     match tension.is_finite() && held.stiffness > 0.0 {
         true => Ok(rest),
-        false => Err(LoopError::NoEquilibrium {
+        false => Err(SolveError::NoEquilibrium {
             pulley: drive.pulleys[pulley].name.clone(),
             which: "at rest",
         }),

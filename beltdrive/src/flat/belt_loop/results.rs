@@ -7,11 +7,10 @@ use crate::friction::rim::profile::zones;
 use crate::friction::rim::zone::Friction;
 use crate::mechanics::span::{DEFLECTION, first_frequency, rest_frequency};
 use crate::mechanics::tensioner::Held;
-use crate::results::loop_error::LoopError;
 use crate::results::loop_state::{
     Contacts, LoadLimit, LoopState, PulleyState, SpanState, TensionerState,
 };
-use crate::{Drive, Duty};
+use crate::{Drive, Duty, SolveError};
 
 /// A solved loop.
 pub(super) struct Found<'l> {
@@ -44,12 +43,12 @@ impl Found<'_> {
     }
 
     /// Whether the tensioner stays where it is in the running loop.
-    pub(super) fn stable(&self) -> Result<(), LoopError> {
+    pub(super) fn stable(&self) -> Result<(), SolveError> {
         let held = self.drive.tensioner().zip(self.held());
         match held {
             Some((_, [running, _])) if running.stiffness > 0.0 => Ok(()),
             None => Ok(()),
-            Some(((pulley, _), _)) => Err(LoopError::NoEquilibrium {
+            Some(((pulley, _), _)) => Err(SolveError::NoEquilibrium {
                 pulley: self.drive.pulleys[pulley].name.clone(),
                 which: "under load",
             }),

@@ -9,9 +9,8 @@ use super::rest::rest_of_closure;
 use super::results::{Found, state};
 use super::running::RunningBelt;
 use crate::mechanics::tensioner::{Towards, within_travel};
-use crate::results::loop_error::LoopError;
 use crate::results::loop_state::LoopState;
-use crate::{BeltKind, Closure, Drive, Duty, FrictionLaw, Pulley};
+use crate::{BeltKind, Closure, Drive, Duty, FrictionLaw, Pulley, SolveError};
 
 /// Largest strain of the belt: at twice its length no belt is linear elastic, and far beyond it the length
 /// of the unstretched belt is lost in rounding.
@@ -35,8 +34,8 @@ const SLOPE: (f64, f64) = (1e-10, 0.9);
 /// closure, whatever its friction law.
 ///
 /// # Errors
-/// Those of [`LoopError`], in the order given there.
-pub(crate) fn solve(drive: &Drive) -> Result<LoopState, LoopError> {
+/// Those of [`SolveError`], in the order given there.
+pub(crate) fn solve(drive: &Drive) -> Result<LoopState, SolveError> {
     let rim = drive.rim_speed();
     let torque = |pulley: &Pulley| match pulley.duty {
         Duty::Driver(_) | Duty::Driven => 0.0,
@@ -72,14 +71,14 @@ pub(crate) fn solve(drive: &Drive) -> Result<LoopState, LoopError> {
             return with_torques(drive, &torques, true);
         }
     }
-    Err(LoopError::NotFound {
+    Err(SolveError::NotFound {
         what: "torque of a given power",
     })
 }
 
 /// The steady state of a belt loop with given torques; the final one has its load factor limit and its
 /// checks.
-fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopState, LoopError> {
+fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopState, SolveError> {
     let start = drive.start_coordinate();
     drive.layout(start)?;
     let (rest, target) = match drive.closure {
@@ -140,7 +139,7 @@ fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopSt
         }
         _ => rest,
     };
-    let stalls = |pulley: usize| LoopError::Stalls {
+    let stalls = |pulley: usize| SolveError::Stalls {
         pulley: drive.pulleys[pulley].name.clone(),
     };
     let Loaded {
@@ -151,7 +150,7 @@ fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopSt
     else {
         return Err(stalls(judged.map_or(0, |judged| largest(&judged).0)));
     };
-    let rest = rest.ok_or(LoopError::NotFound {
+    let rest = rest.ok_or(SolveError::NotFound {
         what: "state at rest",
     })?;
     within_travel(drive, coordinate)?;
@@ -162,7 +161,7 @@ fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopSt
     let strains = tractions.map(|&traction| belt.belt.strain(traction));
     let strain = strains.fold(rest.tension / axial, f64::max);
     if strain > LARGEST_STRAIN {
-        return Err(LoopError::Overstretched { strain });
+        return Err(SolveError::Overstretched { strain });
     }
     let stalled = |pulley: &usize| belt.belt.offset() + belt.contacts[*pulley].reference() <= 0.0;
     if let Some(pulley) = (0..belt.contacts.len()).find(stalled) {
@@ -184,11 +183,11 @@ fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopSt
 }
 
 /// Whether a running belt presses on all pulleys: with the convention `thesis` friction does not ask for it.
-fn presses(belt: &RunningBelt) -> Result<(), LoopError> {
+fn presses(belt: &RunningBelt) -> Result<(), SolveError> {
     let spans = belt.tractive.iter().zip(&belt.tractions);
     match spans.min_by(|(one, _), (other, _)| one.total_cmp(other)) {
         Some((&tractive_tension, &traction)) if tractive_tension <= 0.0 => {
-            Err(LoopError::LiftsOff {
+            Err(SolveError::LiftsOff {
                 tractive_tension,
                 speed: belt.speed * (1.0 + belt.belt.strain(traction)),
                 is_loaded: true,

@@ -4,9 +4,9 @@ use super::guess::groove_compliances;
 use super::rest::{Known, Rest, RestProblem};
 use super::rest_guess::RestGuess;
 use super::solve::{Search, lost};
+use crate::SolveError;
 use crate::drive::layout::Layout;
 use crate::mechanics::tensioner::{Towards, equilibrium, length_derivatives};
-use crate::results::loop_error::LoopError;
 
 /// The belt at rest, from where its pitch line would be with grooves that yield.
 pub(super) fn rest_near(
@@ -14,7 +14,7 @@ pub(super) fn rest_near(
     known: Known,
     start: f64,
     layout: &Layout,
-) -> Result<(RestProblem, Rest), LoopError> {
+) -> Result<(RestProblem, Rest), SolveError> {
     let drive = search.drive;
     let axial = drive.belt.axial_stiffness;
     let (coordinate, tension) = match known {
@@ -49,7 +49,7 @@ pub(super) fn rest_near(
         }
     };
     if tension <= 0.0 {
-        return Err(LoopError::Slack { tension });
+        return Err(SolveError::Slack { tension });
     }
     let layout = drive.layout(coordinate)?;
     let problem = RestProblem::new(drive, &layout, tension, known);
@@ -57,7 +57,7 @@ pub(super) fn rest_near(
         Known::Equilibrium => problem.held(coordinate),
         _ => problem,
     };
-    let pressed = |(pulley, largest): (usize, f64)| LoopError::PressedThrough {
+    let pressed = |(pulley, largest): (usize, f64)| SolveError::PressedThrough {
         pulley: drive.pulleys[pulley].name.clone(),
         largest,
     };
@@ -66,7 +66,7 @@ pub(super) fn rest_near(
     let rest = outcome.map_err(|cause| lost(0.0, &cause))?;
     match rest.tension > 0.0 {
         true => Ok((problem, rest)),
-        false => Err(LoopError::Slack {
+        false => Err(SolveError::Slack {
             tension: rest.tension,
         }),
     }

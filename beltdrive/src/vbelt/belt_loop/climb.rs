@@ -7,8 +7,8 @@ use super::levelling::Levelling;
 use super::problem::LoopProblem;
 use super::solve::Search;
 use super::unknowns::FLOW;
+use crate::SolveError;
 use crate::results::difficulty;
-use crate::results::loop_error::LoopError;
 use crate::results::loop_state::LoadLimit;
 use bvp::{Control, Family, Options, Problem, Scheme, Solution};
 use continuation::{Branch, Direction, Kind, Point};
@@ -52,7 +52,7 @@ impl Search<'_> {
     pub(super) fn load_limit(
         &mut self,
         from: Solved<LoopProblem>,
-    ) -> Result<Option<LoadLimit>, LoopError> {
+    ) -> Result<Option<LoadLimit>, SolveError> {
         let mut pulleys = self.drive.pulleys.iter();
         if pulleys.all(|pulley| pulley.duty.torque_at(1.0) == 0.0) {
             return Ok(None);
@@ -65,7 +65,7 @@ impl Search<'_> {
                     return Ok(Some(LoadLimit { factor, pulley }));
                 }
                 Climbed::Lost { reached, cause } => {
-                    return Err(LoopError::NotConverged { reached, cause });
+                    return Err(SolveError::Unreached { reached, cause });
                 }
             }
             to *= 2.0;

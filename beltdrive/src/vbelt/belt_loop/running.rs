@@ -11,8 +11,8 @@ use super::round::Target;
 use super::solve::{Search, lost};
 use super::start::Start;
 use super::unknowns::FLOW;
+use crate::SolveError;
 use crate::drive::layout::Layout;
-use crate::results::loop_error::LoopError;
 
 /// Shares of the load that are tried in turn where the whole fails; from them the load is raised.
 const SHARES: [f64; 6] = [0.5, 0.2, 0.05, 0.01, 1e-3, 0.0];
@@ -51,7 +51,7 @@ pub(super) fn running<'l>(
     target: Target,
     rest: Option<&Rest>,
     coordinate: f64,
-) -> Result<Running<'l>, LoopError> {
+) -> Result<Running<'l>, SolveError> {
     let drive = search.drive;
     let layout = drive.layout(coordinate)?;
     presses(search, target, &layout)?;
@@ -94,7 +94,7 @@ pub(super) fn running<'l>(
     match direct {
         Ok(solved) if is_drive(&solved) => Ok(found(whole, solved, None)),
         Err(Some(cause)) => Err(lost(0.0, &cause)),
-        _ => Err(LoopError::NotConverged {
+        _ => Err(SolveError::Unreached {
             reached: 0.0,
             cause: "the belt would have to push in a span even under hardly any load",
         }),
@@ -103,7 +103,7 @@ pub(super) fn running<'l>(
 
 /// Whether a belt between fixed centres presses on its pulleys without torques. Where it hardly presses
 /// it does not sink either: the tension of its pitch line decides.
-fn presses(search: &Search<'_>, target: Target, layout: &Layout) -> Result<(), LoopError> {
+fn presses(search: &Search<'_>, target: Target, layout: &Layout) -> Result<(), SolveError> {
     let (Target::Length(length), None) = (target, search.drive.tensioner()) else {
         return Ok(());
     };
@@ -113,7 +113,7 @@ fn presses(search: &Search<'_>, target: Target, layout: &Layout) -> Result<(), L
     let tractive_tension = belt.axial_stiffness * strain - flow * rim;
     match tractive_tension > 0.0 {
         true => Ok(()),
-        false => Err(LoopError::LiftsOff {
+        false => Err(SolveError::LiftsOff {
             tractive_tension,
             speed: rim,
             is_loaded: false,
@@ -125,19 +125,19 @@ fn presses(search: &Search<'_>, target: Target, layout: &Layout) -> Result<(), L
 fn raise(
     search: &mut Search<'_>,
     from: &Solved<LoopProblem>,
-) -> Result<Solved<LoopProblem>, LoopError> {
+) -> Result<Solved<LoopProblem>, SolveError> {
     match search.climb(from, 1.0) {
         Climbed::Reached(raised) => Ok(*raised),
         Climbed::Limit(Top {
             factor,
             pulley,
             overhangs,
-        }) => Err(LoopError::Overloaded {
+        }) => Err(SolveError::Overloaded {
             pulley: search.drive.pulleys[pulley].name.clone(),
             load_factor: factor,
             overhangs,
         }),
-        Climbed::Lost { reached, cause } => Err(LoopError::NotConverged { reached, cause }),
+        Climbed::Lost { reached, cause } => Err(SolveError::Unreached { reached, cause }),
     }
 }
 

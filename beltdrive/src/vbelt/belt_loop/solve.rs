@@ -8,9 +8,8 @@ use super::running::{Running, running};
 use super::state::state;
 use crate::mechanics::tensioner::within_travel;
 use crate::results::difficulty;
-use crate::results::loop_error::LoopError;
 use crate::results::loop_state::LoopState;
-use crate::{Closure, Drive};
+use crate::{Closure, Drive, SolveError};
 
 /// The search for the steady state of a loop.
 pub(super) type Search<'l> = Path<'l>;
@@ -23,7 +22,7 @@ struct Found<'l> {
 }
 
 /// The steady state of a loop with a V-belt.
-pub(crate) fn solve(drive: &Drive, tolerance: f64) -> Result<LoopState, LoopError> {
+pub(crate) fn solve(drive: &Drive, tolerance: f64) -> Result<LoopState, SolveError> {
     let mut search = Search::new(drive, tolerance);
     let Found {
         at_rest,
@@ -34,7 +33,7 @@ pub(crate) fn solve(drive: &Drive, tolerance: f64) -> Result<LoopState, LoopErro
 }
 
 /// As [`solve`], with what takes longer than the state: the torque margin of every pulley and the load limit.
-pub(crate) fn solve_with_margins(drive: &Drive, tolerance: f64) -> Result<LoopState, LoopError> {
+pub(crate) fn solve_with_margins(drive: &Drive, tolerance: f64) -> Result<LoopState, SolveError> {
     let mut search = Search::new(drive, tolerance);
     let Found {
         at_rest,
@@ -58,7 +57,7 @@ pub(crate) fn solve_with_margins(drive: &Drive, tolerance: f64) -> Result<LoopSt
 
 impl<'l> Search<'l> {
     /// The loop at rest and running, in the order in which the closure gives them.
-    fn search(&mut self) -> Result<Found<'l>, LoopError> {
+    fn search(&mut self) -> Result<Found<'l>, SolveError> {
         let drive = self.drive;
         let start = match (drive.closure, drive.tensioner()) {
             (Closure::RestCoordinate(coordinate), _) => coordinate,
@@ -100,7 +99,7 @@ impl<'l> Search<'l> {
         at_rest: RestProblem,
         rest: Rest,
         running: Running<'l>,
-    ) -> Result<Found<'l>, LoopError> {
+    ) -> Result<Found<'l>, SolveError> {
         let Solved { problem, solution } = &running.solved;
         let coordinate = problem.coordinate(solution.parameters());
         for coordinate in [rest.coordinate, coordinate] {
@@ -115,8 +114,8 @@ impl<'l> Search<'l> {
 }
 
 /// The error of a search that came to a share of the load.
-pub(super) fn lost(reached: f64, cause: &bvp::Error) -> LoopError {
-    LoopError::NotConverged {
+pub(super) fn lost(reached: f64, cause: &bvp::Error) -> SolveError {
+    SolveError::Unreached {
         reached,
         cause: difficulty::of_solver(cause),
     }

@@ -13,11 +13,10 @@ use super::solve::Search;
 use super::tensioner::{held, length_derivatives};
 use super::unknowns::FLOW;
 use crate::mechanics::span::{DEFLECTION, first_frequency, rest_frequency};
-use crate::results::loop_error::LoopError;
 use crate::results::loop_state::{
     Contacts, GrooveState, LoopConvergence, LoopState, PulleyState, SpanState, TensionerState,
 };
-use crate::{Duty, Mount, Profile, Zone, ZoneKind};
+use crate::{Duty, Mount, Profile, SolveError, Zone, ZoneKind};
 
 /// A solved loop with what follows from its solution at once.
 struct Seen<'a> {
@@ -264,12 +263,12 @@ impl<'a> Seen<'a> {
         &self,
         search: &mut Search<'_>,
         at_rest: &RestProblem,
-    ) -> Result<Option<TensionerState>, LoopError> {
+    ) -> Result<Option<TensionerState>, SolveError> {
         let Some((pulley, tensioner)) = search.drive.tensioner() else {
             return Ok(None);
         };
         let plane = &self.solved.problem.plane;
-        let lost = LoopError::NotFound {
+        let lost = SolveError::NotFound {
             what: "stiffness of the belt at rest",
         };
         let belt = search.stiffness(at_rest, self.rest).ok_or(lost)?;
@@ -287,7 +286,7 @@ impl<'a> Seen<'a> {
         );
         for (held, which) in [(&running, "under load"), (&at_rest, "at rest")] {
             if held.stiffness.is_nan() || held.stiffness <= 0.0 {
-                return Err(LoopError::NoEquilibrium {
+                return Err(SolveError::NoEquilibrium {
                     pulley: search.drive.pulleys[pulley].name.clone(),
                     which,
                 });
@@ -313,7 +312,7 @@ pub(super) fn state(
     rest: &Rest,
     at_rest: &RestProblem,
     solved: &Solved<LoopProblem>,
-) -> Result<LoopState, LoopError> {
+) -> Result<LoopState, SolveError> {
     let seen = Seen::new(solved, rest);
     let drive = search.drive;
     let checks = Checked {
@@ -329,7 +328,7 @@ pub(super) fn state(
     };
     let checks = checks.all();
     if let Some(violated) = checks.iter().find(|check| !check.holds()) {
-        return Err(LoopError::Violated(violated.clone()));
+        return Err(SolveError::Violated(violated.clone()));
     }
     let count = drive.pulleys.len();
     let pulleys: Vec<_> = (0..count)
