@@ -1,22 +1,6 @@
 use super::*;
-use crate::quantity::{branch, limit_curve, two_pulleys};
-use crate::report::{sample, sample_branch, sample_flat};
-
-/// A directory of this process that is gone after the test.
-struct Scratch(PathBuf);
-
-impl Scratch {
-    fn new(name: &str) -> Self {
-        let name = format!("beltdrive-plot-{name}-{}", std::process::id());
-        Self(std::env::temp_dir().join(name))
-    }
-}
-
-impl Drop for Scratch {
-    fn drop(&mut self) {
-        drop(fs::remove_dir_all(&self.0));
-    }
-}
+use crate::quantity::branch;
+use crate::results::samples;
 
 /// The attribute of a tag.
 fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
@@ -81,111 +65,9 @@ pub(super) fn check(figure: &str) {
     assert_eq!(open, [""; 0]);
 }
 
-fn names(files: &[PathBuf]) -> Vec<&str> {
-    let names = files.iter().map(|file| file.file_name().unwrap());
-    names.map(|name| name.to_str().unwrap()).collect()
-}
-
-fn state(state: &crate::SteadyState, directory: &Path) -> Result<Vec<PathBuf>, Error> {
-    write_state(&two_pulleys::drawn(state), "drive.svg", directory, None)
-}
-
-#[test]
-fn every_figure_is_written_and_well_formed() {
-    let scratch = Scratch::new("figures");
-    for (name, drawn) in [
-        ("loaded", sample::loaded()),
-        ("idle", sample::idle()),
-        ("overhanging", sample::overhanging()),
-        ("blank", sample::blank()),
-    ] {
-        let files = state(&drawn, &scratch.0.join(name)).unwrap();
-        let expected = [
-            "drive.svg",
-            "tension.svg",
-            "inclination.svg",
-            "penetration.svg",
-            "sliding_angle.svg",
-            "normal_and_friction_force.svg",
-        ];
-        assert_eq!(names(&files), expected);
-        for file in files {
-            let text = fs::read_to_string(&file).unwrap();
-            check(&text);
-            let warns = text.contains(">Warning: the belt overhangs itself on the driver");
-            assert_eq!(warns, name == "overhanging");
-        }
-    }
-}
-
-#[test]
-fn a_flat_belt_has_its_own_figures() {
-    let scratch = Scratch::new("flat");
-    for drawn in [
-        sample_flat::epp(),
-        sample_flat::coulomb(),
-        sample_flat::creep(),
-    ] {
-        let mut files = state(&drawn, &scratch.0).unwrap();
-        let expected = [
-            "drive.svg",
-            "tension.svg",
-            "friction_force.svg",
-            "normal_force.svg",
-            "displacement.svg",
-        ];
-        assert_eq!(names(&files), expected);
-        let branch = branch::answer(&sample_flat::branch());
-        files.extend(write_rows(&branch, "branch.svg", &scratch.0, None).unwrap());
-        let curve = limit_curve::answer(&sample_flat::curve());
-        files.extend(write_rows(&curve, "limit_curve.svg", &scratch.0, None).unwrap());
-        for file in files {
-            let text = fs::read_to_string(&file).unwrap();
-            check(&text);
-            assert!(text.contains("normal force n = (T − G V)/R"));
-            for word in ["nclination", "enetration", "groove", "V-belt"] {
-                assert!(!text.contains(word), "{word} in {}", file.display());
-            }
-        }
-        let branch = fs::read_to_string(scratch.0.join("branch.svg")).unwrap();
-        assert!(branch.contains(">Slip arc<"));
-    }
-}
-
-#[test]
-fn every_stability_has_figures() {
-    let scratch = Scratch::new("stability");
-    let stability = crate::quantity::stability::sample::stability();
-    let files = write_stability(&stability, &scratch.0, Some("a < b")).unwrap();
-    assert_eq!(names(&files), ["modes.svg", "spectrum.svg"]);
-    for file in files {
-        let text = fs::read_to_string(file).unwrap();
-        check(&text);
-        assert!(text.contains("\n<metadata>a &lt; b</metadata>"));
-    }
-}
-
-#[test]
-fn a_directory_that_cannot_be_created_is_named() {
-    let scratch = Scratch::new("blocked");
-    fs::write(&scratch.0, "a file").unwrap();
-    let error = state(&sample::loaded(), &scratch.0.join("figures")).unwrap_err();
-    fs::remove_file(&scratch.0).unwrap();
-    assert!(matches!(&error, Error::Directory { path, .. } if path.ends_with("figures")));
-    assert!(error.to_string().contains("blocked"));
-}
-
-#[test]
-fn a_figure_that_cannot_be_written_is_named() {
-    let scratch = Scratch::new("occupied");
-    fs::create_dir_all(scratch.0.join("drive.svg")).unwrap();
-    let error = state(&sample::loaded(), &scratch.0).unwrap_err();
-    assert!(matches!(&error, Error::Figure { path, .. } if path.ends_with("drive.svg")));
-}
-
 #[test]
 fn an_empty_answer_has_figures() {
-    let mut branch = sample_branch::folded();
+    let mut branch = samples::branch::folded();
     branch.points.clear();
     branch.events.clear();
     check(&rows::figure(&branch::answer(&branch)));

@@ -168,7 +168,7 @@ pub(crate) fn range_end_label(end: RangeEnd) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{sample, sample_flat};
+    use crate::results::samples::{flat, v_belt};
 
     #[test]
     fn every_event_has_a_short_label_and_words() {
@@ -189,7 +189,7 @@ mod tests {
             EventKind::BranchPoint,
         ];
         let kinds = plain.into_iter().chain([EventKind::End]).chain(of_pulley);
-        let drive = sample::loaded().drive;
+        let drive = v_belt::loaded().drive;
         let key = Key::load(&drive);
         let mut words = Vec::new();
         for kind in kinds {
@@ -210,7 +210,7 @@ mod tests {
 
     #[test]
     fn gross_slip_of_a_flat_belt_need_not_stop_a_pulley() {
-        let drive = sample_flat::epp().drive;
+        let drive = flat::epp().drive;
         let key = Key::load(&drive);
         let words = event(EventKind::GrossSlip(Role::Driven), key, &drive);
         assert_eq!(words, "the driven pulley slips grossly");

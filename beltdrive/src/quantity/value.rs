@@ -31,11 +31,11 @@ fn with_unit(key: Key, number: String) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample;
+    use crate::results::samples::v_belt;
 
     #[test]
     fn values_have_unit_and_known_digits() {
-        let drive = sample::loaded().drive;
+        let drive = v_belt::loaded().drive;
         let find = |path| Key::all(&drive).find(|key| key.path() == path).unwrap();
         let tight = Key::load(&drive);
         assert_eq!(quantity(tight, 8_221.013_42, Some(0.004)), "8221.01 N");

@@ -109,11 +109,11 @@ pub(crate) fn slip_arc(zones: &[Zone]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{sample, sample_flat};
+    use crate::results::samples::{flat, v_belt};
 
     #[test]
     fn heading_is_one_line() {
-        let mut drive = sample::loaded().drive;
+        let mut drive = v_belt::loaded().drive;
         drive.title = Some("two\n lines ".to_owned());
         assert_eq!(heading(&drive), "two lines");
         drive.title = Some("  ".to_owned());
@@ -122,8 +122,8 @@ mod tests {
 
     #[test]
     fn the_title_states_the_convention_of_a_flat_belt() {
-        assert_eq!(title(&sample::loaded().drive, &[]).len(), 2);
-        let mut drive = sample_flat::epp().drive;
+        assert_eq!(title(&v_belt::loaded().drive, &[]).len(), 2);
+        let mut drive = flat::epp().drive;
         drive.title = None;
         let lines = title(&drive, &[]);
         assert_eq!(lines[0], "Two-pulley flat-belt drive");
@@ -142,7 +142,7 @@ mod tests {
 
     #[test]
     fn laws_state_their_parameters() {
-        let mut drive = sample::loaded().drive;
+        let mut drive = v_belt::loaded().drive;
         drive.law = FrictionLaw::Coulomb;
         assert_eq!(law_of(&drive, &[]), "Coulomb friction, μ = 0.4");
         drive.law = FrictionLaw::Bristle { stiffness: 1620.0 };
@@ -172,13 +172,13 @@ mod tests {
 
     #[test]
     fn every_convention_is_told_from_the_others() {
-        let mut drive = sample_flat::epp().drive;
+        let mut drive = flat::epp().drive;
         let mut words = NormalForce::ALL.map(|normal_force| {
             drive.belt.kind = BeltKind::Flat { normal_force };
             convention(drive.belt.kind).unwrap()
         });
         words.sort_unstable();
         assert!(words.windows(2).all(|pair| pair[0] != pair[1]), "{words:?}");
-        assert_eq!(convention(sample::loaded().drive.belt.kind), None);
+        assert_eq!(convention(v_belt::loaded().drive.belt.kind), None);
     }
 }

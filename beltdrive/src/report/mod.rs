@@ -6,15 +6,7 @@ mod file;
 mod json;
 pub(crate) mod lines;
 mod markdown;
-#[cfg(test)]
-pub(crate) mod sample;
-#[cfg(test)]
-pub(crate) mod sample_branch;
-#[cfg(test)]
-pub(crate) mod sample_flat;
 mod table;
-#[cfg(test)]
-mod tests;
 
 pub use self::csv::csv;
 pub(crate) use crate::quantity::precision::six_digits;

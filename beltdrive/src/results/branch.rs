@@ -193,7 +193,7 @@ pub(crate) fn samples([from, to]: [f64; 2], intervals: usize) -> impl Iterator<I
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample_branch;
+    use crate::results::samples::branch as sample_branch;
 
     #[test]
     fn rows_hold_points_and_events_in_order_and_once() {

@@ -8,6 +8,8 @@ pub(crate) mod limit_curve;
 pub(crate) mod limits;
 pub(crate) mod loop_state;
 pub(crate) mod possible;
+#[cfg(test)]
+pub(crate) mod samples;
 pub(crate) mod stability;
 pub(crate) mod state_summary;
 pub(crate) mod steady_state;

@@ -259,7 +259,7 @@ fn positive(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::{sample, sample_flat};
+    use crate::results::samples::{flat, v_belt};
 
     /// The names of the checks that a state fails.
     fn failed(state: &SteadyState) -> Vec<&'static str> {
@@ -269,7 +269,7 @@ mod tests {
 
     /// A made-up state, which fails no check but that of its made-up powers.
     fn state() -> SteadyState {
-        let mut state = sample::loaded();
+        let mut state = v_belt::loaded();
         let power = |pulley: &PulleyState| pulley.torque * pulley.angular_speed;
         state.friction_loss = power(&state.driver) - power(&state.driven);
         assert_eq!(failed(&state), [""; 0]);
@@ -357,8 +357,8 @@ mod tests {
 
     #[test]
     fn flat_belts_are_examined_to_the_digits_of_their_closed_form() {
-        let state = sample_flat::coulomb();
+        let state = flat::coulomb();
         assert_eq!(accuracy(&state), 1e-9);
-        assert_eq!(accuracy(&sample::loaded()), 1e-7);
+        assert_eq!(accuracy(&v_belt::loaded()), 1e-7);
     }
 }

@@ -173,12 +173,12 @@ impl From<&PulleyState> for PulleySummary {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::sample;
+    use crate::results::samples::v_belt;
 
     #[test]
     fn a_standing_driver_loses_no_speed() {
-        assert_eq!(StateSummary::from(&sample::idle()).speed_loss, 0.0);
-        let state = StateSummary::from(&sample::loaded());
+        assert_eq!(StateSummary::from(&v_belt::idle()).speed_loss, 0.0);
+        let state = StateSummary::from(&v_belt::loaded());
         assert!((state.speed_loss - 0.02).abs() < 1e-12);
     }
 }

@@ -1,7 +1,9 @@
 //! What the answers for drives with two pulleys say, as tables, JSON and CSV.
 
 mod branches;
+mod figures;
 mod ranges;
+mod reports;
 mod states;
 mod states_as_tables;
 

@@ -6,7 +6,7 @@ use super::*;
 use crate::belt_loop::solve;
 use crate::input;
 use crate::quantity::{belt_loop, two_pulleys};
-use crate::report::sample;
+use crate::results::samples::{flat, v_belt};
 use crate::{
     Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, NormalForce, Pulley, Sense, Side,
     SteadyState, examples,
@@ -125,8 +125,15 @@ fn answers() -> Vec<Answer> {
     answers
 }
 
-fn drives() -> [SteadyState; 3] {
-    [sample::loaded(), sample::idle(), sample::overhanging()]
+fn drives() -> [SteadyState; 6] {
+    [
+        v_belt::loaded(),
+        v_belt::idle(),
+        v_belt::overhanging(),
+        flat::epp(),
+        flat::coulomb(),
+        flat::creep(),
+    ]
 }
 
 /// Places at most 1 px apart along a line.
@@ -193,6 +200,9 @@ fn figures_are_well_formed_on_the_sheet_with_minus_signs() {
         check(&figure(&answer));
         profiles::figures(&answer).for_each(|(_, figure)| check(&figure));
     }
+    let blank = two_pulleys::drawn(&v_belt::blank());
+    check(&figure(&blank));
+    profiles::figures(&blank).for_each(|(_, figure)| check(&figure));
     let crossed = example("crossed");
     let text = figure(&belt_loop::answer(&crossed, &solve(&crossed).unwrap()));
     assert!(text.contains("torque −17.14 N·m") && text.contains("826.4 rpm"));
@@ -274,7 +284,7 @@ fn the_belt_joins_its_spans() {
 
 #[test]
 fn an_overhanging_belt_has_its_zone_up_to_the_exit() {
-    let mut state = sample::overhanging();
+    let mut state = v_belt::overhanging();
     let profile = &mut state.driver.profile;
     let wrap = state.driver.wrap_angle;
     // The angle goes beyond the exit and comes back.

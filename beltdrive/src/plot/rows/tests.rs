@@ -2,7 +2,7 @@ use super::super::tests::check;
 use super::diagram::{COVERED, CURVE};
 use super::*;
 use crate::quantity::{branch, limit_curve};
-use crate::report::sample_branch;
+use crate::results::samples;
 use crate::{Branch, LimitCurve};
 
 fn rows(answer: &Answer) -> &[Subject] {
@@ -19,7 +19,7 @@ fn drawn(branch: &Branch) -> String {
 
 #[test]
 fn the_branch_is_parted_at_its_limit_point() {
-    let mut folded = sample_branch::folded();
+    let mut folded = samples::branch::folded();
     let answer = branch::answer(&folded);
     let found = pieces(rows(&answer), &[]);
     let [before, behind] = &found[..] else {
@@ -48,7 +48,7 @@ fn the_branch_is_parted_at_its_limit_point() {
 
 #[test]
 fn a_parameter_over_decades_has_powers_of_ten_unless_it_turns_back() {
-    let mut branch = sample_branch::folded();
+    let mut branch = samples::branch::folded();
     for point in &mut branch.points {
         point.value = 1e5 * 10_f64.powf(5.0 * point.arclength);
     }
@@ -59,7 +59,7 @@ fn a_parameter_over_decades_has_powers_of_ten_unless_it_turns_back() {
 
 #[test]
 fn events_are_numbered_and_told() {
-    let mut branch = sample_branch::folded();
+    let mut branch = samples::branch::folded();
     branch.events[1].point = branch.events[0].point.clone();
     let figure = drawn(&branch);
     assert!(figure.contains(">1, 2<"));
@@ -68,7 +68,7 @@ fn events_are_numbered_and_told() {
 
 #[test]
 fn a_branch_of_one_state_has_a_figure() {
-    let mut branch = sample_branch::folded();
+    let mut branch = samples::branch::folded();
     branch.points.truncate(1);
     branch.events.clear();
     drawn(&branch);
@@ -82,7 +82,7 @@ fn chart(curve: &LimitCurve) -> String {
 
 #[test]
 fn a_curve_of_limits_is_parted_where_the_reason_changes() {
-    let mut curve = sample_branch::curve();
+    let mut curve = samples::branch::curve();
     let answer = limit_curve::answer(&curve);
     let reasons = reasons(rows(&answer));
     assert_eq!(reasons, ["fold: driver slips", "fold: driver overhangs"]);
@@ -104,6 +104,18 @@ fn a_curve_of_limits_is_parted_where_the_reason_changes() {
     let figure = chart(&curve);
     for tick in ["1e4", "1e5", "1e6", "1e7", "1e8"] {
         assert!(figure.contains(&format!(">{tick}<")), "{tick}");
+    }
+}
+
+#[test]
+fn flat_belts_have_charts_of_their_own() {
+    let branch = drawn(&samples::flat::branch());
+    assert!(branch.contains(">Slip arc<"));
+    for figure in [branch, chart(&samples::flat::curve())] {
+        assert!(figure.contains("normal force n = (T − G V)/R"));
+        for word in ["nclination", "enetration", "groove", "V-belt"] {
+            assert!(!figure.contains(word), "{word}");
+        }
     }
 }
 

@@ -109,6 +109,7 @@ mod tests {
     #[test]
     fn every_shape_has_a_panel_with_its_eigenvalue() {
         let text = figure(&sample::stability());
+        crate::plot::tests::check(&text);
         assert_eq!(text.matches("decays").count(), 6);
         assert!(text.contains("driver, mode 1: λ = −40.0000 + 10000.0 i 1/s, decays"));
         assert!(text.contains("driven, mode 3") && !text.contains("mode 4"));

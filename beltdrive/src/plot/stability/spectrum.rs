@@ -136,6 +136,7 @@ mod tests {
     #[test]
     fn every_form_and_pulley_is_there() {
         let text = figure(&sample::stability());
+        crate::plot::tests::check(&text);
         assert!(text.contains("driver: growth with natural outlet"));
         assert!(text.contains("driven pulley: no growth"));
         for form in LinearisedForm::ALL {

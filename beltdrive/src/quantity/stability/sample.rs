@@ -1,6 +1,6 @@
 //! A made-up stability, for the tests of reports and figures.
 
-use crate::report::sample_flat;
+use crate::results::samples::flat;
 use crate::{
     AxialMode, FormStability, LinearisedForm, Onset, PulleyStability, ShapePoint, Stability,
 };
@@ -28,7 +28,7 @@ pub(crate) fn stability() -> Stability {
     let at = |load, mode| Some(Onset::At { load, mode });
     let never = Some(Onset::Never);
     Stability {
-        drive: sample_flat::epp().drive,
+        drive: flat::epp().drive,
         critical_speed: 1291.0,
         driver: on(
             25.05,

@@ -1,6 +1,6 @@
 //! Made-up but plausible branches, for the tests of reports and figures.
 
-use super::sample;
+use super::v_belt;
 use crate::input::Key;
 use crate::{
     Branch, BranchEnd, BranchEvent, EventKind, LimitCurve, LimitCurvePoint, LimitReason,
@@ -13,7 +13,7 @@ const FOLD: f64 = 0.8;
 
 /// A branch from 700 N over a limit point, where the driver's exit overhangs.
 pub(crate) fn folded() -> Branch {
-    let drive = sample::loaded().drive;
+    let drive = v_belt::loaded().drive;
     let points: Vec<_> = (0..=60).map(|step| point(f64::from(step) / 60.0)).collect();
     let events = [
         (EventKind::Start, 0.0),
@@ -92,7 +92,7 @@ fn event(kind: EventKind, arclength: f64) -> BranchEvent {
 /// The state at an arclength from 0 to 1.
 fn point(arclength: f64) -> TracePoint {
     let value = LARGEST - (LARGEST - 700.0) * (1.0 - arclength / FOLD).powi(2);
-    let mut state = StateSummary::from(&sample::loaded());
+    let mut state = StateSummary::from(&v_belt::loaded());
     let lost = 0.02 + 0.6 * arclength.powi(4);
     state.speed_loss = lost;
     state.efficiency = 1.0 - lost - 0.02;

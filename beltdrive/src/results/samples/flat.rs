@@ -1,11 +1,12 @@
 //! Made-up but plausible states of a flat belt on unequal pulleys, for the tests of reports and
 //! figures.
 
+use super::branch as v_branch;
 use crate::{
     Belt, BeltKind, Branch, BranchEnd, BranchEvent, Check, Convergence, Drive, Entry, EventKind,
     FrictionLaw, LimitCurve, LimitReason, Load, NormalForce, Profile, PulleyState, Role,
     SpanTension, StateSummary, SteadyState, TraceConvergence, TracePoint, TwoPulleys, Zone,
-    ZoneKind, input::Key, report::sample_branch,
+    ZoneKind, input::Key,
 };
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -77,7 +78,7 @@ pub(crate) fn branch() -> Branch {
 
 /// Its limit over the coefficient of friction.
 pub(crate) fn curve() -> LimitCurve {
-    let mut curve = sample_branch::curve();
+    let mut curve = v_branch::curve();
     for (share, limit) in (0..).zip(&mut curve.points) {
         limit.reason = LimitReason::Capstan(match limit.reason {
             LimitReason::DriverSlips => Role::Driver,

@@ -1,7 +1,17 @@
-use super::{csv, json, table};
-use crate::quantity::{Answer, Group, Layout, Measure, Quantity, Subject, UnitSystem, Value};
-use crate::report::lines::WIDTH;
+//! Tables, JSON and CSV of any answer, and the files they are written to.
+
+use beltdrive::quantity::{Answer, Group, Layout, Measure, Quantity, Subject, UnitSystem, Value};
+use beltdrive::report::{csv, json, table, write_file};
 use serde_json::json;
+use std::fs;
+use std::path::PathBuf;
+
+fn subject(head: &str, quantities: Vec<Quantity>) -> Subject {
+    Subject {
+        head: head.to_owned(),
+        quantities,
+    }
+}
 
 fn pulley(name: &str, wrap: f64) -> Subject {
     Subject {
@@ -56,7 +66,7 @@ fn tables_fit_a_terminal_and_show_known_digits() {
     for units in [UnitSystem::Si, UnitSystem::Engineering, UnitSystem::Us] {
         let text = table(&answer(7), units);
         assert!(
-            text.lines().all(|line| line.chars().count() <= WIDTH),
+            text.lines().all(|line| line.chars().count() <= 100),
             "{text}"
         );
         assert_eq!(text.matches("wrap angle").count(), 2);
@@ -123,19 +133,23 @@ fn row(place: usize, head: &str) -> Subject {
             ..Quantity::data("fan", Measure::Number, object)
         },
         Quantity::data("errors", Measure::Number, Value::Object(None)),
-        Quantity::json("mesh", vec![3, 4]),
-        Quantity::count("steps", "", 7),
+        Quantity::data("mesh", Measure::Number, Value::Json(json!([3, 4]))),
+        Quantity::data("steps", Measure::Number, Value::Count(7)),
         number("place", ""),
         Quantity::word("", "event", head.to_owned()),
     ];
-    Subject::new(head, quantities)
+    subject(head, quantities)
 }
 
 fn rows(count: usize) -> Answer {
     let head = |place| if place == 34 { "fold" } else { "" };
     let rows = (0..count).map(|place| row(place, head(place)));
     Answer {
-        groups: vec![Group::new("points", Layout::Rows, rows.collect())],
+        groups: vec![Group {
+            key: "points",
+            layout: Layout::Rows,
+            subjects: rows.collect(),
+        }],
         ..Answer::default()
     }
 }
@@ -175,12 +189,64 @@ fn parts_and_objects_are_nested_in_json_and_flat_in_csv() {
 
 #[test]
 fn errors_are_powers_of_ten() {
-    let error = |value| Quantity::error("e", "error", Measure::Length, value);
+    let error = |value| Quantity {
+        digits: 2,
+        ..Quantity::number("e", "error", Measure::Length, value, 0.0)
+    };
+    let subject = subject("", vec![error(2.44e-6), error(0.0)]);
+    let group = Group {
+        key: "",
+        layout: Layout::Single,
+        subjects: vec![subject],
+    };
     let answer = Answer {
-        groups: vec![Group::single("", vec![error(2.44e-6), error(0.0)])],
+        groups: vec![group],
         ..Answer::default()
     };
     let text = table(&answer, UnitSystem::Engineering);
     let cells: Vec<_> = text.lines().map(|line| line[5..].trim()).collect();
     assert_eq!(cells, ["2.4e−3  mm", "0  mm"]);
+}
+
+/// An empty directory of this test run.
+fn directory(name: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR"))
+        .join("answers")
+        .join(name);
+    drop(fs::remove_dir_all(&path));
+    fs::create_dir_all(&path).unwrap();
+    path
+}
+
+#[test]
+fn a_file_is_replaced_and_nothing_else_is_left() {
+    let directory = directory("replaced");
+    let path = directory.join("a.json");
+    for text in ["first", "second"] {
+        write_file(&path, text).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), text);
+    }
+    assert!(write_file(&directory, "a directory").is_err());
+    assert!(write_file(&directory.join("none/a.json"), "no directory").is_err());
+    assert_eq!(fs::read_dir(&directory).unwrap().count(), 1);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_devices_and_permissions_are_kept() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let directory = directory("links");
+    let [file, link] = ["file", "link"].map(|name| directory.join(name));
+    fs::write(&file, "first").unwrap();
+    fs::set_permissions(&file, fs::Permissions::from_mode(0o640)).unwrap();
+    symlink(&file, &link).unwrap();
+    write_file(&link, "second").unwrap();
+    assert!(link.is_symlink());
+    assert_eq!(fs::read_to_string(&file).unwrap(), "second");
+    assert_eq!(
+        fs::metadata(&file).unwrap().permissions().mode() & 0o777,
+        0o640
+    );
+    write_file(&PathBuf::from("/dev/null"), "gone").unwrap();
+    assert!(!fs::metadata("/dev/null").unwrap().is_file());
 }
