@@ -12,7 +12,8 @@
 //!   elastic/perfectly-plastic and creep-rate friction and three conventions for the normal force
 //!   ([`NormalForce`]). [`flat::ClosedForm`] gives it without profiles. [`stability`](stability()) examines its axial motion.
 //!
-//! Drives with any number of pulleys, with a tensioner, and other closures are answered by [`belt_loop`].
+//! Drives with any number of pulleys, a tensioner or another closure are answered by [`belt_loop`], which
+//! answers for those with two pulleys as well, with what it has more to tell: rest, hub loads, margins.
 //!
 //! [`mod@verify`] computes published results again.
 //!

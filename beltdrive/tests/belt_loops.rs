@@ -145,6 +145,16 @@ fn two_pulleys_are_the_drive_with_two_pulleys() {
             close("first zone", found.no_slip_arc, first, 1e-10);
         }
         slacker.push(slack.tension);
+        let again = solve(&drive.into()).unwrap();
+        for (found, known) in again.spans.iter().zip(&state.spans) {
+            close("F", found.tractive_tension, known.tractive_tension, 1e-11);
+        }
+        close(
+            "L_0",
+            again.unstretched_length,
+            state.unstretched_length,
+            1e-12,
+        );
         // The loop carries what the drive carries: the limit at a held slack tension is the margin, in the
         // convention `thesis` but for the speed, which falls with the load.
         let margin = state.pulleys[0].torque_margin.unwrap();

@@ -66,7 +66,6 @@ fn two_pulleys_are_the_drive_with_two_pulleys() {
         let (options, tolerance) = (SolveOptions { tolerance: asked }, 10.0 * asked);
         let drive = thesis(law, tight);
         let known = beltdrive::solve(&drive, &options).unwrap();
-        let drive = as_loop(&drive, known.driven.torque);
         let state = solve_to(&drive, &options);
         let state = state.unwrap_or_else(|error| panic!("{law} {tight}: {error}"));
         let work = state.convergence.as_ref().unwrap();
@@ -121,7 +120,7 @@ fn loops_have_the_warnings_of_two_pulleys() {
         groove.height = Some(1e-4);
     }
     let known = beltdrive::solve(&drive, &SolveOptions::default()).unwrap();
-    let drive = as_loop(&drive, known.driven.torque);
+    let drive = known.as_loop();
     let state = solve(&drive).unwrap();
     let warnings = state.warnings(&drive);
     let [
@@ -535,7 +534,7 @@ fn the_smallest_margin_of_two_pulleys_is_their_load_limit() {
     for tight in [1000.0, 2000.0, 3000.0] {
         let drive = thesis("bristle", tight);
         let state = beltdrive::solve(&drive, &SolveOptions::default()).unwrap();
-        let drive = as_loop(&drive, state.driven.torque);
+        let drive = state.as_loop();
         let state = solve_with_margins(&drive, &SolveOptions::default()).unwrap();
         let limit = state.load_limit.unwrap();
         let margins = state.pulleys.iter().map(|pulley| pulley.torque_margin);

@@ -1,14 +1,17 @@
-//! What is asked of the steady state of a loop of pulleys.
+//! What is asked of the steady state of any drive as a loop of pulleys.
 
+use super::drive::solve as solve_two_pulleys;
 use crate::belt_loop::LoopState;
 use crate::drive::check;
 use crate::model::model;
 use crate::{Drive, SolveError, SolveOptions};
+use std::borrow::Cow;
 
-/// The steady state of a belt loop, to the relative tolerance 1e-6 where it is a V-belt.
+/// The steady state of a drive, to the relative tolerance 1e-6 where it is a V-belt.
 ///
 /// A loop with a flat belt is judged with Coulomb friction first: it slips grossly if it does with Coulomb
-/// friction at the same closure, whatever its friction law.
+/// friction at the same closure, whatever its friction law. A drive that is closed by the tensions of both spans
+/// is solved as such first ([`crate::solve`]), then as the loop with the torque and the slack tension found.
 ///
 /// # Errors
 /// Those of [`SolveError`]; of several reasons the first in the order given there.
@@ -16,14 +19,14 @@ pub fn solve(drive: &Drive) -> Result<LoopState, SolveError> {
     solve_to(drive, &SolveOptions::default())
 }
 
-/// The steady state of a belt loop to a tolerance. Flat belts are solved in closed form, to rounding: on
+/// The steady state of a drive to a tolerance. Flat belts are solved in closed form, to rounding: on
 /// them the tolerance has no effect.
 ///
 /// # Errors
 /// As [`solve`], and [`SolveError::Tolerance`].
 pub fn solve_to(drive: &Drive, options: &SolveOptions) -> Result<LoopState, SolveError> {
-    check(drive, options)?;
-    model(drive.belt.kind).solve_loop(drive, options)
+    let drive = closed_once(drive, options)?;
+    model(drive.belt.kind).solve_loop(&drive, options)
 }
 
 /// As [`solve_to`], with what takes longer than the state of a V-belt: how far all torques can be raised at the
@@ -35,15 +38,22 @@ pub fn solve_to(drive: &Drive, options: &SolveOptions) -> Result<LoopState, Solv
 /// # Errors
 /// As [`solve_to`].
 pub fn solve_with_margins(drive: &Drive, options: &SolveOptions) -> Result<LoopState, SolveError> {
-    check(drive, options)?;
-    model(drive.belt.kind).solve_with_margins(drive, options)
+    let drive = closed_once(drive, options)?;
+    model(drive.belt.kind).solve_with_margins(&drive, options)
 }
 
-/// Whether the statement and the options are in range.
-fn check(drive: &Drive, options: &SolveOptions) -> Result<(), SolveError> {
+/// The drive with a closure that leaves its torques to the statement, once that is in range.
+pub(super) fn closed_once<'d>(
+    drive: &'d Drive,
+    options: &SolveOptions,
+) -> Result<Cow<'d, Drive>, SolveError> {
+    if drive.two_pulleys().is_some() {
+        return Ok(Cow::Owned(solve_two_pulleys(drive, options)?.as_loop()));
+    }
     let tolerance = options.tolerance;
     if !(1e-12..=1e-2).contains(&tolerance) {
         return Err(SolveError::Tolerance { tolerance });
     }
-    check::check(drive)
+    check::check(drive)?;
+    Ok(Cow::Borrowed(drive))
 }

@@ -143,8 +143,8 @@ pub(super) fn end(
         };
         match members.at(next) {
             Ok(_) => inside = next,
-            Err(_) => {
-                let (value, error, refusal) = members.end_between(inside, next);
+            Err(refusal) => {
+                let (value, error, refusal) = members.end_between(inside, next, refusal);
                 return found(value, error, LoopEnd::Limit(refusal));
             }
         }

@@ -1,6 +1,7 @@
 //! The loops that differ in one number, and which of them have a steady state.
 
-use crate::belt_loop::{LoopState, solve_to};
+use super::belt_loop::{closed_once, solve_to};
+use crate::belt_loop::LoopState;
 use crate::input::{Diagnostic, DriveFile, FileKey};
 use crate::quantity::Measure;
 use crate::{BeltKind, Drive, Duty, SolveError, SolveOptions};
@@ -21,19 +22,23 @@ pub enum Refusal {
     /// The drive file would be at fault: a value out of its range, a belt that cannot be laid round the
     /// pulleys.
     Input(Box<Diagnostic>),
-    /// The loop has no steady state.
+    /// The drive has no steady state.
     Loop(Box<SolveError>),
-    /// The file does not state a loop of pulleys.
-    NoLoop,
 }
 
 impl Refusal {
     /// One word for programs.
     pub fn kind(&self) -> &'static str {
         match self {
-            Self::Input(_) | Self::NoLoop => "impossible input",
+            Self::Input(_) => "impossible input",
             Self::Loop(error) => error.kind(),
         }
+    }
+}
+
+impl From<SolveError> for Refusal {
+    fn from(error: SolveError) -> Self {
+        Self::Loop(Box::new(error))
     }
 }
 
@@ -43,7 +48,6 @@ impl fmt::Display for Refusal {
         match self {
             Self::Input(error) => f.write_str(error.message()),
             Self::Loop(error) => error.fmt(f),
-            Self::NoLoop => f.write_str("the drive file states no loop of pulleys"),
         }
     }
 }
@@ -78,22 +82,20 @@ impl<'f> Members<'f> {
         }
     }
 
-    /// The loop with a value, SI.
+    /// The drive with a value, SI.
     pub(super) fn drive(&self, value: f64) -> Result<Drive, Refusal> {
         let stated = match self.varied {
             Varied::Key(key) => self.file.with(key, value).drive(),
             Varied::LoadFactor => self.file.drive(),
         };
-        let mut drive = match stated {
-            Ok(drive) if drive.two_pulleys().is_some() => return Err(Refusal::NoLoop),
-            Ok(drive) => drive,
-            Err(error) => return Err(Refusal::Input(Box::new(error))),
+        let drive = stated.map_err(|error| Refusal::Input(Box::new(error)))?;
+        let Varied::LoadFactor = self.varied else {
+            return Ok(drive);
         };
-        if *self.varied == Varied::LoadFactor {
-            for pulley in &mut drive.pulleys {
-                if let Duty::Torque(load) | Duty::Power(load) = &mut pulley.duty {
-                    *load *= value;
-                }
+        let mut drive = closed_once(&drive, self.options)?.into_owned();
+        for pulley in &mut drive.pulleys {
+            if let Duty::Torque(load) | Duty::Power(load) = &mut pulley.duty {
+                *load *= value;
             }
         }
         Ok(drive)
@@ -102,17 +104,19 @@ impl<'f> Members<'f> {
     /// The loop and its steady state with a value, SI.
     pub(super) fn at(&self, value: f64) -> Result<Member, Refusal> {
         let drive = self.drive(value)?;
-        match solve_to(&drive, self.options) {
-            Ok(state) => Ok(Member { drive, state }),
-            Err(error) => Err(Refusal::Loop(Box::new(error))),
-        }
+        let state = solve_to(&drive, self.options)?;
+        Ok(Member { drive, state })
     }
 
-    /// The last value that has a state between one that has one and one that has none, SI, how far it may be
-    /// off, and why there is none beyond.
-    pub(super) fn end_between(&self, inside: f64, outside: f64) -> (f64, f64, Refusal) {
+    /// The last value that has a state between one that has one and one that has none, for this reason, SI, how
+    /// far it may be off, and why there is none beyond.
+    pub(super) fn end_between(
+        &self,
+        inside: f64,
+        outside: f64,
+        mut refusal: Refusal,
+    ) -> (f64, f64, Refusal) {
         let [mut inside, mut outside] = [inside, outside];
-        let mut refusal = self.at(outside).err();
         let is_v = |drive: Drive| matches!(drive.belt.kind, BeltKind::V(_));
         let resolved = match self.drive(inside).is_ok_and(is_v) {
             true => LOCATED * self.options.tolerance,
@@ -128,11 +132,11 @@ impl<'f> Members<'f> {
             }
             match self.at(middle) {
                 Ok(_) => inside = middle,
-                Err(error) => (outside, refusal) = (middle, Some(error)),
+                Err(error) => (outside, refusal) = (middle, error),
             }
         }
         let error = (outside - inside).abs();
-        (inside, error, refusal.unwrap_or(Refusal::NoLoop))
+        (inside, error, refusal)
     }
 
     /// The value in the drive file, SI.

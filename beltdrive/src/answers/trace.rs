@@ -68,8 +68,8 @@ pub fn trace(
         progress((index + 1) as f64 / INTERVALS as f64, "states");
         match members.at(value) {
             Ok(member) => points.push(LoopPoint::new(value, 0.0, member)),
-            Err(_) => {
-                let (limit, error, refusal) = members.end_between(last, value);
+            Err(refusal) => {
+                let (limit, error, refusal) = members.end_between(last, value, refusal);
                 if limit != last
                     && let Ok(member) = members.at(limit)
                 {

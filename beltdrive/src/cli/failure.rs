@@ -29,7 +29,6 @@ impl From<Refusal> for Failure {
         match refusal {
             Refusal::Loop(error) => Self::from(*error),
             Refusal::Input(error) => Self::usage(error),
-            Refusal::NoLoop => Self::usage(format!("error: {refusal}")),
         }
     }
 }

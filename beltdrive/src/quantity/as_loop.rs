@@ -5,13 +5,13 @@ use super::scale::{HUB_LOAD, Scale};
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value, warning, words};
 use crate::belt_loop as loops;
 use crate::input::Key;
-use crate::{BeltKind, Closure, Drive, Duty, Load, PulleyState, SpanTension, SteadyState};
+use crate::{BeltKind, Drive, Duty, Load, PulleyState, SpanTension, SteadyState};
 use std::f64::consts::PI;
 
 /// The groups `pulleys`, `spans` and `loop` of a steady state. That of a flat belt is solved again as a loop,
 /// which also tells of the belt at rest and of margins.
 pub fn groups(state: &SteadyState) -> [Group; 3] {
-    let as_loop = as_loop(state);
+    let as_loop = state.as_loop();
     let solved = match state.drive.belt.kind {
         BeltKind::Flat { .. } => loops::solve(&as_loop).ok(),
         BeltKind::V(_) => None,
@@ -61,7 +61,7 @@ pub fn drawn(state: &SteadyState) -> Answer {
         subject.quantities.extend(locked);
         subject.quantities.extend(belt_loop::along(&pulley.profile));
     }
-    groups.push(Group::single("", belt_loop::statement(&as_loop(state))));
+    groups.push(Group::single("", belt_loop::statement(&state.as_loop())));
     Answer {
         heading: heading(&state.drive, &[]),
         remarks: warning::messages(&state.warnings),
@@ -75,18 +75,6 @@ pub(crate) fn heading(drive: &Drive, varied: &[Key]) -> Vec<String> {
     let mut lines = vec![words::heading(drive), words::law_of(drive, varied)];
     lines.extend(words::convention(drive.belt.kind).map(str::to_owned));
     lines
-}
-
-/// The drive of a state as a loop that is closed by its slack tension.
-fn as_loop(state: &SteadyState) -> Drive {
-    let mut drive = Drive::from(state.drive.pair());
-    drive.title.clone_from(&state.drive.title);
-    drive.pulleys[1].duty = Duty::Torque(state.driven.torque);
-    drive.closure = Closure::SpanTractiveTension {
-        span: 0,
-        tension: state.slack_tractive_tension,
-    };
-    drive
 }
 
 /// A drive with another closure in a known state as one that is closed by the tensions of both spans: if it is

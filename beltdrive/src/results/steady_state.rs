@@ -3,7 +3,7 @@
 use crate::results::possible;
 use crate::results::warning::Warning;
 use crate::vbelt::Solved;
-use crate::{Drive, SolveError};
+use crate::{Closure, Drive, Duty, SolveError};
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -52,6 +52,18 @@ pub struct SteadyState {
 }
 
 impl SteadyState {
+    /// The drive of this state as a loop that is closed by its slack tension, with the torque of the driven pulley.
+    pub fn as_loop(&self) -> Drive {
+        let mut drive = self.drive.clone();
+        let driver = drive.driver();
+        drive.pulleys[1 - driver].duty = Duty::Torque(self.driven.torque);
+        drive.closure = Closure::SpanTractiveTension {
+            span: driver,
+            tension: self.slack_tractive_tension,
+        };
+        drive
+    }
+
     /// The state if it passes all of its checks, first those of what no drive does.
     ///
     /// # Errors
