@@ -143,7 +143,7 @@ pub(crate) fn check(drive: &Drive, options: &SolveOptions) -> Result<(), SolveEr
     }
     let Some(two) = drive.two_pulleys() else {
         return Err(SolveError::NotModelled(
-            "this is answered for an open belt round two pulleys that is closed by the tensions of both spans"
+            "this needs an open belt round two pulleys, closed by the tensions of both spans"
                 .into(),
         ));
     };
