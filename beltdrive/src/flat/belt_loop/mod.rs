@@ -1,4 +1,4 @@
-//! The steady state of a flat belt round n pulleys. [`crate::drive`] is the public face.
+//! The steady state of a flat belt round n pulleys. [`crate::belt_loop`] is the public face.
 
 mod checks;
 mod closing;

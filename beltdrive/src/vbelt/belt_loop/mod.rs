@@ -1,4 +1,4 @@
-//! The steady state of a V-belt round n pulleys. [`crate::drive`] is the public face.
+//! The steady state of a V-belt round n pulleys. [`crate::belt_loop`] is the public face.
 //!
 //! Pulleys inside the loop are grooves, with the mechanics of a drive with two pulleys; pulleys outside
 //! touch the back of the belt and are flat. `problem` states the running loop as one boundary value
