@@ -9,12 +9,13 @@ mod random;
 #[path = "support/random.rs"]
 mod random_numbers;
 
-use beltdrive::belt_loop::{LoopState, solve};
+use beltdrive::belt_loop::{self, LoopState, Varied, solve};
 use beltdrive::flat::ClosedForm;
+use beltdrive::input::{Argument, DriveFile, Key};
 use beltdrive::{
     Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Layout, LayoutError, Load, Mount,
-    NormalForce, Pulley, Role, Sense, Side, SolveError, SpanTension, Tensioner, TensionerLoad,
-    TwoPulleys,
+    NormalForce, Pulley, Role, Sense, Side, SolveError, SolveOptions, SpanTension, Tensioner,
+    TensionerLoad, TwoPulleys, examples, limits,
 };
 use invariants::{close, hold};
 
@@ -180,6 +181,32 @@ fn two_pulleys_are_the_drive_with_two_pulleys() {
     let off = |pair: &[f64]| pair[1] / pair[0] - 1.0;
     let different = slacker.windows(2).filter(|pair| off(pair) > 1e-9).count();
     assert_eq!(different, 5, "{slacker:?}");
+}
+
+#[test]
+fn a_drive_closed_by_both_tensions_has_the_same_limits_as_a_loop() {
+    let example = examples::find("kim2009-flat").unwrap();
+    // The load limit of a loop is that of Coulomb friction.
+    let law = ["friction.law=coulomb".to_owned()];
+    let file = DriveFile::read(example.name, example.text, &law).unwrap();
+    let drive = file.drive().unwrap();
+    let (key, options) = (Key::load(&drive), SolveOptions::default());
+    let as_loop = |varied: &Varied| {
+        let limits = belt_loop::limits(&file, varied, &options, &mut |_, _| {});
+        limits.unwrap().largest
+    };
+    let argument = Argument {
+        option: "--parameter",
+        value: key.path(),
+    };
+    let found = as_loop(&Varied::Key(file.key(argument).unwrap()));
+    let known = limits(&drive, &key, &options, &mut |_, _| {}).unwrap();
+    close("limit", found.point.value, known.largest.value, 1e-9);
+    assert_eq!(found.end.kind(), "gross slip");
+    // Its torque alone can be raised up to the limit of the closure by the slack tension.
+    let limit = solve(&drive).unwrap().load_limit.unwrap();
+    let found = as_loop(&Varied::LoadFactor);
+    close("factor", found.point.value, limit.factor, 1e-9);
 }
 
 #[test]
