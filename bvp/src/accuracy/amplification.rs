@@ -69,11 +69,48 @@ impl Collocation<'_> {
         residual: &mut Residual,
         v: &mut Iterate,
     ) -> f64 {
-        let segments = 0..self.equations.segments().len();
-        let sizes: Vec<_> = segments.map(|i| self.interval_sizes(i, x)).collect();
-        self.force(x, &sizes, tolerance, residual);
+        let sizes = self.sizes(x);
+        self.largest_response(x, &sizes, tolerance, residual, v)
+    }
+
+    /// The amplification of forcings as in [`amplification`](Self::amplification), which are nowhere less than
+    /// the tolerance: where a state is smaller than that, its error may be as large, and no defect tells whether
+    /// the mesh resolves how it grows. Zero where no state is.
+    pub(crate) fn growth(
+        &mut self,
+        x: &Iterate,
+        tolerance: f64,
+        residual: &mut Residual,
+        v: &mut Iterate,
+    ) -> f64 {
+        let mut sizes = self.sizes(x);
+        let mut small = sizes.iter_mut().flatten().filter(|size| **size < tolerance);
+        let Some(first) = small.next() else {
+            return 0.0;
+        };
+        *first = tolerance;
+        small.for_each(|size| *size = tolerance);
+        self.largest_response(x, &sizes, tolerance, residual, v)
+    }
+
+    /// The largest change that forcings of these sizes on the intervals make, relative to them.
+    fn largest_response(
+        &mut self,
+        x: &Iterate,
+        sizes: &[Vec<f64>],
+        tolerance: f64,
+        residual: &mut Residual,
+        v: &mut Iterate,
+    ) -> f64 {
+        self.force(x, sizes, tolerance, residual);
         self.correction(residual, v);
-        self.local_size(x, &sizes, tolerance, v)
+        self.local_size(x, sizes, tolerance, v)
+    }
+
+    /// The sizes of the states of all segments; see [`interval_sizes`](Self::interval_sizes).
+    fn sizes(&self, x: &Iterate) -> Vec<Vec<f64>> {
+        let segments = 0..self.equations.segments().len();
+        segments.map(|i| self.interval_sizes(i, x)).collect()
     }
 
     /// The largest |y| of every state on every interval of a segment: at its nodes and at the two collocation

@@ -44,8 +44,9 @@ impl FurtherPlaces {
     }
 
     /// The mesh with all intervals cut in which an unseen defect adds more to the solution `x` than is
-    /// allowed; `None` if there is none. A place where the right-hand side is not finite is passed over: the
-    /// solution may touch the end of its domain.
+    /// allowed, or in which the right-hand side is not finite though the mesh has not met that; `None` if there
+    /// is none. Where it is finite at a state within the tolerance the place is passed over: the solution may
+    /// touch the end of the domain.
     pub(crate) fn look(
         &mut self,
         equations: &Held<'_>,

@@ -66,7 +66,7 @@ impl<'a> SegmentLook<'a> {
         let mut unseen = false;
         for right in [false, true] {
             let theta = if right { 1.0 - nearest } else { nearest };
-            let defect = self.defect(size, interval, theta, at);
+            let defect = finite(self.defect(size, interval, theta, at));
             let jumps = self.is_unseen(interval.h * first * defect, self.local[i]);
             let grows = interval.h * nearest * at.rate() > 2.0 * UNNOTICED * self.tolerance;
             if jumps || grows {
@@ -154,10 +154,30 @@ impl<'a> SegmentLook<'a> {
         let gap = self.t.widest_gap;
         let expected = gap * ONE_SAMPLE * self.local[i];
         let defect = self.defect(size, interval, theta, at);
+        if !defect.is_finite() {
+            return !self.is_finite_beside(interval.place(theta), at);
+        }
         self.is_unseen(gap * interval.h * defect, expected) && {
             let [defect, _] = self.unexplained(interval, theta);
             self.is_unseen(gap * interval.h * defect, expected)
         }
+    }
+
+    /// Whether the right-hand side is finite at a state within the tolerance of this one, all of whose entries
+    /// are larger or all smaller: the solution may touch the end of the domain of the right-hand side.
+    #[inline(never)]
+    fn is_finite_beside(&mut self, s: f64, at: &mut At<'_>) -> bool {
+        let At { y, f, slope } = at;
+        [1.0, -1.0].into_iter().any(|sign| {
+            for (beside, y) in slope.iter_mut().zip(&**y) {
+                *beside = y + sign * self.tolerance * (1.0 + y.abs());
+            }
+            f.fill(f64::NAN);
+            self.equations
+                .evaluate_rhs(self.index, s, slope, &self.x.p, f);
+            self.stats.rhs_evaluations += 1;
+            f.iter().all(|f| f.is_finite())
+        })
     }
 
     /// Whether an addition to the solution is more than is allowed and than is expected.
@@ -224,10 +244,10 @@ impl<'a> SegmentLook<'a> {
             let sizes = sizes.map(|size| (size - self.tolerance * explained) / (1.0 + y_own.abs()));
             [0, 1].map(|i| largest[i].max(sizes[i]))
         });
-        largest.map(|size| if size.is_finite() { size } else { 0.0 })
+        largest.map(finite)
     }
 
-    /// The largest defect at a place of the interval relative to 1 + |y|; zero where it is not finite.
+    /// The largest defect at a place of the interval relative to 1 + |y|.
     #[inline(always)]
     fn defect(
         &mut self,
@@ -245,11 +265,15 @@ impl<'a> SegmentLook<'a> {
         self.equations.evaluate_rhs(self.index, s, y, &self.x.p, f);
         self.stats.rhs_evaluations += 1;
         let defects = slope.iter().zip(&**f).zip(&**y);
-        let largest = defects.fold(0.0f64, |m, ((slope, f), y)| {
+        defects.fold(0.0f64, |m, ((slope, f), y)| {
             max_or_nan(m, (slope - f).abs() / (1.0 + y.abs()))
-        });
-        if largest.is_finite() { largest } else { 0.0 }
+        })
     }
+}
+
+/// The size, or zero in the place of what is not finite: a segment may end at a singular place.
+fn finite(size: f64) -> f64 {
+    if size.is_finite() { size } else { 0.0 }
 }
 
 /// A state at one place, its right-hand side and its slope.

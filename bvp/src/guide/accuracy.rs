@@ -14,7 +14,8 @@
 //! Before a solution that meets this is returned, it is examined once more:
 //!
 //! 1. **Newton's method has ended at it.** The equations are linearised at the solution itself, unless the
-//!    last linearisation was there already, and what Newton's method would still change must be at most 0.3
+//!    last linearisation is that of the solution, as where the Jacobians at one place of every interval and those
+//!    of the conditions have not changed since, and what Newton's method would still change must be at most 0.3
 //!    tolerances. If it is more, the method goes on from there.
 //! 2. **Rounding does not hide it.** The linearised equations are solved with random forcings of the size of
 //!    the solution, which shows how much they amplify. If that amplification times the largest state is 1000
@@ -26,10 +27,14 @@
 //!    [`SingularConditions`](Error::SingularConditions), which names the direction.
 //! 4. **The right-hand side has been seen between the points of the mesh**: next to every node on both
 //!    sides, and at 64 or more further places of every segment, at least one in every interval. Where
-//!    the defect there is much larger than the mesh has shown, the intervals are cut and the solution is
-//!    sought again. See [below](#what-may-be-missed).
+//!    the defect there is much larger than the mesh has shown, or the right-hand side is not finite at any
+//!    state within the tolerance, the intervals are cut and the solution is sought again. See
+//!    [below](#what-may-be-missed).
 //! 5. **No layer hides at an end of a segment.** Where the linearised equations allow one that is thinner than
 //!    the interval there, a mesh that resolves it must give the same solution.
+//! 6. **What grows from below the tolerance is resolved.** Where a state is smaller than the tolerance no mesh is
+//!    too coarse for its defect. If forcings of the size of the tolerance grow there by 3.3 or more, the solution
+//!    must be the same on halved intervals.
 //!
 //! With [`Control::Defect`] only the defect and the conditions are tested, and nothing is examined.
 //!
@@ -61,6 +66,12 @@
 //! # What can still go wrong
 //!
 //! * The solution need not be the only one, or the one that was wanted: only solutions near it are excluded.
+//! * Near a limit point, where a change of the problem by far less than the tolerance makes a solution out of
+//!   none, such a solution may be returned: p² + ε = 0 has one within √ε of zero. Likewise where a condition tends
+//!   to zero at infinity and Newton's corrections become smaller than the tolerance on the way there.
+//! * At a singular end, the conditions may leave solutions free that differ by a power of s: y' = k y/s with
+//!   y(0) = 0 has all c sᵏ. Where a polynomial is none of them, k = 1/2 or 3/2, the smallest is returned, and not
+//!   refused. Set a condition at the regular end for every solution that the singular end does not exclude.
 //! * The estimate of the error is one of first order. On a mesh that is too coarse for it, it can be too
 //!   small; how often is said below.
 //! * The amplification is a lower bound, by one set of random signs. A direction that these signs do not

@@ -141,11 +141,11 @@ impl Newton {
         Err(self.no_convergence(collocation, x, size))
     }
 
-    /// Whether the factors are those of the iterate to rounding, as those of a linear problem are: ω ‖Δx‖,
+    /// Whether the factors may be those of the iterate to rounding, as those of a linear problem are: ω ‖Δx‖,
     /// which estimates ‖A⁻¹ ΔA‖, is at most half of the digits since they were made. ω is known from one
     /// direction alone: with 1e-6, 4 of 1500 random shocks were accepted beside their place, with 1e-4 10,
     /// with this none.
-    pub(crate) fn is_current(&self) -> bool {
+    pub(crate) fn may_be_current(&self) -> bool {
         self.moved == 0.0 || self.curvature * self.moved <= f64::EPSILON.sqrt()
     }
 
@@ -182,6 +182,17 @@ impl Newton {
         tolerance: f64,
     ) -> f64 {
         collocation.amplification(x, tolerance, &mut self.residual, &mut self.simplified)
+    }
+
+    /// The growth of errors of the size of the tolerance by the last linearisation; see [`Collocation::growth`]. The
+    /// last [`amplification`](Self::amplification) stays.
+    pub(crate) fn growth(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &Iterate,
+        tolerance: f64,
+    ) -> f64 {
+        collocation.growth(x, tolerance, &mut self.residual, &mut self.trial)
     }
 
     /// The direction in which the solution `x` is not isolated, if so, after

@@ -8,7 +8,7 @@ use crate::result::error::Error;
 use crate::result::quality::Direction;
 use crate::result::solution::Solution;
 use crate::shares::{AIM, TWO_DIGITS, UNNOTICED};
-use crate::solver::discretised::Discretised;
+use crate::solver::discretised::{Discretised, OnMesh};
 
 /// How often a mesh is halved because the solution on it does not seem to be isolated: where that is so by
 /// a coarse mesh alone, a halved one shows it.
@@ -79,7 +79,7 @@ impl Acceptance {
     ) -> Result<Confirmed, Error> {
         // The amplification of random forcings is a lower bound, ten to a thousand times less than κ.
         let harmless = UNNOTICED * problem.options.tolerance;
-        let mut a = match problem.newton.is_current() {
+        let mut a = match problem.is_current(&solution.x) {
             true => problem.amplification(&solution.x),
             false => f64::INFINITY,
         };
@@ -92,7 +92,8 @@ impl Acceptance {
             a = problem.amplification(&solution.x);
         }
         let in_all = problem.collocation.amplification_in_all(a, &solution.x);
-        if is_high(in_all) || problem.collocation.is_suspect() {
+        let grown = problem.growth(&solution.x);
+        if is_high(in_all) || is_high(grown) || problem.collocation.is_suspect() {
             // Beside its largest value, which need not be where the solution rounds, an amplification that leaves no
             // two digits counts: with less than that flat belts were refused at 1e-12 whose error is smaller.
             let largest = if in_all * UNIT_ROUNDOFF > TWO_DIGITS {
@@ -123,14 +124,22 @@ impl Acceptance {
             true => None,
             false => problem.collocation.with_possible_layers(),
         };
-        let unsure = is_high(a) || vanishes(&solution.x, problem.options.tolerance);
-        if unsure && problem.may_halve(&solution.mesh) {
+        let tolerance = problem.options.tolerance;
+        let unsure = is_high(a) || vanishes(&solution.x, tolerance);
+        if (unsure || is_amplified(grown)) && problem.may_halve(&solution.mesh) {
             let direction = problem.amplified(&solution.x);
-            let (_, _, on_halved) = problem.amplification_on(halved(&solution.mesh), solution);
-            if !is_steady(a, on_halved) {
+            let finer = halved(&solution.mesh);
+            let on_finer = problem.on_mesh(finer.clone(), solution);
+            if unsure && !is_steady(a, on_finer.amplification) {
                 return self
                     .doubt(problem, direction, a, solution)
                     .map(Confirmed::On);
+            }
+            if is_amplified(grown)
+                && (on_finer.correction > tolerance
+                    || !is_steady(grown, problem.growth(&on_finer.x)))
+            {
+                return Ok(Confirmed::On(finer));
             }
         }
         if let Some(mesh) = layers
@@ -201,7 +210,12 @@ impl Acceptance {
                 break;
             }
             mesh = halved(&mesh);
-            let (x, local, a) = problem.amplification_on(mesh.clone(), solution);
+            let OnMesh {
+                x,
+                local,
+                amplification: a,
+                ..
+            } = problem.on_mesh(mesh.clone(), solution);
             if is_open(a) {
                 break;
             }

@@ -28,6 +28,17 @@ struct Violation {
     allowed: f64,
 }
 
+/// What a solution is on another mesh than its own.
+pub(crate) struct OnMesh {
+    pub(crate) x: Iterate,
+    /// The local defects, none where they are not finite.
+    pub(crate) local: Vec<Vec<f64>>,
+    /// The size of Newton's correction, infinite where there is none.
+    pub(crate) correction: f64,
+    /// The amplification of forcings, infinite where nothing can be told of it.
+    pub(crate) amplification: f64,
+}
+
 /// A problem discretised on a mesh.
 pub(crate) struct Discretised<'a> {
     pub(crate) equations: &'a Held<'a>,
@@ -146,6 +157,12 @@ impl<'a> Discretised<'a> {
             .amplification(&mut self.collocation, x, tolerance)
     }
 
+    /// The growth of errors of the size of the tolerance by the last linearisation.
+    pub(crate) fn growth(&mut self, x: &Iterate) -> f64 {
+        let tolerance = self.options.tolerance;
+        self.newton.growth(&mut self.collocation, x, tolerance)
+    }
+
     /// The direction of the last amplification.
     pub(crate) fn amplified(&self, x: &Iterate) -> Direction {
         self.newton
@@ -171,13 +188,19 @@ impl<'a> Discretised<'a> {
         newton.direction(collocation, x, samples, a, self.options.tolerance, stats)
     }
 
-    /// A solution on another mesh, its local defects and the amplification of forcings there, infinite where
-    /// nothing can be told of it; leaves the linearisation there.
-    pub(crate) fn amplification_on(
-        &mut self,
-        mesh: Mesh,
-        solution: &Solution,
-    ) -> (Iterate, Vec<Vec<f64>>, f64) {
+    /// Whether the last linearisation is that of the iterate to rounding.
+    pub(crate) fn is_current(&mut self, x: &Iterate) -> bool {
+        let Self {
+            newton,
+            collocation,
+            stats,
+            ..
+        } = self;
+        newton.may_be_current() && (newton.moved == 0.0 || collocation.is_linearised_at(x, stats))
+    }
+
+    /// A solution on another mesh; leaves the linearisation there.
+    pub(crate) fn on_mesh(&mut self, mesh: Mesh, solution: &Solution) -> OnMesh {
         self.set_mesh(mesh);
         let Self {
             newton,
@@ -190,13 +213,24 @@ impl<'a> Discretised<'a> {
         let x = transfer(mesh, t, solution);
         let local = match defects(self.equations, t, mesh, &x, samples, stats) {
             Ok(defects) => defects.local,
-            Err(_) => return (x, vec![], f64::INFINITY),
+            Err(_) => vec![],
         };
-        let a = match newton.correction(collocation, &x, stats) {
-            Ok(_) => newton.amplification(collocation, &x, self.options.tolerance),
-            Err(_) => f64::INFINITY,
+        let correction = match local.is_empty() {
+            true => f64::INFINITY,
+            false => newton
+                .correction(collocation, &x, stats)
+                .unwrap_or(f64::INFINITY),
         };
-        (x, local, a)
+        let amplification = match correction.is_infinite() {
+            true => f64::INFINITY,
+            false => newton.amplification(collocation, &x, self.options.tolerance),
+        };
+        OnMesh {
+            x,
+            local,
+            correction,
+            amplification,
+        }
     }
 
     /// Whether rounding shows in a solution, or cannot since it vanishes. Where it is negligible, the

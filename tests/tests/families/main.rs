@@ -11,6 +11,7 @@ mod jumps;
 mod layers;
 mod results;
 mod scales;
+mod seeds;
 mod shocks;
 mod singular_ends;
 mod smooth;
@@ -19,7 +20,7 @@ mod trial;
 
 use survey::{Family, Survey};
 
-const FAMILIES: [Family; 9] = [
+const FAMILIES: [Family; 10] = [
     Family {
         seed: 0,
         name: "smooth",
@@ -65,6 +66,11 @@ const FAMILIES: [Family; 9] = [
         name: "shocks",
         draw: shocks::draw,
     },
+    Family {
+        seed: 9,
+        name: "seeds",
+        draw: seeds::draw,
+    },
 ];
 
 /// Tries the first problems of a family: none of the successes is false, nothing panics, and at least
@@ -93,6 +99,11 @@ fn smooth_problems() {
 #[test]
 fn problems_with_layers() {
     check("layers", 600, 0.95);
+}
+
+#[test]
+fn growth_from_seeds() {
+    check("seeds", 400, 0.9);
 }
 
 #[test]

@@ -4,9 +4,15 @@ use crate::draw::Draw;
 use crate::trial::{Trial, Verdict};
 use reference_problems::TOLERANCES;
 use std::collections::BTreeMap;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::{LazyLock, Mutex};
 use std::time::Instant;
+
+/// What is added to the seeds of the families, by the variable `SEEDS`: another number draws another sample.
+pub(crate) static OTHER_SEEDS: LazyLock<u32> = LazyLock::new(|| {
+    let seeds = std::env::var("SEEDS").ok();
+    seeds.map_or(0, |seeds| seeds.parse().expect("SEEDS is a number"))
+});
 
 /// A family of random problems.
 pub(crate) struct Family {
@@ -20,7 +26,8 @@ impl Family {
     /// The problem of an index, and its tolerance.
     pub(crate) fn trial(&self, index: u32) -> (Trial, f64) {
         let tolerance = TOLERANCES[index as usize % TOLERANCES.len()];
-        ((self.draw)(&mut Draw::new(self.seed, index)), tolerance)
+        let seed = self.seed + *OTHER_SEEDS;
+        ((self.draw)(&mut Draw::new(seed, index)), tolerance)
     }
 }
 
