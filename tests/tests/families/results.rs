@@ -15,6 +15,8 @@ use reference_problems::{FALSE_FROM, TOLERANCES};
 use std::env::var;
 use std::fmt::Write;
 use std::fs;
+use std::process::Command;
+use std::thread::available_parallelism;
 
 /// Problems of every family: 100 000 in all.
 const MANY: u32 = 10_002;
@@ -34,6 +36,20 @@ has by default, and judged alike. After `sh benches/scipy/run.sh E01`, which mak
 
     cargo test -p reference-problems --release --test families -- --ignored beside_scipy
 ";
+
+/// The state of the code and the machine.
+fn state() -> String {
+    let commit = Command::new("git")
+        .args(["log", "-1", "--format=commit %h of %cs"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output();
+    let commit = commit.map_or_else(
+        |_| "commit unknown".to_owned(),
+        |output| String::from_utf8_lossy(&output.stdout).trim().to_owned(),
+    );
+    let cores = available_parallelism().map_or(1, usize::from);
+    format!("\nMeasured at {commit}, on {cores} cores.\n")
+}
 
 /// How many problems of every family, and the families whose name begins so; whether all are asked for.
 fn wanted(count: u32) -> (u32, String, bool) {
@@ -69,7 +85,7 @@ fn publish(title: &str, body: &str, write: bool) {
 #[ignore = "takes an hour; run it in release"]
 fn many_random_problems() {
     let (count, only, all) = wanted(MANY);
-    let mut text = HEAD_OF_MANY.to_owned();
+    let mut text = HEAD_OF_MANY.to_owned() + &state();
     let _ = write!(
         text,
         "\nFalse: a success with a true error of more than {FALSE_FROM} tolerances, or where no solution is \
@@ -108,7 +124,7 @@ fn many_random_problems() {
 #[ignore = "needs SciPy, takes an hour"]
 fn beside_scipy() {
     let (count, only, all) = wanted(SAMPLE);
-    let mut text = HEAD_BESIDE_SCIPY.to_owned();
+    let mut text = HEAD_BESIDE_SCIPY.to_owned() + &state();
     text.push_str(
         "\n| family | problems | bvp: solved | refused | false | SciPy: solved | refused | false |\n\
          | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
