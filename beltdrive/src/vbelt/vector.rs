@@ -103,13 +103,16 @@ impl<'c, T: Real> Yielding<'c, T> {
     pub(super) fn rates(&self, turning: impl FnOnce() -> [T; 2]) -> [T; 2] {
         let (contact, mu) = (self.contact, self.friction_coefficient);
         let length = contact.pressure / self.stiffness;
-        if contact.regime != Regime::Slip {
+        if matches!(contact.regime, Regime::Elastic | Regime::Stick) {
             return self.growth().map(|growth| growth / length);
         }
         let least = (contact.slip_norm * (self.stiffness * self.lead / mu)).powi(2);
         let lead = least / (least + contact.pressure * contact.pressure) * self.lead;
         let weight = (self.along(contact.slip) / mu + contact.slip_norm) * (0.5 / mu);
         let inertia = length + lead * weight;
+        if contact.regime == Regime::Either {
+            return self.growth().map(|growth| growth / inertia);
+        }
         let [slip, turning] = [contact.slip, turning()].map(|vector| self.across(vector));
         [0, 1].map(|axis| (slip[axis] + lead * turning[axis]) / inertia)
     }

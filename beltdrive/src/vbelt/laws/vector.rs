@@ -1,9 +1,9 @@
 //! Vector EPP friction.
 //!
 //! Where the plastic rate sets in gradually, in proportion to a power of |B|/μ, the equations have no zones, and
-//! Newton's method finds their solution from soft bristles if friction is soft, too. The higher the power, the more
-//! clearly it shows the zones in which friction is elastic and in which it is at its limit. With these as segments
-//! friction is made as stiff as it is.
+//! Newton's method finds their solution from soft bristles if friction is soft, too. Then friction is made as stiff as it
+//! is. The higher the power, the more clearly it shows the zones in which friction is elastic and in which it is at its
+//! limit. These become segments.
 
 use super::obeyed::obeys_friction;
 use super::{Asked, GREAT_STEP, START_STIFFNESS};
@@ -12,13 +12,21 @@ use crate::vbelt::path::{Effort, Path, Solved, Stuck};
 use crate::vbelt::zones::Cut;
 use crate::vbelt::{BeltProblem, Law};
 
-/// Multiples of the stiffness of the start up to which friction is found at once, in the order in which they are
-/// tried: with stiffer friction zones change less on the way.
+/// Multiples of the stiffness of the start at which gradual friction is entered, if friction is not softer, in the order
+/// in which they are tried: stiffer friction is nearer to that which is asked for.
 const SOFTER: [f64; 2] = [5.0, 1.0];
+/// How accurately gradual friction is solved, in the order in which that is tried. The slip that decides where friction
+/// is elastic is a small difference of the speeds of belt and pulley.
+const EFFORTS: [Effort; 2] = [Effort::Careful, Effort::Full];
 /// Halves of the powers of |B|/μ with which zones are sought, in this order.
-const SHARPNESS: [i32; 2] = [2, 4];
+const SHARPNESS: [i32; 4] = [2, 4, 8, 16];
 /// Length over which the traction is led on the way: the mesh resolves it easily.
 const FIRST_LEAD: f64 = 1e-2;
+/// Share of the tolerance to which a state is solved whose friction does not obey its law otherwise. Where friction is
+/// stiff, errors of the slip look like elastic zones.
+const PRECISE: f64 = 1e-2;
+/// The smallest such tolerance, near to rounding.
+const FINEST: f64 = 1e-12;
 
 impl Path<'_> {
     /// Vector EPP friction by way of bristles.
@@ -71,40 +79,83 @@ impl Path<'_> {
         gradual: Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
         let asked = stiffness(&asked.problem(asked.law(), FIRST_LEAD));
-        let (mut here, mut wrong, mut failure) = (gradual, None, None);
-        for sharpness in SHARPNESS {
-            let sharper = with_sharpness(&here.problem, sharpness);
-            here = match self.attempt(sharper, &Carried(&here), Effort::Start) {
-                Ok(sharper) => sharper,
-                Err(cause) => return Err(Stuck::after(here, cause)),
+        let (mut wrong, mut failure) = (None, None);
+        for effort in EFFORTS {
+            let mut here = match self.stiffened(gradual.clone(), asked, effort) {
+                Ok(stiff) => stiff,
+                Err(stuck) => {
+                    failure = Some(stuck);
+                    continue;
+                }
             };
-            for cut in [Cut::of(&here), Cut::with_one_elastic_zone(&here)] {
-                match self.vector_from(&cut, &here, asked) {
-                    Ok(solved) if obeys_friction(&solved, self.tolerance) => return Ok(solved),
-                    Ok(solved) => wrong = Some(solved),
-                    Err(stuck) => failure = Some(stuck),
+            for sharpness in SHARPNESS {
+                let sharper = with_sharpness(&here.problem, sharpness);
+                here = match self.attempt(sharper, &Carried(&here), effort) {
+                    Ok(sharper) => sharper,
+                    Err(cause) => {
+                        failure = Some(Stuck::after(here, cause));
+                        break;
+                    }
+                };
+                for cut in cuts(&here) {
+                    match self.vector_from(&cut, &here, effort) {
+                        Ok(solved) if obeys_friction(&solved, self.tolerance) => return Ok(solved),
+                        Ok(solved) => wrong = Some(solved),
+                        Err(stuck) => failure = Some(stuck),
+                    }
                 }
             }
         }
         // The checks of a state say what is wrong with it.
-        wrong.map_or_else(|| Err(failure.expect("powers are tried")), Ok)
+        wrong.map_or_else(|| Err(failure.expect("efforts are tried")), Ok)
     }
 
-    /// From zones of soft friction to a state with the scaled stiffness that is asked for.
+    /// Gradual friction with the scaled stiffness that is asked for.
+    fn stiffened<P: BeltProblem>(
+        &mut self,
+        gradual: Solved<P>,
+        asked: f64,
+        effort: Effort,
+    ) -> Result<Solved<P>, Stuck<P>> {
+        let soft = stiffness(&gradual.problem);
+        if soft >= asked {
+            return Ok(gradual);
+        }
+        let range = [soft, asked].map(f64::ln);
+        self.follow(gradual, range, GREAT_STEP, effort, with_stiffness)
+    }
+
+    /// From the zones that gradual friction shows to a state.
     fn vector_from<P: BeltProblem>(
         &mut self,
         cut: &Cut<'_, P>,
         seen: &Solved<P>,
-        asked: f64,
+        effort: Effort,
     ) -> Result<Solved<P>, Stuck<P>> {
         let zones = self
-            .attempt(cut.apply(seen.problem.clone()), cut, Effort::Rough)
+            .attempt(cut.apply(seen.problem.clone()), cut, effort)
             .map_err(|cause| Stuck::after(seen.clone(), cause))?;
-        let zones = self.split_zones(zones, Effort::Rough)?;
-        let range = [stiffness(&zones.problem), asked].map(f64::ln);
-        let stiff = self.follow(zones, range, GREAT_STEP, Effort::Rough, with_stiffness)?;
-        self.finish(stiff)
+        let zones = self.split_zones(zones, effort)?;
+        let asked = self.tolerance;
+        match self.finish(zones.clone()) {
+            Ok(solved) if obeys_friction(&solved, asked) => Ok(solved),
+            _ => {
+                self.tolerance = (PRECISE * asked).max(FINEST);
+                let precise = self.finish(zones);
+                self.tolerance = asked;
+                precise
+            }
+        }
     }
+}
+
+/// The zones of gradual friction, in the order in which they are tried: each elastic arc as it is seen, or all of them as
+/// one, with the traction as it is or at its limit where the belt slips.
+fn cuts<P: BeltProblem>(gradual: &Solved<P>) -> impl Iterator<Item = Cut<'_, P>> {
+    let of = [Cut::of, Cut::with_one_elastic_zone];
+    let is_one = Cut::of(gradual).is_like(&Cut::with_one_elastic_zone(gradual));
+    let kinds = of.into_iter().take(if is_one { 1 } else { 2 });
+    kinds.flat_map(|of| [of(gradual), of(gradual).at_limit()])
 }
 
 /// The scaled stiffness of vector EPP friction.

@@ -47,6 +47,8 @@ pub(super) struct Cut<'a, P = DriveProblem> {
     solved: &'a Solved<P>,
     samples: Vec<Vec<Sample>>,
     pulleys: Vec<Vec<Zone>>,
+    /// Whether the traction of vector EPP friction is brought to its limit where the belt slips.
+    at_limit: bool,
 }
 
 impl<'a, P: BeltProblem> Cut<'a, P> {
@@ -82,6 +84,16 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
             solved,
             samples,
             pulleys,
+            at_limit: false,
+        }
+    }
+
+    /// The same zones with the traction of vector EPP friction at its limit where the belt slips. It is below that
+    /// where the plastic rate sets in gradually.
+    pub(super) fn at_limit(self) -> Self {
+        Self {
+            at_limit: true,
+            ..self
         }
     }
 
@@ -175,12 +187,11 @@ fn cut<P: BeltProblem>(
     };
     let mut zones = match groove.law {
         Law::Normalised { .. } => zones,
-        Law::Vector { .. } if problem.has_junctions() => {
+        Law::Vector { .. } => {
             let mut zones = cut_at_turn(zones, &samples, length, CLEAR_TURN);
             join(&mut zones, |regime| regime == Regime::Elastic);
             zones
         }
-        Law::Vector { .. } => zones,
         // Where the direction is not led yet the belt breaks away elsewhere.
         Law::Sliding { lead, .. } if lead > 0.0 => {
             let zones = cut_at_turn(zones, &samples, length, CLEAR_TURN);
@@ -217,7 +228,7 @@ impl<P: BeltProblem> bvp::Guess for Cut<'_, P> {
     /// The states of the solution; from bristles the direction of their traction.
     fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
         let zone = self.zones().nth(segment);
-        let (pulley, Zone { from, to, .. }) = zone.expect("a segment for every zone");
+        let (pulley, Zone { from, to, regime }) = zone.expect("a segment for every zone");
         // States may jump at its ends.
         let place = from + s.clamp(INSIDE, 1.0 - INSIDE) * (to - from);
         let Solved { problem, solution } = self.solved;
@@ -233,6 +244,16 @@ impl<P: BeltProblem> bvp::Guess for Cut<'_, P> {
                 states[law] = self.direction(pulley, place);
             }
             (Law::Bristle { .. }, None) => states.copy_within(law + 1..count, law),
+            // Where the belt slips a traction above its limit returns to it.
+            (Law::Vector { .. }, Some(groove)) if regime == Regime::Slip => {
+                let size = states[law].hypot(states[law + 1]);
+                let limit = groove.friction_coefficient;
+                if self.at_limit || size > limit {
+                    for bristle in &mut states[law..law + 2] {
+                        *bristle *= limit / size;
+                    }
+                }
+            }
             _ => {}
         }
         y.copy_from_slice(&states[..y.len()]);

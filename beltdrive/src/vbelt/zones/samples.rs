@@ -82,7 +82,7 @@ pub(super) fn samples<P: BeltProblem>(
             };
             samples.push(Sample {
                 place: before + s * length,
-                limit: limit_excess(groove, regime, y, omega, flow),
+                limit: excess(groove, regime, y, omega, flow),
                 turn: contact.turn_excess(groove) / contact.friction().max(f64::MIN_POSITIVE),
                 direction: samples.last().map_or(direction, |last| {
                     let turns = (last.direction - direction) / TAU;
@@ -98,6 +98,16 @@ pub(super) fn samples<P: BeltProblem>(
         keep_first_stick(&mut samples, loose);
     }
     samples
+}
+
+/// What is zero where a zone ends, as in [`limit_excess`]. Where vector EPP friction is taken to be elastic and is not,
+/// it slips as long as the plastic rate is positive, which ends before |B| is back at its limit.
+fn excess(groove: &Groove, regime: Regime, y: &[f64], omega: f64, flow: f64) -> f64 {
+    let of = |regime| limit_excess(groove, regime, y, omega, flow);
+    match (groove.law, regime) {
+        (Law::Vector { .. }, Regime::Elastic) => of(Regime::Elastic).min(of(Regime::Slip)),
+        _ => of(regime),
+    }
 }
 
 /// Whether friction is elastic where the belt comes to rest.
