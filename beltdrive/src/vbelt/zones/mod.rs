@@ -15,7 +15,7 @@ use super::path::Solved;
 use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
 use kinds::{
     Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, join, join_elastic, one_zone,
-    without_kinks,
+    without_kinks, without_short_elastic,
 };
 use places::{ends, keep_junctions, locate};
 use samples::{CLEAR_TURN, Sample, samples};
@@ -188,6 +188,10 @@ fn cut<P: BeltProblem>(
     let mut zones = match groove.law {
         Law::Normalised { .. } => zones,
         Law::Vector { .. } => {
+            let zones = match problem.has_junctions() {
+                true => zones,
+                false => without_short_elastic(zones, length),
+            };
             let mut zones = cut_at_turn(zones, &samples, length, CLEAR_TURN);
             join(&mut zones, |regime| regime == Regime::Elastic);
             zones
