@@ -155,6 +155,52 @@ fn vector_friction() {
 }
 
 #[test]
+fn vector_friction_is_found_from_soft_to_stiff() {
+    // A stiff groove round small pulleys: with the softest friction the belt hardly slips, with the stiffest friction
+    // is all but Coulomb's.
+    let with = |law| TwoPulleys {
+        belt: Belt {
+            ribs: 1,
+            mass_per_length: 0.075,
+            axial_stiffness: 174e3,
+            kind: BeltKind::V(VBelt {
+                radial_stiffness: 27.7e6,
+                half_angle: 15f64.to_radians(),
+                height: None,
+            }),
+        },
+        friction_coefficient: 0.27,
+        law,
+        driver_radius: 0.0367,
+        driver_speed: 312.0,
+        driven_radius: 0.122,
+        centre_distance: 0.458,
+        load: Load {
+            slack: SpanTension::Tractive(305.0),
+            tight: SpanTension::Tractive(880.0),
+        },
+    };
+    let solved = |law| {
+        let state = solve(&with(law).into(), &SolveOptions::default()).unwrap();
+        assert_possible(&state);
+        state
+    };
+    let wrap = |law| {
+        let state = solved(law);
+        assert!(state.convergence.newton_iterations <= 90);
+        state.driver.wrap_angle
+    };
+    for stiffness in [5e5, 1.6e6] {
+        wrap(FrictionLaw::VectorEpp { stiffness });
+    }
+    let coulomb = wrap(FrictionLaw::Coulomb);
+    let difference = |stiffness| (wrap(FrictionLaw::VectorEpp { stiffness }) - coulomb).abs();
+    let [soft, stiff, stiffest] = [1e7, 1e8, 1e9].map(difference);
+    // The first order in 1/k_f is a factor of 0.1.
+    assert!(stiff < 0.25 * soft && stiffest < 0.15 * stiff);
+}
+
+#[test]
 fn a_belt_that_sticks_up_to_its_exit_slips_at_the_very_end() {
     // Where it leaves it presses no longer. The slip zones are shorter than the distance of two looks at the
     // friction; without them the normal force at the exits is negative.
