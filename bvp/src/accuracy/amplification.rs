@@ -61,36 +61,38 @@ pub(crate) fn vanishes(x: &Iterate, tolerance: f64) -> bool {
 
 impl Collocation<'_> {
     /// The amplification a of forcings with random signs by the last linearisation, which must be at `x`,
-    /// a solution with this tolerance; leaves v in `v`, and writes `residual`.
+    /// a solution with this tolerance; leaves v in `v`, and writes `residual`. Leaves the
+    /// [`sizes`](Self::write_all_sizes) of the states in `sizes`.
     pub(crate) fn amplification(
         &mut self,
         x: &Iterate,
         tolerance: f64,
+        sizes: &mut Vec<Vec<f64>>,
         residual: &mut Residual,
         v: &mut Iterate,
     ) -> f64 {
-        let sizes = self.sizes(x);
-        self.largest_response(x, &sizes, tolerance, residual, v)
+        self.write_all_sizes(x, sizes);
+        self.largest_response(x, sizes, tolerance, residual, v)
     }
 
-    /// The amplification of forcings as in [`amplification`](Self::amplification), which are nowhere less than
-    /// the tolerance: where a state is smaller than that, its error may be as large, and no defect tells whether
-    /// the mesh resolves how it grows. Zero where no state is.
+    /// The amplification of forcings as in [`amplification`](Self::amplification), after it and with its `sizes`,
+    /// which are nowhere less than the tolerance: where a state is smaller than that, its error may be as large,
+    /// and no defect tells whether the mesh resolves how it grows. Zero where no state is.
     pub(crate) fn growth(
         &mut self,
         x: &Iterate,
         tolerance: f64,
+        sizes: &mut [Vec<f64>],
         residual: &mut Residual,
         v: &mut Iterate,
     ) -> f64 {
-        let mut sizes = self.sizes(x);
         let mut small = sizes.iter_mut().flatten().filter(|size| **size < tolerance);
         let Some(first) = small.next() else {
             return 0.0;
         };
         *first = tolerance;
         small.for_each(|size| *size = tolerance);
-        self.largest_response(x, &sizes, tolerance, residual, v)
+        self.largest_response(x, sizes, tolerance, residual, v)
     }
 
     /// The largest change that forcings of these sizes on the intervals make, relative to them.
@@ -107,20 +109,18 @@ impl Collocation<'_> {
         self.local_size(x, sizes, tolerance, v)
     }
 
-    /// The sizes of the states of all segments; see [`interval_sizes`](Self::interval_sizes).
-    fn sizes(&self, x: &Iterate) -> Vec<Vec<f64>> {
-        let segments = 0..self.equations.segments().len();
-        segments.map(|i| self.interval_sizes(i, x)).collect()
-    }
-
-    /// The largest |y| of every state on every interval of a segment: at its nodes and at the two collocation
-    /// points in its middle, as a wave may vanish at all nodes, sin 3πx on three intervals.
-    fn interval_sizes(&self, index: usize, x: &Iterate) -> Vec<f64> {
-        let (n, m) = (self.equations.segments()[index].states, self.tableau.stages);
-        let mut sizes = vec![0.0; n * (self.mesh[index].len() - 1)];
-        specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
-            self.write_sizes([m, n], index, x, &mut sizes)));
-        sizes
+    /// Writes the largest |y| of every state on every interval of all segments: at its nodes and at the two
+    /// collocation points in its middle, as a wave may vanish at all nodes, sin 3πx on three intervals.
+    fn write_all_sizes(&self, x: &Iterate, sizes: &mut Vec<Vec<f64>>) {
+        let (segments, m) = (self.equations.segments(), self.tableau.stages);
+        sizes.resize_with(segments.len(), Vec::new);
+        for (index, (segment, sizes)) in segments.iter().zip(sizes).enumerate() {
+            let n = segment.states;
+            sizes.clear();
+            sizes.resize(n * (self.mesh[index].len() - 1), 0.0);
+            specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                self.write_sizes([m, n], index, x, sizes)));
+        }
     }
 
     #[inline(always)]

@@ -35,6 +35,8 @@ pub(crate) struct Newton {
     simplified: Iterate,
     trial: Iterate,
     residual: Residual,
+    /// The sizes of the states of the last [`amplification`](Self::amplification), a segment each.
+    sizes: Vec<Vec<f64>>,
 }
 
 impl Newton {
@@ -46,6 +48,7 @@ impl Newton {
             simplified: collocation.zeros(),
             trial: collocation.zeros(),
             residual: collocation.residual_buffer(),
+            sizes: vec![],
         }
     }
 
@@ -181,18 +184,20 @@ impl Newton {
         x: &Iterate,
         tolerance: f64,
     ) -> f64 {
-        collocation.amplification(x, tolerance, &mut self.residual, &mut self.simplified)
+        let (residual, v) = (&mut self.residual, &mut self.simplified);
+        collocation.amplification(x, tolerance, &mut self.sizes, residual, v)
     }
 
-    /// The growth of errors of the size of the tolerance by the last linearisation; see [`Collocation::growth`]. The
-    /// last [`amplification`](Self::amplification) stays.
+    /// The growth of errors of the size of the tolerance by the last linearisation, at the solution of the last
+    /// [`amplification`](Self::amplification), which stays; see [`Collocation::growth`].
     pub(crate) fn growth(
         &mut self,
         collocation: &mut Collocation<'_>,
         x: &Iterate,
         tolerance: f64,
     ) -> f64 {
-        collocation.growth(x, tolerance, &mut self.residual, &mut self.trial)
+        let (residual, v) = (&mut self.residual, &mut self.trial);
+        collocation.growth(x, tolerance, &mut self.sizes, residual, v)
     }
 
     /// The direction in which the solution `x` is not isolated, if so, after
