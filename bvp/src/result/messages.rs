@@ -62,7 +62,9 @@ pub(super) fn undetermined(conditions: &[usize], free: Option<&Unknown>, shift: 
     let named = named.join(", ");
     let dependent = match conditions.len() {
         0 => String::new(),
-        1 => format!("; replace condition {named}, which follows from the others"),
+        1 => format!(
+            "; replace condition {named}, which follows from the equations and the other conditions"
+        ),
         2..=NAMED => format!("; replace one of the conditions {named}, which depend on each other"),
         _ => format!("; replace one of the conditions {named}, …, which depend on each other"),
     };

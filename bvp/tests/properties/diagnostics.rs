@@ -53,7 +53,7 @@ fn conditions_that_depend_on_each_other() {
         error.to_string(),
         "singular Newton matrix: the conditions do not determine the solution locally; \
          component 0 of segment 0 at s = 2 is free; \
-         replace condition 1, which follows from the others"
+         replace condition 1, which follows from the equations and the other conditions"
     );
 }
 
