@@ -9,3 +9,4 @@ pub(crate) mod layers;
 pub(crate) mod mesh_selection;
 pub(crate) mod rounding;
 mod segment_look;
+mod singular_ends;

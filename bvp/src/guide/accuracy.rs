@@ -69,9 +69,6 @@
 //! * Near a limit point, where a change of the problem by far less than the tolerance makes a solution out of
 //!   none, such a solution may be returned: p² + ε = 0 has one within √ε of zero. Likewise where a condition tends
 //!   to zero at infinity and Newton's corrections become smaller than the tolerance on the way there.
-//! * At a singular end, the conditions may leave solutions free that differ by a power of s: y' = k y/s with
-//!   y(0) = 0 has all c sᵏ. Where a polynomial is none of them, k = 1/2 or 3/2, the smallest is returned, and not
-//!   refused. Set a condition at the regular end for every solution that the singular end does not exclude.
 //! * The estimate of the error is one of first order. On a mesh that is too coarse for it, it can be too
 //!   small; how often is said below.
 //! * The amplification is a lower bound, by one set of random signs. A direction that these signs do not

@@ -152,6 +152,11 @@
 //! # Ok::<(), bvp::Error>(())
 //! ```
 //!
+//! Solutions that grow from a like (s − a)^λ with λ > 0, an eigenvalue of S, vanish there by themselves: every c sᵏ
+//! solves y' = k y/s with y(0) = 0. Their size is set by a condition elsewhere, y(1) = 1. Conditions at a that say
+//! nothing on such solutions are found, and refused as
+//! [`SingularConditions`](crate::Error::SingularConditions).
+//!
 //! Where the solution is smooth the order in between is kept and the mesh is not refined towards a. A
 //! solution with a fractional power of s − a is not smooth: substitute s − a = tᵏ. Lobatto schemes ask
 //! for f at a; there write its limit, (I − S)⁻¹ times the rest of f. Examples: `emden`, `explosion`.

@@ -28,6 +28,7 @@ use crate::problem::guess::Guess;
 use crate::problem::held::Held;
 use crate::problem::problem::{Ends, Segment};
 use crate::result::stats::Stats;
+use faer::Mat;
 use std::sync::Arc;
 
 /// Why a linearisation failed.
@@ -256,6 +257,13 @@ impl<'a> Collocation<'a> {
     /// What the conditions leave open where the last linearisation proved singular at the ends.
     pub(crate) fn dependence(&self) -> Dependence {
         self.matrix.dependence(self.equations.segments())
+    }
+
+    /// What the conditions of the last linearisation leave open without their part on the ranges of projectors P, each
+    /// n × n for the states at one end, which begin at a column of the Jacobian of the conditions.
+    pub(crate) fn dependence_without(&self, ranges: &[(usize, Mat<f64>)]) -> Dependence {
+        let segments = self.equations.segments();
+        self.matrix.dependence_without(ranges, segments)
     }
 
     /// The Newton correction −J⁻¹ residual with the Jacobian of the last linearisation.

@@ -35,6 +35,7 @@ use crate::newton_matrix::end_system::EndSystem;
 use crate::newton_matrix::singular::Singular;
 use crate::newton_matrix::transitions::Transitions;
 use crate::problem::problem::Segment;
+use faer::Mat;
 
 /// The whole matrix: one [`Transitions`] per segment and the dense system of all ends and parameters.
 #[derive(Clone, Debug)]
@@ -119,6 +120,23 @@ impl AlmostBlockDiagonal {
     pub(crate) fn dependence(&self, segments: &[Segment]) -> Dependence {
         let first = segments.iter().map(|segment| segment.states).sum();
         self.ends.dependence(first, segments)
+    }
+
+    /// What is left undetermined when the conditions C δy of a regular matrix are taken for C (I − P) δy, with
+    /// projectors P on parts of the states at ends, which begin at the given columns.
+    pub(crate) fn dependence_without(
+        &self,
+        ranges: &[(usize, Mat<f64>)],
+        segments: &[Segment],
+    ) -> Dependence {
+        let first = segments.iter().map(|segment| segment.states).sum();
+        let mut units = vec![];
+        for of_segment in &self.transitions {
+            units.extend_from_slice(&of_segment.units);
+            units.extend_from_slice(&of_segment.units);
+        }
+        self.ends
+            .dependence_without(first, ranges, &units, segments)
     }
 
     /// Solves with the factored matrix. On entry the slot of node i + 1 of `x` holds gᵢ and

@@ -5,6 +5,7 @@ use crate::kernels::lu::lu;
 use crate::newton_matrix::dependence::Dependence;
 use crate::newton_matrix::singular::Singular;
 use crate::problem::problem::Segment;
+use faer::Mat;
 
 /// An equilibrated system, factored: a square one with row pivoting, one with an equation fewer
 /// than unknowns by orthogonal transformations.
@@ -82,6 +83,42 @@ impl EndSystem {
     /// left free. The conditions begin at row `first`.
     pub(crate) fn dependence(&self, first: usize, segments: &[Segment]) -> Dependence {
         Dependence::of(&self.matrix, self.size, first, segments)
+    }
+
+    /// What is left undetermined when the rows from `first` on, C δy, are taken for C (I − P) δy, if the matrix is
+    /// not singular as it is. The projectors P begin at the given columns, and are for states in units of one; the
+    /// states of this system have the given `units`.
+    pub(crate) fn dependence_without(
+        &self,
+        first: usize,
+        ranges: &[(usize, Mat<f64>)],
+        units: &[f64],
+        segments: &[Segment],
+    ) -> Dependence {
+        if ranges.is_empty() || self.dependence(first, segments) != Dependence::default() {
+            return Dependence::default();
+        }
+        let mut matrix = self.matrix.clone();
+        for row in matrix.chunks_exact_mut(self.size).skip(first) {
+            for (column, range) in ranges {
+                let states = *column..column + range.nrows();
+                // The columns of the equilibrated matrix are those of C times these.
+                let scales = units[states.clone()]
+                    .iter()
+                    .zip(&self.column_scale[states.clone()]);
+                let scales: Vec<f64> = scales.map(|(unit, scale)| unit * scale).collect();
+                let c: Vec<f64> = row[states.clone()]
+                    .iter()
+                    .zip(&scales)
+                    .map(|(x, d)| x / d)
+                    .collect();
+                for (j, (x, scale)) in row[states].iter_mut().zip(&scales).enumerate() {
+                    let part: f64 = c.iter().enumerate().map(|(i, c)| c * range[(i, j)]).sum();
+                    *x -= part * scale;
+                }
+            }
+        }
+        Dependence::of(&matrix, self.size, first, segments)
     }
 
     /// Scales rows, then columns, so that their largest entries are one; rows and columns of zeros stay.

@@ -117,6 +117,9 @@ impl Acceptance {
                 .doubt(problem, direction, a, solution)
                 .map(Confirmed::On);
         }
+        problem
+            .refuse_free(solution)
+            .inspect_err(|_| self.refused = true)?;
         if let Some(mesh) = self.look_further(problem, solution) {
             return Ok(Confirmed::On(mesh));
         }

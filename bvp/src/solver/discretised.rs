@@ -9,6 +9,7 @@ use crate::discretisation::tableau::Tableau;
 use crate::newton::collocation::Collocation;
 use crate::newton::failure::Failure;
 use crate::newton::newton::Newton;
+use crate::newton_matrix::dependence::Dependence;
 use crate::problem::held::Held;
 use crate::result::error::Error;
 use crate::result::quality::{Direction, Quality, Samples};
@@ -294,6 +295,23 @@ impl<'a> Discretised<'a> {
         }
         let rounding = rounding.unwrap_or(f64::INFINITY);
         ill_conditioned(rounding, self.options.tolerance, best)
+    }
+
+    /// Refuses a solution that the conditions leave free because they are on what vanishes at a singular end.
+    pub(crate) fn refuse_free(&mut self, solution: &Solution) -> Result<(), Error> {
+        let stats = &mut self.stats;
+        let dependence = self.collocation.free_at_singular_ends(&solution.x, stats);
+        if dependence == Dependence::default() {
+            return Ok(());
+        }
+        let mut best = solution.clone();
+        best.stats = self.cost();
+        Err(Error::SingularConditions {
+            conditions: dependence.conditions,
+            free: dependence.free,
+            shift: false,
+            best: Box::new(best),
+        })
     }
 
     /// An iterate on the present mesh as a solution.

@@ -5,6 +5,7 @@ mod not_isolated;
 mod not_smooth;
 mod scales;
 mod shocks;
+mod singular_ends;
 mod unseen;
 
 use bvp::{Error, Solution};
