@@ -14,26 +14,9 @@ use crate::newton::collocation::Collocation;
 use crate::newton_matrix::dependence::Dependence;
 use crate::problem::equations::Equations as _;
 use crate::result::stats::Stats;
-use crate::shares::UNNOTICED;
+use crate::shares::{NEGLIGIBLE, SPACINGS, UNNOTICED};
 use faer::Mat;
 use faer::linalg::solvers::DenseSolveCore as _;
-
-/// Where S is evaluated, as a share of the first or last interval, and where it is so before, to see whether the
-/// equations are singular in this way. The regular part of ∂f/∂y leaves its change over this share in S, 1e-12,
-/// of which a defective eigenvalue of multiplicity three takes the cube root.
-const NEAR: f64 = 1.0 / (1u64 << 40) as f64;
-const BEFORE: f64 = 1.0 / (1u64 << 20) as f64;
-
-/// The least distance of that place in units in the last place of s: S has an error of the inverse.
-const PLACES_OFF: f64 = 4096.0;
-
-/// The least Re λ of solutions that vanish. Over the digits of a number, from 1e-16 to 1, a power of s below this
-/// changes by 4 %: as far as numbers tell it is a constant.
-const VANISHING: f64 = 1e-3;
-
-/// Limit of the iteration for the sign of a matrix, which doubles or halves an eigenvalue in a step until it is
-/// near ±1 and then converges quadratically: enough for eigenvalues from [`VANISHING`] to 1e9.
-const STEPS: usize = 48;
 
 /// An end of a segment.
 #[derive(Clone, Copy)]
@@ -92,6 +75,9 @@ impl Collocation<'_> {
     }
 
     /// S at an end of a segment; `None` if ∂f/∂y is not like S / (s − a).
+    ///
+    /// The regular part of ∂f/∂y leaves in S its change over the distance from the end, three quarters of the
+    /// digits less than the interval: a defective eigenvalue of multiplicity three takes the cube root, 1e-4.
     fn residue(&self, index: usize, end: Side, x: &Iterate, stats: &mut Stats) -> Option<Mat<f64>> {
         let (n, k, m) = (
             self.equations.segments()[index].states,
@@ -105,7 +91,8 @@ impl Collocation<'_> {
             Side::End => (mesh[last], mesh[last - 1] - mesh[last], last, last * m - 1),
         };
         let mut at = |share: f64| {
-            let off = (share * h.abs()).max(PLACES_OFF * f64::EPSILON * a.abs());
+            // A place that is off by a rounding of s has S multiplied by a number near one, and the same P.
+            let off = (share * h.abs()).max(SPACINGS * f64::EPSILON * a.abs());
             let s = a + off.copysign(h);
             let mut y = unknowns.nodes[node * n..][..n].to_vec();
             add_scaled(&mut y, s - a, &unknowns.stages[stage * n..][..n]);
@@ -115,21 +102,25 @@ impl Collocation<'_> {
             stats.jacobian_evaluations += 1;
             Mat::from_fn(n, n, |i, j| (s - a) * jacobian[i * (n + k) + j])
         };
-        let [before, residue] = [BEFORE, NEAR].map(&mut at);
+        let [before, residue] = [0.5, 0.75].map(|digits| at(f64::EPSILON.powf(digits)));
         let size = residue.norm_max();
-        let is_limit = size > VANISHING && (&residue - before).norm_max() <= UNNOTICED * size;
+        let is_limit = size > NEGLIGIBLE && (&residue - before).norm_max() <= UNNOTICED * size;
         is_limit.then_some(residue)
     }
 }
 
 /// The projector on the solutions that vanish at a place with the residue S, if there are any:
 /// P = (I + sign(S − δ I)) / 2, the sign by Newton's iteration: N. J. Higham, *Functions of Matrices*, SIAM 2008,
-/// section 5.3. `None`, too, where an eigenvalue is not told from δ, [`VANISHING`].
+/// section 5.3. `None`, too, where an eigenvalue is not told from δ.
+///
+/// From 1e-16 to 1 a power of s below δ, a negligible one, changes by 4 %: as far as numbers tell it is a constant.
 fn on_growing(residue: &Mat<f64>) -> Option<Mat<f64>> {
     let n = residue.nrows();
     let identity = Mat::<f64>::identity(n, n);
-    let mut x = residue - &identity * faer::Scale(VANISHING);
-    for _ in 0..STEPS {
+    let mut x = residue - &identity * faer::Scale(NEGLIGIBLE);
+    // A step halves an eigenvalue, or its inverse, until it is near ±1, and then doubles its digits: no more steps
+    // than a number has digits are of use.
+    for _ in 0..f64::MANTISSA_DIGITS {
         let next = (&x + x.partial_piv_lu().inverse()) * faer::Scale(0.5);
         let change = (&next - &x).norm_max();
         x = next;
