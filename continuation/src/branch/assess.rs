@@ -9,7 +9,7 @@ use crate::curve::metric::Metric;
 use crate::difficulty::Difficulty;
 use crate::options::Options;
 use crate::point::{DiscretisationError, Kind, Point};
-use crate::special_points::branch_point::{bordering_vector, branch_point};
+use crate::special_points::branch_point::{branch_point, set_borders};
 use crate::special_points::node::Node;
 use crate::stop::Stop;
 use crate::system::system::System;
@@ -151,7 +151,7 @@ impl<S: System> Assessment<'_, '_, S> {
                 &Condition::plane(metric, tangent, z),
             ),
             Kind::BranchPoint => {
-                curve.border = bordering_vector(&mut curve, z)?;
+                set_borders(&mut curve, z)?;
                 branch_point(&mut curve, z).map(|found| found.z)
             }
             Kind::LimitPoint | Kind::Cusp | Kind::Event(_) => {

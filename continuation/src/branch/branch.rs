@@ -14,7 +14,7 @@ use crate::difficulty::Difficulty;
 use crate::error::{Error, check_length};
 use crate::options::Options;
 use crate::point::{Kind, Point};
-use crate::special_points::branch_point::{bordering_vector, choose_border};
+use crate::special_points::branch_point::{choose_border, set_borders};
 use crate::special_points::node::Node;
 use crate::stop::Stop;
 use crate::system::system::System;
@@ -92,7 +92,7 @@ impl<'a, S: System> Branch<'a, S> {
         if point.kind == Kind::BranchPoint {
             (progress.unoriented, progress.from_branch_point) = (true, true);
             curve.metric.normalise(&mut node.tangent);
-            curve.border = bordering_vector(curve, &point.z).map_err(Error::Start)?;
+            set_borders(curve, &point.z).map_err(Error::Start)?;
         } else {
             correct_across(curve, node, &point.tangent).map_err(Error::Start)?;
             choose_border(curve, node).map_err(Error::Start)?;

@@ -4,7 +4,7 @@ use crate::branch::progress::Progress;
 use crate::curve::corrector::{Accuracy, Condition};
 use crate::curve::curve::{Curve, reverse};
 use crate::difficulty::Difficulty;
-use crate::special_points::branch_point::{bordering_vector, choose_border};
+use crate::special_points::branch_point::{choose_border, set_borders};
 use crate::system::system::System;
 
 /// A change of the discretisation may move a point by this share of the step that led there, or by
@@ -56,12 +56,14 @@ impl<S: System> Discretisation<'_, '_, S> {
     ) -> Result<(), Difficulty> {
         let old = std::mem::replace(self.curve.system, system);
         let (metric, border) = (self.curve.metric.clone(), self.curve.border.clone());
+        let witness = self.curve.witness.clone();
         let (node, trend) = (self.progress.node.clone(), self.progress.trend);
         self.progress.put_vectors(vectors);
         let outcome = self.settle(limit);
         if outcome.is_err() {
             *self.curve.system = old;
             (self.curve.metric, self.curve.border) = (metric, border);
+            self.curve.witness = witness;
             (self.progress.node, self.progress.trend) = (node, trend);
             self.progress.put_vectors(kept);
         }
@@ -78,8 +80,7 @@ impl<S: System> Discretisation<'_, '_, S> {
         if progress.is_at_branch_point() {
             // It is located already.
             curve.metric.normalise(&mut progress.node.tangent);
-            curve.border = bordering_vector(curve, &progress.node.z)?;
-            return Ok(());
+            return set_borders(curve, &progress.node.z);
         }
         let node = &mut progress.node;
         let mut z = node.z.clone();

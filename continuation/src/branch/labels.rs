@@ -10,7 +10,8 @@ use crate::options::Options;
 use crate::point::Kind;
 use crate::special_points::branch_point::crossing;
 use crate::special_points::limit_point::limit_points;
-use crate::special_points::node::Node;
+use crate::special_points::neighbour::distance_to_next;
+use crate::special_points::node::{Located, Node};
 use crate::special_points::span::{RESOLVED, Span};
 use crate::system::system::System;
 use std::f64::consts::FRAC_PI_2;
@@ -104,11 +105,27 @@ impl<'a, S: System> Labels<'_, 'a, S> {
         let aligned = |t: &[f64]| self.curve.metric.dot(t, &at.tangent).abs();
         let least = |[a, b]: [Vec<f64>; 2]| if aligned(&a) < aligned(&b) { a } else { b };
         let other = crossing.tangents.map(least);
+        if share > UNVERIFIED {
+            self.is_the_only_crossing(to, &at)?;
+        }
         Ok(vec![Found {
             other,
             rest: crossing.doubt.clamp(CERTAIN_REST, REST),
             ..Found::new(at, kind)
         }])
+    }
+
+    /// Refuses a step with further branch points on either side of the one located there, if the next one
+    /// may be as near as an end of the step: behind three branch points everything looks as behind one.
+    fn is_the_only_crossing(&mut self, to: &Node, at: &Located) -> Result<(), Difficulty> {
+        let metric = &self.curve.metric;
+        let ends = [&self.progress.node, to].map(|end| metric.distance(&end.z, &at.z));
+        let gap = distance_to_next(self.curve, &at.z, &at.tangent)?;
+        if gap > ends[0].max(ends[1]) {
+            Ok(())
+        } else {
+            Err(Difficulty::Imperfect { gap })
+        }
     }
 
     /// A cusp, where the cusp function of the system changes its sign.

@@ -8,7 +8,7 @@ use crate::curve::curve::{Curve, reverse};
 use crate::curve::predictor::History;
 use crate::difficulty::Difficulty;
 use crate::options::{Options, Parameterisation, Predictor};
-use crate::special_points::branch_point::second_vector;
+use crate::special_points::branch_point::find_seconds;
 use crate::special_points::node::Node;
 use crate::system::system::System;
 use std::f64::consts::PI;
@@ -168,14 +168,19 @@ impl<S: System> Stepper<'_, '_, S> {
             self.linearise_at(&mut node)?;
             self.evaluate_events(&mut node);
         }
-        node.second = second_vector(self.curve, &node.tangent)?;
+        find_seconds(self.curve, &mut node)?;
+        if !exact && self.near_crossing(&node, report.drift / h) {
+            self.linearise_at(&mut node)?;
+            self.evaluate_events(&mut node);
+            find_seconds(self.curve, &mut node)?;
+        }
         let second = self.second_angle(&node, h)?;
         let turn = (angle / self.options.angle).max(second / SECOND);
         Ok((node, growth(report, h, turn)))
     }
 
-    /// Whether something may have changed its sign on the way from the last linearisation, this share of
-    /// the step away: then its tangent will not do.
+    /// Whether something may have changed its sign on the way from the last linearisation: then its tangent
+    /// will not do.
     fn needs_own_tangent(&self, node: &Node, angle: f64, share: f64) -> bool {
         let (n, last) = (node.z.len() - 1, &self.progress.node);
         let rate = self.curve.rate(&node.tangent).abs();
@@ -207,6 +212,13 @@ impl<S: System> Stepper<'_, '_, S> {
         values.any(|(before, after)| {
             before * after < 0.0 || after.abs() < 2.0 * DRIFTED * (after - before).abs()
         })
+    }
+
+    /// Whether there may be a branch point on the way from the last linearisation, this share of the step
+    /// away: over it η changes by about the same share as over the step, three times that to be sure.
+    fn near_crossing(&self, node: &Node, share: f64) -> bool {
+        let [before, after] = [&self.progress.node, node].map(Node::eta);
+        after.abs() <= 3.0 * share * (after - before).abs()
     }
 
     /// Turns the null vector of a node into the unit tangent in the direction of travel.

@@ -17,6 +17,9 @@ pub(crate) struct Curve<'a, S> {
     pub(crate) corrector: Corrector,
     /// The bordering vector b of the test function for branch points.
     pub(crate) border: Vec<f64>,
+    /// Another bordering vector, whose second vector turns at branch points that b overlooks: those at which it
+    /// is nearly in the range of J.
+    pub(crate) witness: Vec<f64>,
 }
 
 impl<'a, S: System> Curve<'a, S> {
@@ -26,6 +29,7 @@ impl<'a, S: System> Curve<'a, S> {
             metric,
             corrector: Corrector::within(bounds),
             border: Vec::new(),
+            witness: Vec::new(),
         }
     }
 

@@ -101,31 +101,55 @@ pub(crate) fn bordering_vector<S: System>(
     Ok(sizes.map(|(i, size)| size * irregular(i + 1)).collect())
 }
 
-/// The second null vector of \[J b\], where the system was linearised last, for a unit tangent.
-pub(crate) fn second_vector<S: System>(
+/// Gives a node with its unit tangent the second null vectors of \[J b\] for both bordering vectors, where the
+/// system was linearised last.
+pub(crate) fn find_seconds<S: System>(
     curve: &mut Curve<'_, S>,
-    tangent: &[f64],
-) -> Result<Vec<f64>, Difficulty> {
-    NullSpace::second(curve.system, &curve.metric, tangent, &curve.border)
-        .ok_or(Difficulty::Singular)
+    node: &mut Node,
+) -> Result<(), Difficulty> {
+    let mut second =
+        |border: &[f64]| NullSpace::second(curve.system, &curve.metric, &node.tangent, border);
+    let both = second(&curve.border).zip(second(&curve.witness));
+    (node.second, node.witness) = both.ok_or(Difficulty::Singular)?;
+    Ok(())
 }
 
-/// Chooses the bordering vector for a node, where the system was linearised last, and gives the node its
-/// second vector.
+/// Sets the bordering vectors at `z`, of the sizes of the equations.
+pub(crate) fn set_borders<S: System>(
+    curve: &mut Curve<'_, S>,
+    z: &[f64],
+) -> Result<(), Difficulty> {
+    curve.border = bordering_vector(curve, z)?;
+    let sizes = curve.border.iter().enumerate();
+    // The signs of two equations next to each other that agree in one of the vectors differ in the other.
+    let alternating = |(i, b): (usize, &f64)| {
+        let share = irregular(i * i + 2 * i).abs() / irregular(i + 1).abs();
+        if i % 2 == 0 { b * share } else { -b * share }
+    };
+    curve.witness = sizes.map(alternating).collect();
+    Ok(())
+}
+
+/// Chooses the bordering vectors for a node, where the system was linearised last, and gives the node its
+/// second vectors.
 pub(crate) fn choose_border<S: System>(
     curve: &mut Curve<'_, S>,
     node: &mut Node,
 ) -> Result<(), Difficulty> {
-    curve.border = bordering_vector(curve, &node.z)?;
-    let second = second_vector(curve, &node.tangent)?;
-    // The second vector is (v, −1) up to its length, with J v = b: b is enlarged until v has length
-    // one. With a short v the component η outweighs it, and pairs of branch points are missed.
+    set_borders(curve, &node.z)?;
+    find_seconds(curve, node)?;
+    lengthen(&mut curve.border, &node.second);
+    lengthen(&mut curve.witness, &node.witness);
+    find_seconds(curve, node)
+}
+
+/// Enlarges a bordering vector b until v has length one, with J v = b: the second vector is (v, −1) up to its
+/// length. With a short v the component η outweighs it, and pairs of branch points are missed.
+fn lengthen(border: &mut [f64], second: &[f64]) {
     let eta = second.last().map_or(1.0, |eta| eta.abs());
     let length = (1.0 - eta * eta).sqrt() / eta;
     let scale = if length > 0.0 { length.min(1.0) } else { 1.0 };
-    curve.border.iter_mut().for_each(|b| *b /= scale);
-    node.second = second_vector(curve, &node.tangent)?;
-    Ok(())
+    border.iter_mut().for_each(|b| *b /= scale);
 }
 
 /// Numbers between 0.5 and 1 of irregular size and sign.
@@ -150,6 +174,7 @@ pub(crate) fn branch_point<S: System>(
         metric,
         corrector,
         border: b,
+        ..
     } = curve;
     let (system, metric, b) = (&mut **system, &*metric, &b[..]);
     let n = z.len() - 1;

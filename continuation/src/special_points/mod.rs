@@ -2,6 +2,7 @@
 
 pub(crate) mod branch_point;
 pub(crate) mod limit_point;
+pub(crate) mod neighbour;
 pub(crate) mod node;
 pub(crate) mod null_space;
 pub(crate) mod second_derivative;

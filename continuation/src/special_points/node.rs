@@ -7,6 +7,11 @@ use crate::special_points::null_space;
 /// A second vector that turns by more than this, rad, without its component η, has turned over. With
 /// η alone 10 of 100 pairs of branch points close to a bound were missed.
 const OVER: f64 = 2.1;
+/// The witness has seen something if it turns by more than this, rad. Without a witness 10 of 800 pairs of
+/// branch points 0.03 to 1e-5 apart on curves of up to seven unknowns were missed, and none with it. Up to 1.3
+/// found as many pairs, but fewer triples; with 0.5 these curves took 13 percent more points instead of 7, and
+/// the points depended on copies of equations.
+const OVERLOOKED: f64 = 0.7;
 
 /// An accepted point with everything that is followed along the branch.
 #[derive(Clone, Debug)]
@@ -24,6 +29,8 @@ pub(crate) struct Node {
     pub(crate) cusp: Option<f64>,
     /// The second vector of the null space of \[J b\].
     pub(crate) second: Vec<f64>,
+    /// The second vector with another bordering vector.
+    pub(crate) witness: Vec<f64>,
 }
 
 impl Node {
@@ -36,6 +43,7 @@ impl Node {
             events: Vec::new(),
             cusp: None,
             second: Vec::new(),
+            witness: Vec::new(),
         }
     }
 
@@ -84,27 +92,33 @@ impl Node {
             / 18.0
     }
 
-    /// The second vector, continued smoothly along the branch, also through branch points.
-    fn continued_second(&self) -> impl Iterator<Item = f64> + '_ {
-        let sign = if self.along { 1.0 } else { -1.0 };
-        self.second.iter().map(move |v| sign * v)
-    }
-
     /// The angle between the second vectors of two nodes, each continued smoothly along the branch. It
     /// is beyond a right angle where one turned over that should not have: two branch points have been
-    /// passed, or there is another branch in between.
+    /// passed, or there is another branch in between. The witness counts where it turns by more than that
+    /// which b may overlook.
     pub(crate) fn second_angle(&self, to: &Self, metric: &Metric) -> f64 {
-        let [a, b]: [Vec<f64>; 2] = [self, to].map(|node| node.continued_second().collect());
-        let angle = |dot: &dyn Fn(&[f64], &[f64]) -> f64| {
-            let cosine = dot(&a, &b) / (dot(&a, &a) * dot(&b, &b)).sqrt();
-            cosine.clamp(-1.0, 1.0).acos()
+        let sign = if self.along == to.along { 1.0 } else { -1.0 };
+        let angle = |a: &[f64], b: &[f64]| {
+            let turn = |dot: &dyn Fn(&[f64], &[f64]) -> f64| {
+                let cosine = sign * dot(a, b) / (dot(a, a) * dot(b, b)).sqrt();
+                cosine.clamp(-1.0, 1.0).acos()
+            };
+            // η has the same sign behind two branch points, and outweighs the rest where b is small.
+            let without_eta = turn(&|a, b| metric.dot(&a[..a.len() - 1], &b[..b.len() - 1]));
+            if without_eta > OVER {
+                without_eta
+            } else {
+                turn(&|a, b| null_space::dot(metric, a, b))
+            }
         };
-        // η has the same sign behind two branch points, and outweighs the rest where b is small.
-        let without_eta = angle(&|a, b| metric.dot(&a[..a.len() - 1], &b[..b.len() - 1]));
-        if without_eta > OVER {
-            without_eta
+        let (own, witness) = (
+            angle(&self.second, &to.second),
+            angle(&self.witness, &to.witness),
+        );
+        if witness > OVERLOOKED {
+            own.max(witness)
         } else {
-            angle(&|a, b| null_space::dot(metric, a, b))
+            own
         }
     }
 

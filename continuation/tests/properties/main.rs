@@ -4,6 +4,7 @@ mod asymptotes;
 #[path = "../../examples/banded/bratu.rs"]
 mod bratu;
 mod counting;
+mod crowds;
 mod curves;
 mod differences;
 mod failures;
