@@ -9,6 +9,7 @@ use crate::curve::predictor::History;
 use crate::difficulty::Difficulty;
 use crate::options::{Options, Parameterisation, Predictor};
 use crate::special_points::branch_point::find_seconds;
+use crate::special_points::limit_point::suspicion;
 use crate::special_points::node::Node;
 use crate::system::system::System;
 use std::f64::consts::PI;
@@ -186,6 +187,7 @@ impl<S: System> Stepper<'_, '_, S> {
         let rate = self.curve.rate(&node.tangent).abs();
         let turned = node.tangent[n] * last.tangent[n] <= 0.0 || node.along != last.along;
         let doubtful = turned || rate <= 3.0 * share * angle || share > DRIFTED;
+        let doubtful = doubtful || suspicion(&self.curve.metric, last, node).is_some();
         doubtful || self.progress.unoriented || last.cusp.is_some()
     }
 

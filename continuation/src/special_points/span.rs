@@ -208,7 +208,7 @@ impl<S: System> Span<'_, '_, S> {
 }
 
 /// The known point that is nearest to u.
-fn nearest(known: &[Located], u: f64) -> &Located {
+pub(crate) fn nearest(known: &[Located], u: f64) -> &Located {
     let gap = |point: &Located| (point.u - u).abs();
     let nearest = known.iter().min_by(|a, b| gap(a).total_cmp(&gap(b)));
     nearest.unwrap_or(&known[0])
