@@ -18,8 +18,8 @@ use crate::special_points::null_space::{NullSpace, dot};
 use crate::special_points::second_derivative::{Line, Precision, mixed};
 use crate::system::system::System;
 
-/// Power iterations. The first starts anywhere, and with three the distance of the nearest of three branch
-/// points was underestimated by a half at most.
+/// Power iterations. The first starts anywhere, the second is along the nearest branch point where the next one is
+/// not as near, and the third gives its distance.
 const ITERATIONS: usize = 3;
 
 /// The distance, in the arclength norm, to the next branch point from the one at `z` with unit `tangent`,

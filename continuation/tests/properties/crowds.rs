@@ -16,7 +16,7 @@ fn pitchforks(at: &[f64]) -> DenseSystem {
 
 #[test]
 fn three_branch_points_in_a_step_are_all_found() {
-    // From end to end they look like one: 171 of 240 triples lost two of theirs.
+    // From end to end they look like one.
     let options = Options::within(-1.0, 1.0);
     for gap in [0.1, 0.03, 1e-2, 1e-3] {
         for i in 0..60 {
