@@ -14,8 +14,9 @@
 
 use super::carried::Carried;
 use super::path::{Effort, Path, Solved, Stuck};
-use super::{DRIVER, DriveProblem, INCLINATION, Instead};
-use crate::LimitReason;
+use super::zones::Cut;
+use super::{BeltProblem, DRIVER, DriveProblem, INCLINATION, Instead};
+use crate::{FrictionLaw, LimitReason};
 
 /// Smaller loads from which the load is approached: shares of the way from slack to tight tension,
 /// in logarithms.
@@ -46,6 +47,18 @@ pub(super) struct Limit {
     pub(super) reason: LimitReason,
     /// The state at the end.
     pub(super) state: Solved,
+}
+
+impl Limit {
+    /// Whether it is the limit that a rising load meets on its way to `target`: that of a smaller load, in a state with
+    /// the friction zones that it was found with.
+    pub(super) fn is_on_branch(&self, target: f64) -> bool {
+        let Solved { problem, .. } = &self.state;
+        let keeps_zones = !problem.has_junctions() || Cut::of(&self.state).is_kept();
+        // States that overhang may lie beyond the load at which the driven pulley slips.
+        let overhangs = self.reason == LimitReason::Overhang;
+        keeps_zones && !overhangs && self.state.tight_tension() < target
+    }
 }
 
 /// What is prescribed in place of the tension, and rises along the branch.
@@ -97,6 +110,10 @@ impl Path<'_> {
         let direct = match self.at_load(target) {
             Ok(solved) if self.is_before_limit(&solved) => return self.classify(solved),
             // The effect of ℓ or ε belongs to the state.
+            // Its zones change on the way from one load to another.
+            Err(stuck) if matches!(self.drive.law, FrictionLaw::VectorEpp { .. }) => {
+                return Err(stuck);
+            }
             beyond_or_stuck => beyond_or_stuck.map(|solved| (solved, self.smoothing_effect)),
         };
         let slack = self.drive.pair().load.slack.value() / self.scales().units.force;

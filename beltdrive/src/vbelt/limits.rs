@@ -1,7 +1,7 @@
 //! Both ends of the range of an entry over which a drive has steady states.
 
+use super::found::{carried, find, forwards, is_crossed};
 use super::path::{Path, Solved};
-use super::solve::{carried, find, forwards, is_crossed};
 use super::state::describe;
 use super::tracer::{Tracer, Until};
 use crate::input::Key;

@@ -12,6 +12,8 @@
 
 pub(crate) mod belt_loop;
 mod belt_problem;
+mod beyond;
+mod by_branch;
 mod carried;
 mod chart;
 mod closure;
@@ -21,6 +23,7 @@ mod curve;
 mod drive_problem;
 mod family;
 mod followed;
+mod found;
 mod groove;
 mod guess;
 mod laws;

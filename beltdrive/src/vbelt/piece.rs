@@ -119,8 +119,11 @@ impl Tracer<'_> {
         let mut path = Path::new(&drive, self.tolerance);
         let solved = match path.smooth_less(solved.clone(), smoothing, Effort::Full) {
             Ok(solved) => solved,
+            // The zones may not be those with another ℓ, ε or τ.
+            Err(_) if solved.problem.smoothing() > 0.0 => solved.clone(),
             Err(stuck) => return not_converged(difficulty::of_solver(&stuck.cause)),
         };
+        let smoothing = solved.problem.smoothing();
         self.convergence.slip_normalisation = self.convergence.slip_normalisation.max(smoothing);
         let entry = Entry {
             key: self.key,
@@ -246,6 +249,7 @@ impl Tracer<'_> {
         let has_direction = here.problem.has_direction();
         let place = self.record(point, kind, &state, effect, has_direction);
         if kind != Some(EventKind::LimitPoint) {
+            self.passed.push((place, here.constants()));
             self.near = Some((place, here.clone()));
         }
         let end = match kind {

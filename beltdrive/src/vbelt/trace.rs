@@ -1,6 +1,6 @@
 //! Traces of V-belt drives: a drive and a range of one entry in, a branch out.
 
-use super::solve::{carried, find};
+use super::found::{carried, find};
 use super::state::describe;
 use super::tracer::{Tracer, Until};
 use crate::input::Key;

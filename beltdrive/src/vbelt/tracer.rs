@@ -11,9 +11,9 @@
 //! difference. A branch from a state whose direction is normalised is followed in the same way with a fixed ε.
 
 use super::Regime;
+use super::found::is_crossed;
 use super::path::Solved;
 use super::piece::{PieceEnd, WHOLE};
-use super::solve::is_crossed;
 use crate::input::Key;
 use crate::results::difficulty;
 use crate::{
@@ -56,6 +56,8 @@ pub(super) struct Tracer<'d> {
     pub(super) refused: Option<Vec<Vec<Regime>>>,
     /// The last state that is no limit point, and the value of the entry there.
     pub(super) near: Option<(f64, Solved)>,
+    /// The constants of all states that are no limit points, with the values of the entry.
+    pub(super) passed: Vec<(f64, Vec<f64>)>,
     /// The value at which both spans have the same tension, where it is known.
     pub(super) no_load: Option<f64>,
 }
@@ -85,6 +87,7 @@ impl<'d> Tracer<'d> {
             refinements: 0,
             refused: None,
             near: None,
+            passed: Vec::new(),
             no_load: match key {
                 _ if is_crossed(drive) => None,
                 key if key == Key::load(drive) => Some(drive.pair().load.slack.value()),
@@ -127,7 +130,11 @@ impl<'d> Tracer<'d> {
         let (mut solved, mut value, mut direction) = (solved, value, direction);
         let mut end = None;
         for _ in 0..MAX_PIECES {
-            match self.piece(&solved, value, direction, progress) {
+            let mut next = self.piece(&solved, value, direction, progress);
+            if let PieceEnd::Branch(BranchEnd::NotConverged { .. }) = next {
+                next = self.beyond(direction).unwrap_or(next);
+            }
+            match next {
                 PieceEnd::Branch(reason) => {
                     end = Some(reason);
                     break;
