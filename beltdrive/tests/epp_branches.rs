@@ -154,3 +154,48 @@ fn a_belt_that_rests_only_as_long_as_friction_is_elastic_has_the_limit_of_single
     };
     assert_limit(&drive.drive(), 3_870.221_8);
 }
+
+/// The same drive with vector EPP friction.
+fn vector(numbers: &Numbers) -> Drive {
+    let [_, stiffness] = numbers.friction;
+    Drive {
+        law: FrictionLaw::VectorEpp { stiffness },
+        ..numbers.drive()
+    }
+}
+
+/// Single states were not found at 0.99 and 1.5 times this limit: on the way from lighter loads zones change.
+#[test]
+fn vector_friction_has_the_limit_of_single_states() {
+    let numbers = Numbers {
+        belt: [0.1364, 24_060.0, 2.874e7, 0.1993],
+        friction: [0.2663, 1.147e8],
+        pulleys: [0.04634, 510.1, 0.1109, 0.4233],
+        load: [136.4, 256.0],
+    };
+    assert_limit(&vector(&numbers), 7091.544_85);
+}
+
+/// At 1930.6 N an elastic arc vanishes, and no tangent was found near it.
+#[test]
+fn a_branch_goes_on_beyond_an_arc_that_vanishes() {
+    let numbers = Numbers {
+        belt: [0.223_882, 447_342.0, 2.259_08e7, 0.326_069],
+        friction: [0.691_540, 1.230_05e8],
+        pulleys: [0.128_164, 62.4905, 0.366_649, 1.333_99],
+        load: [84.4576, 1500.0],
+    };
+    let drive = vector(&numbers);
+    let options = SolveOptions::default();
+    let range = [1500.0, 2500.0];
+    let key = Key::load(&drive);
+    let branch = trace(&drive, &key, range, &options, &mut |_, _| {}).unwrap();
+    assert_eq!(branch.end, BranchEnd::Target);
+    let last = branch.points.last().unwrap();
+    let single = solve(&at(&drive, 2500.0), &options).unwrap();
+    close(
+        last.state.driven.angular_speed,
+        single.driven.angular_speed,
+        1e-5,
+    );
+}
