@@ -173,7 +173,7 @@ fn vector_friction_has_the_limit_of_single_states() {
         pulleys: [0.04634, 510.1, 0.1109, 0.4233],
         load: [136.4, 256.0],
     };
-    assert_limit(&vector(&numbers), 7091.544_85);
+    assert_limit(&vector(&numbers), 7_091.544_85);
 }
 
 /// At 1930.6 N an elastic arc vanishes, and no tangent was found near it.
