@@ -58,6 +58,16 @@ pub enum Difficulty {
         /// Largest angle accepted, rad.
         limit: f64,
     },
+    /// Nearby there may be another sheet of solutions, to which the step has led.
+    #[error(
+        "the point and its tangent tell of different places, between which the equations change otherwise than linearly by {change:.2}, limit {limit:.2}"
+    )]
+    Departure {
+        /// The largest change that is not linear, relative to the linear one.
+        change: f64,
+        /// The largest accepted.
+        limit: f64,
+    },
     /// A special point persists neither exactly nor nearby: the bifurcation is imperfect.
     #[error("the branches miss each other by {gap:.1e}")]
     Imperfect {

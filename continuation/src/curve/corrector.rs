@@ -285,6 +285,19 @@ impl Corrector {
         Ok(&self.particular)
     }
 
+    /// The correction at `z` by the last linearisation.
+    pub(crate) fn chord<S: System>(
+        &mut self,
+        system: &mut S,
+        metric: &Metric,
+        condition: &Condition,
+        z: &[f64],
+    ) -> Result<&[f64], Difficulty> {
+        self.evaluate(system, z)?;
+        self.solve(system, metric, condition, z)?;
+        Ok(&self.particular)
+    }
+
     /// The null vector of the last linearisation, as the system orients it.
     pub(crate) fn null(&self) -> &[f64] {
         &self.null

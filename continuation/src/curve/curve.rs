@@ -45,6 +45,36 @@ impl<'a, S: System> Curve<'a, S> {
             .correct(self.system, &self.metric, z, condition, accuracy, limit)
     }
 
+    /// The distances from a solution `z` of the place this `way` ahead, in the plane across `normal`, after one
+    /// correction with the last linearisation and after two. The first takes away what is linear; where it leads near
+    /// enough, the second distance is zero.
+    pub(crate) fn approach(
+        &mut self,
+        z: &[f64],
+        way: &[f64],
+        normal: &[f64],
+        is_near: impl Fn(f64) -> bool,
+    ) -> Result<[f64; 2], Difficulty> {
+        let (metric, corrector) = (&self.metric, &mut self.corrector);
+        let n = z.len() - 1;
+        let [low, high] = corrector.bounds();
+        // Beyond the bounds of λ, on the other side.
+        let inside = (low..=high).contains(&(z[n] + way[n]));
+        let sign = if inside { 1.0 } else { -1.0 };
+        let mut end: Vec<f64> = z.iter().zip(way).map(|(z, w)| z + sign * w).collect();
+        let plane = Condition::plane(metric, normal, z);
+        let mut distances = [0.0; 2];
+        for distance in &mut distances {
+            let back = corrector.chord(self.system, metric, &plane, &end)?;
+            end.iter_mut().zip(back).for_each(|(e, b)| *e += b);
+            *distance = metric.distance(&end, z);
+            if is_near(*distance) {
+                break;
+            }
+        }
+        Ok(distances)
+    }
+
     /// Linearises the system at `z` and returns the unit tangent as the system orients it.
     pub(crate) fn tangent(&mut self, z: &[f64]) -> Result<Vec<f64>, Difficulty> {
         self.corrector.tangent(self.system, &self.metric, z)

@@ -19,6 +19,7 @@ mod sheets;
 mod solutions;
 mod sparse;
 mod special_points;
+mod steep_sheets;
 mod swift_hohenberg;
 mod switching;
 mod systems;
