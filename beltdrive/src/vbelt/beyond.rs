@@ -70,11 +70,11 @@ impl Tracer<'_> {
         let Some((behind, at_behind)) = self.passed.iter().rfind(is_far) else {
             return false;
         };
-        let each = solved
+        let mut each = solved
             .constants()
             .into_iter()
             .zip(at_last.iter().zip(at_behind));
-        each.into_iter().all(|(found, (one, other))| {
+        each.all(|(found, (one, other))| {
             let change = (one - other) * way / (last - behind);
             (found - (one + change)).abs() <= OFF * change.abs() + SAME * (1.0 + one.abs())
         })

@@ -3,13 +3,12 @@
 //! Where a state is not found at its own load, nor from one near it with the same friction zones, it is sought along the
 //! branch of a rising or falling load, on which zones may change.
 
-use super::found::forwards;
+use super::found::{checked, not_carried};
 use super::limits::upwards;
 use super::path::{Path, Solved};
-use super::state::steady_state;
 use super::tracer::{Tracer, Until};
 use crate::input::Key;
-use crate::{BranchEnd, Drive, RangeEnd, SolveError, SpanTension, SteadyState};
+use crate::{BranchEnd, Drive, RangeEnd, SolveError, SteadyState};
 use continuation::Direction;
 use web_time::Instant;
 
@@ -61,18 +60,9 @@ fn from_state(
             if let Ok(limit) = up.limit()
                 && let RangeEnd::Limit(reason) = limit.reason
             {
-                return Some(Err(SolveError::NoSteadyState {
-                    quantity: match drive.pair().load.tight {
-                        SpanTension::Tractive(_) => "tight tractive tension",
-                        _ => "tight tension",
-                    },
-                    unit: "N",
-                    asked,
-                    limit: limit.value,
-                    reason,
-                    driven_speed: Some(limit.state.driven.angular_speed),
-                    exit_inclination: Some(limit.state.driver.inclination[1]),
-                }));
+                let state = &limit.state;
+                let [speed, exit] = [state.driven.angular_speed, state.driver.inclination[1]];
+                return Some(Err(not_carried(drive, limit.value, reason, [speed, exit])));
             }
             (up.end == BranchEnd::Target).then_some(up.tracer.near)
         }
@@ -89,7 +79,5 @@ fn from_state(
     }
     let mut path = Path::new(drive, tolerance);
     let solved = path.finish(solved).ok()?;
-    let state = steady_state(&path, solved, start);
-    let checked = state.verified().and_then(|()| forwards(drive, &state));
-    checked.is_ok().then_some(Ok(state))
+    checked(&path, solved, start).ok().map(Ok)
 }

@@ -2,11 +2,13 @@
 
 use super::limit::Found;
 use super::path::{Path, Solved, Stuck};
-use super::state::describe;
+use super::state::{describe, steady_state};
+use super::{DRIVEN, DRIVER, INCLINATION};
 use crate::results::possible;
-use crate::{Drive, Load, SolveError, SpanTension, SteadyState};
+use crate::{Drive, LimitReason, Load, SolveError, SpanTension, SteadyState};
 use std::mem::discriminant;
 use std::sync::Arc;
+use web_time::Instant;
 
 /// Searches a state of a drive at its load from which a branch can be followed.
 pub(super) fn find(drive: &Drive, tolerance: f64) -> (Path<'_>, Result<Found, Stuck>) {
@@ -17,7 +19,7 @@ pub(super) fn find(drive: &Drive, tolerance: f64) -> (Path<'_>, Result<Found, St
 
 /// The state found, or the reason why the load is not carried or not reached.
 pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<Solved, SolveError> {
-    let (load, scales) = (path.drive.pair().load, path.scales());
+    let scales = path.scales();
     let found = found.map_err(|Stuck { last, cause }| SolveError::NotConverged {
         tight: last.map(|last| last.tight_tension() * scales.units.force),
         cause: Arc::new(cause),
@@ -29,22 +31,47 @@ pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<So
             if let Some(fault) = possible::fault(&describe(path, state)) {
                 return Err(SolveError::Impossible(fault));
             }
-            Err(SolveError::NoSteadyState {
-                quantity: match load.tight {
-                    SpanTension::Tractive(_) => "tight tractive tension",
-                    _ => "tight tension",
-                },
-                unit: "N",
-                asked: load.tight.value(),
-                limit: state.tight_tension() * scales.units.force,
-                reason: limit.reason,
-                driven_speed: Some(
-                    state.driven_speed() * scales.units.angular_speed(scales.radius[super::DRIVEN]),
-                ),
-                exit_inclination: Some(state.exit(super::DRIVER)[super::INCLINATION]),
-            })
+            let value = state.tight_tension() * scales.units.force;
+            let unit = scales.units.angular_speed(scales.radius[DRIVEN]);
+            let speed = state.driven_speed() * unit;
+            let exit = state.exit(DRIVER)[INCLINATION];
+            Err(not_carried(path.drive, value, limit.reason, [speed, exit]))
         }
     }
+}
+
+/// The refusal of the load of a drive beyond a limit of the tight tension in N, at which the driven pulley has this
+/// speed in rad/s and the belt leaves the driver with this inclination in rad.
+pub(super) fn not_carried(
+    drive: &Drive,
+    limit: f64,
+    reason: LimitReason,
+    [driven_speed, exit_inclination]: [f64; 2],
+) -> SolveError {
+    let tight = drive.pair().load.tight;
+    SolveError::NoSteadyState {
+        quantity: match tight {
+            SpanTension::Tractive(_) => "tight tractive tension",
+            _ => "tight tension",
+        },
+        unit: "N",
+        asked: tight.value(),
+        limit,
+        reason,
+        driven_speed: Some(driven_speed),
+        exit_inclination: Some(exit_inclination),
+    }
+}
+
+/// A solution as a state that has passed its checks, after a search that began at `start`.
+pub(super) fn checked(
+    path: &Path<'_>,
+    solved: Solved,
+    start: Instant,
+) -> Result<SteadyState, SolveError> {
+    let state = steady_state(path, solved, start);
+    state.verified()?;
+    forwards(path.drive, &state).map(|()| state)
 }
 
 /// Refuses a state in which the tight span is the slacker one. Where one tension is stated as tractive and

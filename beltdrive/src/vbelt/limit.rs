@@ -109,11 +109,11 @@ impl Path<'_> {
     pub(super) fn find(&mut self, target: f64) -> Result<Found, Stuck> {
         let direct = match self.at_load(target) {
             Ok(solved) if self.is_before_limit(&solved) => return self.classify(solved),
-            // The effect of ℓ or ε belongs to the state.
-            // Its zones change on the way from one load to another.
+            // Zones change on the way from one load to another.
             Err(stuck) if matches!(self.drive.law, FrictionLaw::VectorEpp { .. }) => {
                 return Err(stuck);
             }
+            // The effect of ℓ or ε belongs to the state.
             beyond_or_stuck => beyond_or_stuck.map(|solved| (solved, self.smoothing_effect)),
         };
         let slack = self.drive.pair().load.slack.value() / self.scales().units.force;

@@ -117,12 +117,10 @@ impl Tracer<'_> {
         let drive = self.drive_at(value);
         let smoothing = smoothing(&solved.problem);
         let mut path = Path::new(&drive, self.tolerance);
-        let solved = match path.smooth_less(solved.clone(), smoothing, Effort::Full) {
-            Ok(solved) => solved,
-            // The zones may not be those with another ℓ, ε or τ.
-            Err(_) if solved.problem.smoothing() > 0.0 => solved.clone(),
-            Err(stuck) => return not_converged(difficulty::of_solver(&stuck.cause)),
-        };
+        // With another ℓ, ε or τ the zones may not be those of the state.
+        let solved = path
+            .smooth_less(solved.clone(), smoothing, Effort::Full)
+            .unwrap_or_else(|_| solved.clone());
         let smoothing = solved.problem.smoothing();
         self.convergence.slip_normalisation = self.convergence.slip_normalisation.max(smoothing);
         let entry = Entry {

@@ -1,10 +1,9 @@
 //! A V-belt drive in, a steady state or the reason why there is none out.
 
 use super::by_branch::by_branch;
-use super::found::{carried, find, forwards};
+use super::found::{carried, checked, find};
 use super::limit::Found;
 use super::path::{Path, Stuck};
-use super::state::steady_state;
 use crate::{Drive, SolveError, SolveOptions, SteadyState};
 use std::mem::discriminant;
 use web_time::Instant;
@@ -22,7 +21,7 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
     if !is_certain && let Some(answer) = along() {
         return answer;
     }
-    match conclude(path, found, start) {
+    match conclude(&path, found, start) {
         Err(SolveError::Violated(violated)) if is_certain => {
             along().unwrap_or(Err(SolveError::Violated(violated)))
         }
@@ -50,7 +49,7 @@ pub(crate) fn solve_from(
     match path.neighbour(solved) {
         Ok(solved) => {
             let found = path.classify(solved);
-            match conclude(path, found, start) {
+            match conclude(&path, found, start) {
                 Err(SolveError::Violated(_) | SolveError::Impossible(_)) => solve(drive, options),
                 answer => answer,
             }
@@ -61,12 +60,9 @@ pub(crate) fn solve_from(
 
 /// The answer: a state that has passed its checks, or the reason why there is none.
 fn conclude(
-    path: Path<'_>,
+    path: &Path<'_>,
     found: Result<Found, Stuck>,
     start: Instant,
 ) -> Result<SteadyState, SolveError> {
-    let solved = carried(&path, found)?;
-    let state = steady_state(&path, solved, start);
-    state.verified()?;
-    forwards(path.drive, &state).map(|()| state)
+    checked(path, carried(path, found)?, start)
 }
