@@ -43,7 +43,10 @@ impl Collocation<'_> {
                 column += segment.states;
             }
         }
-        self.dependence_without(&vanishing)
+        match vanishing.is_empty() {
+            true => Dependence::default(),
+            false => self.dependence_without(&vanishing),
+        }
     }
 
     /// Whether ∂f/∂y at the stages of the interval at this end is like the inverse of the distance from it.

@@ -5,7 +5,7 @@ use crate::kernels::lu::lu;
 use crate::newton_matrix::dependence::Dependence;
 use crate::newton_matrix::singular::Singular;
 use crate::problem::problem::Segment;
-use faer::Mat;
+use faer::{ColRef, Mat};
 
 /// An equilibrated system, factored: a square one with row pivoting, one with an equation fewer
 /// than unknowns by orthogonal transformations.
@@ -95,27 +95,21 @@ impl EndSystem {
         units: &[f64],
         segments: &[Segment],
     ) -> Dependence {
-        if ranges.is_empty() || self.dependence(first, segments) != Dependence::default() {
+        if self.dependence(first, segments) != Dependence::default() {
             return Dependence::default();
         }
         let mut matrix = self.matrix.clone();
-        for row in matrix.chunks_exact_mut(self.size).skip(first) {
-            for (column, range) in ranges {
-                let states = *column..column + range.nrows();
-                // The columns of the equilibrated matrix are those of C times these.
-                let scales = units[states.clone()]
-                    .iter()
-                    .zip(&self.column_scale[states.clone()]);
-                let scales: Vec<f64> = scales.map(|(unit, scale)| unit * scale).collect();
-                let c: Vec<f64> = row[states.clone()]
-                    .iter()
-                    .zip(&scales)
-                    .map(|(x, d)| x / d)
-                    .collect();
-                for (j, (x, scale)) in row[states].iter_mut().zip(&scales).enumerate() {
-                    let part: f64 = c.iter().enumerate().map(|(i, c)| c * range[(i, j)]).sum();
-                    *x -= part * scale;
-                }
+        // The columns of the equilibrated matrix are those of C times these.
+        let scale = |column: usize| units[column] * self.column_scale[column];
+        for (column, range) in ranges {
+            let (n, scale) = (range.nrows(), |state: usize| scale(column + state));
+            let range = Mat::from_fn(n, n, |i, j| range[(i, j)] * scale(j) / scale(i));
+            for row in matrix.chunks_exact_mut(self.size).skip(first) {
+                let c = &mut row[*column..][..n];
+                let part = ColRef::from_slice(c).transpose() * &range;
+                c.iter_mut()
+                    .zip(part.iter())
+                    .for_each(|(c, part)| *c -= part);
             }
         }
         Dependence::of(&matrix, self.size, first, segments)

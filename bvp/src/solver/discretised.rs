@@ -306,12 +306,7 @@ impl<'a> Discretised<'a> {
         }
         let mut best = solution.clone();
         best.stats = self.cost();
-        Err(Error::SingularConditions {
-            conditions: dependence.conditions,
-            free: dependence.free,
-            shift: false,
-            best: Box::new(best),
-        })
+        Err(numerical(Failure::Ends(dependence), best, self.wanted()))
     }
 
     /// An iterate on the present mesh as a solution.
