@@ -12,6 +12,7 @@ use crate::special_points::branch_point::find_seconds;
 use crate::special_points::limit_point::suspicion;
 use crate::special_points::node::Node;
 use crate::system::system::System;
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 /// Contraction of Newton's method at which the step length stays as it is.
@@ -80,10 +81,10 @@ pub(crate) struct Stepper<'s, 'a, S> {
 
 impl<S: System> Stepper<'_, '_, S> {
     /// The points before the last one that the prediction uses.
-    fn history(&self) -> History {
+    fn history(&self) -> Cow<'_, History> {
         match self.options.predictor {
-            Predictor::Polynomial => self.progress.history.clone(),
-            Predictor::Tangent => History::default(),
+            Predictor::Polynomial => Cow::Borrowed(&self.progress.history),
+            Predictor::Tangent => Cow::Owned(History::default()),
         }
     }
 
