@@ -16,7 +16,7 @@ use super::rim::contact::{Arc, Contact, Place};
 use super::rim::zone::{ContactZone, Developing, Friction, Law};
 use super::row::OnRims;
 use super::{Parameter, Row};
-use crate::mechanics::root::{bracketed, near};
+use crate::mechanics::root::{bracketed, near_with_slope};
 use crate::quantity::Measure;
 use crate::{FrictionLaw, NormalForce, ZoneKind};
 
@@ -66,14 +66,8 @@ pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
                 Creep::with_logarithm(&arc, speed, saturation, logarithm).load(&arc) - load
             };
             let [guess, slope] = guess(&arc, speed, saturation, load);
-            let start = [guess, residual(guess)];
-            let near = near(
-                &mut residual,
-                start,
-                slope,
-                [f64::MIN, saturation.ln()],
-                NEAR,
-            );
+            let range = [f64::MIN, saturation.ln()];
+            let near = near_with_slope(|place| Some(residual(place)), guess, slope, range, NEAR);
             let most = saturation.ln();
             let unit = speed * arc.entry() / arc.belt.stiffness;
             // The slip velocity grows at most by exp(a L (B ± v_s)/v_s) over the arc.
@@ -95,7 +89,7 @@ pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
         displacement: 0.0,
         friction: arc.slip_rate * arc.entry() * creep.entry / saturation,
     };
-    let saturated = creep.end();
+    let saturated = creep.end;
     let mut contact = Contact {
         arc,
         strain: creep.entry / speed,
@@ -103,7 +97,7 @@ pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
             start,
             end: saturated,
             friction: Friction::Developing(Law::Creep(Creeping {
-                logarithm: entry,
+                creep,
                 speed,
                 saturation,
             })),
@@ -152,8 +146,7 @@ fn guess(arc: &Arc, speed: f64, saturation: f64, load: f64) -> [f64; 2] {
 /// Friction a P y/`v_s` with the slip velocity y below `v_s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Creeping {
-    /// Logarithm of the slip velocity at the entry in m/s.
-    logarithm: f64,
+    creep: Creep,
     /// Speed c of the unstretched belt, m/s.
     speed: f64,
     /// Slip velocity `v_s` of full friction, m/s.
@@ -167,12 +160,11 @@ impl Developing for Creeping {
 
     fn at(&self, contact: &Contact, zone: &ContactZone, share: f64) -> Place {
         let Self {
-            logarithm,
+            creep,
             speed,
             saturation,
         } = *self;
         let arc = &contact.arc;
-        let creep = Creep::with_logarithm(arc, speed, saturation, logarithm);
         let extent = zone.end - zone.start.arc_length;
         let distance = (1.0 - share) * extent;
         let velocity = creep.velocity(distance);
@@ -221,6 +213,7 @@ impl Developing for Creeping {
 ///
 /// Where `v_s` is small, x is the small difference of large numbers, so that it is counted from the end,
 /// where it is ln(B/`v_s` ± 1) if friction is fully developed there.
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Creep {
     /// Sense of the friction force, as [`Arc::sense`].
     sense: f64,
@@ -288,11 +281,6 @@ impl Creep {
             true => self.b / exponent.exp_m1(),
             false => self.b / (exponent.exp() + 1.0),
         }
-    }
-
-    /// Where friction is fully developed or the arc ends, m.
-    fn end(&self) -> f64 {
-        self.end
     }
 
     /// The load |ln(P(s)/P(0))| taken up to a distance before the end,

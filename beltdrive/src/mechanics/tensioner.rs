@@ -1,7 +1,7 @@
 //! The tensioner: its equilibrium, its stiffness and how well it holds the tension.
 
 use crate::drive::layout::Layout;
-use crate::mechanics::root::{bracketed, near};
+use crate::mechanics::root::{bracketed, near_with_slope};
 use crate::{Drive, Guide, SolveError, Tensioner};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
@@ -55,17 +55,25 @@ pub(crate) fn length_derivatives(
     ]
 }
 
+/// The largest step of a search for the coordinate of a tensioner on a pulley with a radius in m; rad or m.
+pub(crate) fn largest_step(radius: f64, guide: &Guide) -> f64 {
+    match guide {
+        Guide::Rotary { arm_length, .. } => (0.5 * radius / arm_length).min(LARGEST_ANGLE),
+        Guide::Translating { .. } => 0.5 * radius,
+    }
+}
+
 /// The coordinate nearest to `start`, in the direction in which the idler goes from there, at which the
 /// load Q(q) of the tensioner and the belt are in equilibrium: Q − `F_t` dL/dq = 0; and the belt there.
+/// `layout` is the belt at `start`.
 /// `tractive` gives `F_t` in N, and about how fast it grows with the length of the loop, N/m.
 pub(crate) fn equilibrium(
     drive: &Drive,
-    start: f64,
+    (start, mut layout): (f64, Layout),
     towards: Towards,
     which: &'static str,
     tractive: impl FnMut(&Layout) -> Result<[f64; 2], SolveError>,
 ) -> Result<(f64, Layout), SolveError> {
-    let mut layout = drive.layout(start)?;
     let Some(carried) = drive.tensioner() else {
         return Ok((start, layout));
     };
@@ -122,12 +130,10 @@ impl Search<'_> {
                 load_slope - tension * curvature - per_length * slope * slope,
             ])
         };
-        let radius = drive.pulleys[pulley].radius;
-        let (largest, longest) = match guide {
-            Guide::Rotary { arm_length, .. } => {
-                ((0.5 * radius / arm_length).min(LARGEST_ANGLE), TAU)
-            }
-            Guide::Translating { .. } => (0.5 * radius, f64::INFINITY),
+        let largest = largest_step(drive.pulleys[pulley].radius, guide);
+        let longest = match guide {
+            Guide::Rotary { .. } => TAU,
+            Guide::Translating { .. } => f64::INFINITY,
         };
         let [at_start, slope] = force(start)?;
         if at_start == 0.0 {
@@ -147,8 +153,12 @@ impl Search<'_> {
             let ends =
                 [-NEAR * largest, (1.0 + NEAR) * largest].map(|way| here.0 + direction * way);
             let ends = [ends[0].min(ends[1]), ends[0].max(ends[1])];
-            let at = |coordinate| force(coordinate).map_or(f64::NAN, |[force, _]| force);
-            if let Some(found) = near(at, [here.0, here.1], slope, ends, NEAR * largest) {
+            let (start, precision) = (here.0, NEAR * largest);
+            let at = |coordinate: f64| match coordinate == here.0 {
+                true => Some(here.1),
+                false => force(coordinate).ok().map(|[force, _]| force),
+            };
+            if let Some(found) = near_with_slope(at, start, slope, ends, precision) {
                 return Ok(found);
             }
             let next = here.0 + direction * step;

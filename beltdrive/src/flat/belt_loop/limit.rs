@@ -1,10 +1,8 @@
 //! How much of its load a loop carries: the load factor limit, and gross slip.
 
-use super::closing::{Closing, Known};
+use super::equations::Equations;
 use super::problem::{Loaded, Problem};
-use crate::drive::layout::Layout;
 use crate::mechanics::root::bracketed;
-use crate::mechanics::tensioner::equilibrium;
 use crate::results::loop_state::LoadLimit;
 use crate::{FrictionLaw, LoadedState, SolveError};
 
@@ -25,7 +23,7 @@ pub(super) fn load_limit(
     formal: Option<&LoadedState>,
 ) -> Result<Option<LoadLimit>, SolveError> {
     let state_at = |factor: f64| {
-        let loaded = problem.loaded(factor, FrictionLaw::Coulomb)?;
+        let loaded = problem.loaded(factor, FrictionLaw::Coulomb, None)?;
         Ok::<_, SolveError>(judged(problem, &loaded))
     };
     let at = |factor: f64| state_at(factor).map(|state| excess(state.as_ref()));
@@ -34,8 +32,8 @@ pub(super) fn load_limit(
         return Ok(None);
     }
     if at_whole < 0.0
-        && let Some(factor) = first_slip(problem, whole)
-        && let Ok(Some(state)) = state_at(factor)
+        && let Some((factor, loaded)) = first_slip(problem, whole)
+        && let Some(state) = judged(problem, &loaded)
         && excess(Some(&state)).abs() < AT_SLIP
     {
         let (pulley, _) = largest(&state);
@@ -94,31 +92,12 @@ pub(super) fn load_limit(
     })
 }
 
-/// The load factor limit, above 1, at the equilibrium of the tensioner next to that of the whole load, if it
-/// is found at once.
-fn first_slip(problem: &Problem<'_>, whole: &Loaded) -> Option<f64> {
-    let carried = problem.drive.tensioner();
-    let idler = carried.map_or(0, |(pulley, _)| pulley);
-    let known = Known::default();
-    let slips_first = |layout: &Layout| {
-        Closing::new(problem, layout, FrictionLaw::Coulomb, 1.0, &known).slips_first(idler)
-    };
-    let lost = SolveError::NotFound {
-        what: "load factor limit",
-    };
-    let (_, layout) = equilibrium(
-        problem.drive,
-        whole.coordinate,
-        problem.towards,
-        "at the load factor limit",
-        |layout| {
-            let [_, tractive] = slips_first(layout).ok_or(lost.clone())?;
-            Ok([tractive, problem.tension_per_length()])
-        },
-    )
-    .ok()?;
-    let [factor, _] = slips_first(&layout)?;
-    (1.0 < factor && factor < LARGEST).then_some(factor)
+/// The load factor limit, above 1, and the loop there, if it is found at once from the loop under its whole load.
+fn first_slip(problem: &Problem<'_>, whole: &Loaded) -> Option<(f64, Loaded)> {
+    let equations = Equations::new(problem, FrictionLaw::Coulomb, &whole.layout);
+    let start = equations.guess_of_slip(whole.state()?);
+    let (loaded, factor) = equations.loaded::<4>(start)?;
+    (1.0 < factor && factor < LARGEST).then_some((factor, loaded))
 }
 
 /// Whether a pulley slips grossly.

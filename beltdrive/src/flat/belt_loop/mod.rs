@@ -3,6 +3,7 @@
 mod checks;
 mod closing;
 mod elongation;
+mod equations;
 mod limit;
 mod loads;
 mod problem;

@@ -1,6 +1,7 @@
 //! A loop with its torques: without them, and under a share of them.
 
-use super::closing::{Closing, Known, Target};
+use super::closing::{Closing, Target};
+use super::equations::{Equations, Unknowns};
 use super::loads::Loads;
 use super::rest::{Rest, rest_of_length};
 use super::running::RunningBelt;
@@ -17,6 +18,14 @@ pub(super) struct Loaded {
     pub(super) belt: Option<RunningBelt>,
 }
 
+impl Loaded {
+    /// The unknowns of its equations under its whole load, if it presses on all pulleys.
+    pub(super) fn state(&self) -> Option<Unknowns> {
+        let belt = self.belt.as_ref()?;
+        Some([belt.slackest, belt.speed, self.coordinate, 1.0])
+    }
+}
+
 /// A loop with its torques and what its closure asks of the running belt.
 pub(super) struct Problem<'l> {
     pub(super) drive: &'l Drive,
@@ -27,15 +36,15 @@ pub(super) struct Problem<'l> {
     pub(super) driver: usize,
     /// Circumferential speed R ω of the driver, m/s.
     pub(super) rim: f64,
-    /// Where the equilibrium of the tensioner is sought from.
-    pub(super) start: f64,
+    /// Where the equilibrium of the tensioner is sought from, and the belt there.
+    pub(super) start: (f64, Layout),
     pub(super) towards: Towards,
 }
 
 impl Problem<'_> {
-    /// Coordinate of the tensioner in the running loop without torques, whose tension is uniform; an error
-    /// if the belt lifts off.
-    pub(super) fn unloaded(&self) -> Result<f64, SolveError> {
+    /// Coordinate of the tensioner in the running loop without torques, whose tension is uniform, and the belt
+    /// there; an error if the belt lifts off.
+    pub(super) fn unloaded(&self) -> Result<(f64, Layout), SolveError> {
         let belt = self.drive.belt;
         let rim = self.rim;
         let tractive = |layout: &Layout| {
@@ -50,10 +59,10 @@ impl Problem<'_> {
             let flow = belt.mass_per_length * rim / (1.0 + strain);
             belt.axial_stiffness * strain - flow * rim
         };
-        let presses = |coordinate: f64| {
-            let tractive_tension = tractive(&self.drive.layout(coordinate)?);
+        let presses = |layout: &Layout| {
+            let tractive_tension = tractive(layout);
             match tractive_tension > 0.0 {
-                true => Ok(coordinate),
+                true => Ok(()),
                 false => Err(SolveError::LiftsOff {
                     tractive_tension,
                     speed: rim,
@@ -63,37 +72,52 @@ impl Problem<'_> {
         };
         let found = equilibrium(
             self.drive,
-            self.start,
+            self.start.clone(),
             self.towards,
             "without load",
             |layout| Ok([tractive(layout), self.tension_per_length()]),
         );
         match found {
-            Ok((coordinate, _)) => presses(coordinate),
-            Err(error) => Err(presses(self.start).err().unwrap_or(error)),
+            Ok(found) => presses(&found.1).map(|()| found),
+            Err(error) => Err(presses(&self.start.1).err().unwrap_or(error)),
         }
     }
 
-    /// The loop under its torques multiplied by a factor.
-    pub(super) fn loaded(&self, factor: f64, law: FrictionLaw) -> Result<Loaded, SolveError> {
+    /// The loop under its torques multiplied by a factor; sought from a neighbouring state, if there is one.
+    pub(super) fn loaded(
+        &self,
+        factor: f64,
+        law: FrictionLaw,
+        neighbour: Option<&Loaded>,
+    ) -> Result<Loaded, SolveError> {
+        let (coordinate, ref layout) = self.start;
+        let (coordinate, layout) = neighbour.map_or((coordinate, layout), |neighbour| {
+            (neighbour.coordinate, &neighbour.layout)
+        });
+        let equations = Equations::new(self, law, layout);
+        let start = neighbour
+            .and_then(Loaded::state)
+            .unwrap_or_else(|| equations.guess(coordinate, factor));
+        if let Some((loaded, _)) = equations.loaded::<3>(start) {
+            return Ok(loaded);
+        }
         let lost = SolveError::NotFound {
             what: "tension of the running belt",
         };
         let pulley = self.drive.tensioner().map_or(0, |(pulley, _)| pulley);
-        let known = Known::default();
         let (coordinate, layout) = equilibrium(
             self.drive,
-            self.start,
+            (coordinate, layout.clone()),
             self.towards,
             "under load",
             |layout| {
-                let running = Closing::new(self, layout, law, factor, &known);
+                let running = Closing::new(self, layout, law, factor);
                 let tractive = running.closed_tractive(pulley);
                 let tractive = tractive.map_err(|()| lost.clone())?;
                 Ok([tractive, self.tension_per_length()])
             },
         )?;
-        let belt = Closing::new(self, &layout, law, factor, &known).closed();
+        let belt = Closing::new(self, &layout, law, factor).closed();
         Ok(Loaded {
             coordinate,
             belt: belt.map_err(|()| lost)?,
@@ -115,7 +139,11 @@ impl Problem<'_> {
     pub(super) fn rest_of(&self, loaded: &Loaded) -> Result<Option<Rest>, SolveError> {
         let rest = loaded.belt.as_ref().map(|belt| {
             let unstretched = loaded.layout.length() - belt.elongation;
-            rest_of_length(self.drive, loaded.coordinate, unstretched)
+            rest_of_length(
+                self.drive,
+                (loaded.coordinate, loaded.layout.clone()),
+                unstretched,
+            )
         });
         rest.transpose()
     }

@@ -17,21 +17,25 @@ pub(super) struct Rest {
 }
 
 /// The belt at rest where its length or its tension at rest is given.
-pub(super) fn rest_of_closure(drive: &Drive, start: f64) -> Result<Rest, SolveError> {
+/// The search for it begins with the belt round a tensioner at a coordinate.
+pub(super) fn rest_of_closure(
+    drive: &Drive,
+    (start, layout): (f64, Layout),
+) -> Result<Rest, SolveError> {
     let axial = drive.belt.axial_stiffness;
     let (coordinate, layout) = match drive.closure {
         Closure::UnstretchedLength(length) => {
-            return rest_of_length(drive, start, length);
+            return rest_of_length(drive, (start, layout), length);
         }
         Closure::SetupTension(tension) => {
-            equilibrium(drive, start, Towards::Newton, "at rest", |_| {
+            equilibrium(drive, (start, layout), Towards::Newton, "at rest", |_| {
                 Ok([tension, 0.0])
             })?
         }
         Closure::RestCoordinate(_)
         | Closure::SpanTension { .. }
         | Closure::SpanTractiveTension { .. }
-        | Closure::BothSpans(_) => (start, drive.layout(start)?),
+        | Closure::BothSpans(_) => (start, layout),
     };
     let tension = match (drive.closure, drive.tensioner()) {
         (Closure::RestCoordinate(_), Some((pulley, tensioner))) => {
@@ -54,18 +58,26 @@ pub(super) fn rest_of_closure(drive: &Drive, start: f64) -> Result<Rest, SolveEr
 }
 
 /// The belt of a given unstretched length at rest.
-pub(super) fn rest_of_length(drive: &Drive, start: f64, length: f64) -> Result<Rest, SolveError> {
+pub(super) fn rest_of_length(
+    drive: &Drive,
+    (start, layout): (f64, Layout),
+    length: f64,
+) -> Result<Rest, SolveError> {
     let axial = drive.belt.axial_stiffness;
     let tension = |layout: &Layout| axial * ((layout.length() - length) / length);
-    let found = equilibrium(drive, start, Towards::Force, "at rest", |layout| {
-        Ok([tension(layout), axial / length])
-    });
+    let at_start = tension(&layout);
+    let found = equilibrium(
+        drive,
+        (start, layout),
+        Towards::Force,
+        "at rest",
+        |layout| Ok([tension(layout), axial / length]),
+    );
     let (coordinate, layout) = match found {
         Ok(found) => found,
         Err(error) => {
-            let tension = tension(&drive.layout(start)?);
-            return Err(match tension <= 0.0 {
-                true => SolveError::Slack { tension },
+            return Err(match at_start <= 0.0 {
+                true => SolveError::Slack { tension: at_start },
                 false => error,
             });
         }

@@ -1,5 +1,6 @@
 //! The running belt on pulleys at fixed places with a given tension: its speed and its contacts.
 
+use super::closing::Target;
 use super::elongation::{self, elongation};
 use super::loads::Loads;
 use super::problem::Problem;
@@ -7,9 +8,8 @@ use crate::drive::layout::Layout;
 use crate::friction::coulomb;
 use crate::friction::rim::contact::{Arc, Contact};
 use crate::friction::rim::traction::Traction;
-use crate::mechanics::root::{ESTIMATED, bracketed, near_with_slope};
+use crate::mechanics::root::{bracketed, near_with_slope};
 use crate::{FrictionLaw, NormalForce, Pulley};
-use std::cell::Cell;
 
 /// A tension in place of 0, N: its ratio to any other is a number.
 pub(super) const LOOSEST: f64 = 1e-200;
@@ -17,9 +17,6 @@ pub(super) const LOOSEST: f64 = 1e-200;
 /// The last step of the secant method for the belt speed, relative. Its error is about this times the step
 /// before.
 const SPEED: f64 = 1e-13;
-
-/// Most turns for the tension at which the first pulley slips: three to five are usual.
-const TURNS: usize = 12;
 
 /// Pulleys at fixed places, their loads and a friction law.
 #[derive(Clone, Copy)]
@@ -29,18 +26,29 @@ pub(super) struct Running<'p> {
     pub(super) law: FrictionLaw,
     /// Factor on all torques.
     pub(super) factor: f64,
-    /// Speed that was just found over its guess, and slope of what is to vanish there.
-    pub(super) known: &'p Cell<Option<[f64; 2]>>,
 }
 
 /// The belt at a speed.
 #[derive(Clone, Copy)]
 pub(super) struct Moving {
     /// Speed c of the unstretched belt, m/s.
-    speed: f64,
+    pub(super) speed: f64,
+    /// Tension of the slackest span as in [`Running::moving`], N.
+    slackest: f64,
     pub(super) belt: Traction,
     /// Traction of the slackest span, N.
     pub(super) lowest: f64,
+}
+
+/// How tight a belt is.
+#[derive(Clone, Copy)]
+pub(super) struct Tightness {
+    /// By how much it is tighter than the closure asks for, m or N.
+    pub(super) surplus: f64,
+    /// What that is measured with.
+    pub(super) scale: f64,
+    /// Traction at which it would run as fast as the rim of the driver, N.
+    pub(super) reference: f64,
 }
 
 /// The running belt.
@@ -48,6 +56,8 @@ pub(super) struct Moving {
 pub(super) struct RunningBelt {
     /// Speed c of the unstretched belt, m/s.
     pub(super) speed: f64,
+    /// Tension of the slackest span as in [`Running::moving`], N.
+    pub(super) slackest: f64,
     /// The moving belt.
     pub(super) belt: Traction,
     /// Traction P of each span, N.
@@ -78,14 +88,12 @@ impl<'p> Running<'p> {
         layout: &'p Layout,
         law: FrictionLaw,
         factor: f64,
-        known: &'p Cell<Option<[f64; 2]>>,
     ) -> Self {
         Self {
             problem,
             layout,
             law,
             factor,
-            known,
         }
     }
 
@@ -112,7 +120,7 @@ impl<'p> Running<'p> {
 
     /// The belt at a speed c. `slackest` is the tension of the slackest span with the convention `thesis`,
     /// where it enters the speed of that span, and its tractive tension with others, N.
-    fn moving(&self, speed: f64, slackest: f64) -> Moving {
+    pub(super) fn moving(&self, speed: f64, slackest: f64) -> Moving {
         let belt = self.problem.drive.belt;
         let (mass, axial) = (belt.mass_per_length, belt.axial_stiffness);
         let convention = self.problem.convention;
@@ -124,6 +132,7 @@ impl<'p> Running<'p> {
         let belt = Traction::new(convention, mass, axial, reference);
         Moving {
             speed,
+            slackest,
             belt,
             lowest: match is_thesis {
                 true => belt.of_tension(slackest),
@@ -138,11 +147,12 @@ impl<'p> Running<'p> {
         Some(self.moving(speed, slackest))
     }
 
-    /// Speed c of the belt with the tractive tension `F_o` where it runs as fast as the rim of the driver:
-    /// m R ω c² + (EA + `F_o`) c = R ω EA. It is below the critical speed.
-    fn rigid_speed(&self, reference: f64) -> f64 {
+    /// Speed c of the belt if it runs as fast as the rim of the driver with the tractive tension `F_o` where it
+    /// enters: m R ω c² + (EA + `F_o`) c = R ω EA. It is below the critical speed.
+    pub(super) fn rigid_speed(&self, slackest: f64) -> f64 {
         let (belt, rim) = (self.problem.drive.belt, self.problem.rim);
-        let linear = belt.axial_stiffness + reference;
+        let [behind, _] = self.spans(self.problem.driver);
+        let linear = belt.axial_stiffness + slackest + self.offset(behind);
         let constant = rim * belt.axial_stiffness;
         let root = (linear * linear + 4.0 * belt.mass_per_length * rim * constant).sqrt();
         2.0 * constant / (linear + root)
@@ -176,51 +186,40 @@ impl<'p> Running<'p> {
         }
     }
 
-    /// Speed c of the belt, which the driver turns with at its reference tension: c (1 + `T_o`/EA) = R ω.
-    fn speed(&self, slackest: f64) -> Option<f64> {
+    /// Traction at which the belt would run as fast as the rim of the driver, N.
+    fn reference(&self, moving: Moving) -> Option<f64> {
         let driver = self.problem.driver;
-        let [behind, _] = self.spans(driver);
-        let offset = self.offset(behind);
-        let guess = self.rigid_speed(slackest + offset);
-        let reference = |moving: Moving| match self.law {
-            FrictionLaw::Coulomb => Some(moving.lowest + offset),
+        match self.law {
+            FrictionLaw::Coulomb => Some(self.arc(driver, moving).entry()),
             _ => Some(self.contact(driver, moving)?.reference()),
-        };
-        let excess = |speed: f64| {
-            let moving = self.moving(speed, slackest);
-            let reference = reference(moving);
-            reference.map_or(f64::NAN, |reference| {
-                speed * (1.0 + moving.belt.strain(reference)) / self.problem.rim - 1.0
-            })
-        };
-        match (self.law, self.problem.convention) {
-            (FrictionLaw::Coulomb, NormalForce::Inertia | NormalForce::Exact) => Some(guess),
-            _ => self.speed_near(guess, excess),
         }
     }
 
-    /// The speed near a guess at which the driver takes the belt along.
-    fn speed_near(&self, guess: f64, excess: impl Fn(f64) -> f64) -> Option<f64> {
-        let range = [0.5 * guess, 2.0 * guess];
-        let ([faster, slope], first) = match self.known.get() {
-            Some(known) => (known, SPEED),
-            None => ([1.0, 1.0], ESTIMATED * SPEED),
-        };
-        let start = faster * guess;
-        let found = near_with_slope(
-            &excess,
-            [start, excess(start)],
-            slope / guess,
-            range,
-            [first, SPEED].map(|within| within * guess),
-        );
-        self.known
-            .set(found.map(|[speed, slope]| [speed / guess, slope * guess]));
-        if let Some([speed, _]) = found {
-            return Some(speed);
+    /// By how much the belt is faster than the rim of the driver at its reference traction, relative.
+    pub(super) fn outruns(&self, moving: Moving, reference: f64) -> f64 {
+        moving.speed * (1.0 + moving.belt.strain(reference)) / self.problem.rim - 1.0
+    }
+
+    /// Speed c of the belt, which the driver turns with at its reference tension: c (1 + `T_o`/EA) = R ω.
+    fn speed(&self, slackest: f64) -> Option<f64> {
+        let guess = self.rigid_speed(slackest);
+        if let (FrictionLaw::Coulomb, NormalForce::Inertia | NormalForce::Exact) =
+            (self.law, self.problem.convention)
+        {
+            return Some(guess);
         }
-        let at_guess = excess(guess);
-        let bound = match at_guess < 0.0 {
+        let excess = |speed: f64| {
+            let moving = self.moving(speed, slackest);
+            Some(self.outruns(moving, self.reference(moving)?))
+        };
+        let range = [0.5 * guess, 2.0 * guess];
+        let found = near_with_slope(excess, guess, guess.recip(), range, SPEED * guess);
+        if found.is_some() {
+            return found;
+        }
+        let excess = |speed: f64| excess(speed).unwrap_or(f64::NAN);
+        let start = excess(guess);
+        let bound = match start < 0.0 {
             // The belt outruns a driver that is driven.
             true => {
                 let belt = self.problem.drive.belt;
@@ -229,14 +228,14 @@ impl<'p> Running<'p> {
             }
             false => f64::EPSILON * guess,
         };
-        bracketed(&excess, [bound, guess], [excess(bound), at_guess])
+        bracketed(excess, [bound, guess], [excess(bound), start])
     }
 
     /// The running belt with a tension of the slackest span as in [`Self::moving`], N, whatever the closure.
-    pub(super) fn at(&self, slackest: f64) -> Option<RunningBelt> {
-        let moving = self.moving_with(slackest)?;
+    pub(super) fn at(&self, moving: Moving) -> Option<RunningBelt> {
         let Moving {
             speed,
+            slackest,
             belt,
             lowest,
         } = moving;
@@ -247,6 +246,7 @@ impl<'p> Running<'p> {
         let changes = self.problem.loads.changes.iter();
         Some(RunningBelt {
             speed,
+            slackest,
             belt,
             tractive: (0..count).map(|span| self.tractive(moving, span)).collect(),
             tractions: (0..count).map(|span| lowest + self.offset(span)).collect(),
@@ -279,16 +279,49 @@ impl<'p> Running<'p> {
         spans.sum()
     }
 
-    /// L − `L_0`, m; `None` if a pulley does not carry its load.
-    pub(super) fn elongation(&self, moving: Moving) -> Option<f64> {
-        let mut sum = self.on_spans(moving);
+    /// How tight the belt is; `None` if a pulley does not carry its load.
+    pub(super) fn tightness(&self, moving: Moving) -> Option<Tightness> {
+        let (found, tension) = match self.problem.target {
+            Target::Unstretched { length, elongation } => {
+                let asked = (self.layout.length() - length) + elongation;
+                return self.elongated(moving, asked);
+            }
+            Target::Tension { span, tension } => {
+                let traction = moving.lowest + self.offset(span);
+                (moving.belt.tension(traction), tension)
+            }
+            Target::TractiveTension { span, tension } => (self.tractive(moving, span), tension),
+        };
+        Some(Tightness {
+            surplus: found - tension,
+            scale: tension,
+            reference: self.reference(moving)?,
+        })
+    }
+
+    /// How tight the belt is if L − `L_0` is asked for, m.
+    fn elongated(&self, moving: Moving, asked: f64) -> Option<Tightness> {
+        let mut found = self.on_spans(moving);
+        let mut reference = f64::NAN;
         for pulley in 0..self.layout.wraps().len() {
-            sum += match self.law {
-                FrictionLaw::Coulomb => elongation::rigid(&self.arc(pulley, moving)),
-                _ => elongation(&self.contact(pulley, moving)?),
+            let arc = self.arc(pulley, moving);
+            let (on_pulley, entered) = match self.law {
+                FrictionLaw::Coulomb => (elongation::rigid(&arc), arc.entry()),
+                _ => {
+                    let contact = self.contact(pulley, moving)?;
+                    (elongation(&contact), contact.reference())
+                }
             };
+            found += on_pulley;
+            if pulley == self.problem.driver {
+                reference = entered;
+            }
         }
-        Some(sum)
+        Some(Tightness {
+            surplus: found - asked,
+            scale: found,
+            reference,
+        })
     }
 
     /// Below this tension of the slackest span, as in [`Self::moving`], a pulley slips grossly, N.
@@ -299,26 +332,6 @@ impl<'p> Running<'p> {
             NormalForce::Thesis if fastest.belt.stiffness <= 0.0 => 0.0,
             _ => self.slipping_at(fastest.belt),
         }
-    }
-
-    /// The tension of the slackest span as in [`Self::moving`] at which the first pulley slips, N, from one near it.
-    /// With the convention `thesis` capacities depend on the speed, but little: each turn divides the error by
-    /// EA/(m c²) at least.
-    pub(super) fn slackest_slipping(&self, near: f64) -> Option<f64> {
-        if self.problem.convention != NormalForce::Thesis {
-            return Some(near);
-        }
-        let mut slackest = near;
-        for _ in 0..TURNS {
-            let Moving { belt, .. } = self.moving_with(slackest)?;
-            let next = belt.tension(self.slipping_at(belt));
-            let change = (next - slackest).abs();
-            slackest = next;
-            if change <= SPEED * slackest {
-                return Some(slackest);
-            }
-        }
-        None
     }
 
     /// The traction of the slackest span of a moving belt at which the first pulley slips, N.

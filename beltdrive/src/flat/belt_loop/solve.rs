@@ -80,14 +80,14 @@ pub(crate) fn solve(drive: &Drive) -> Result<LoopState, SolveError> {
 /// checks.
 fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopState, SolveError> {
     let start = drive.start_coordinate();
-    drive.layout(start)?;
+    let layout = drive.layout(start)?;
     let (rest, target) = match drive.closure {
         Closure::SpanTension { span, tension } => (None, Target::Tension { span, tension }),
         Closure::SpanTractiveTension { span, tension } => {
             (None, Target::TractiveTension { span, tension })
         }
         _ => {
-            let rest = rest_of_closure(drive, start)?;
+            let rest = rest_of_closure(drive, (start, layout.clone()))?;
             let length = rest.layout.length();
             let strain = rest.tension / drive.belt.axial_stiffness;
             let elongation = length * strain / (1.0 + strain);
@@ -104,14 +104,16 @@ fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopSt
         },
         driver: drive.driver(),
         rim: drive.rim_speed(),
-        start: rest.as_ref().map_or(start, |rest| rest.coordinate),
+        start: rest.as_ref().map_or((start, layout), |rest| {
+            (rest.coordinate, rest.layout.clone())
+        }),
         towards: match rest {
             Some(_) => Towards::Force,
             None => Towards::Newton,
         },
     };
     problem.start = problem.unloaded()?;
-    let rigid = problem.loaded(1.0, FrictionLaw::Coulomb)?;
+    let rigid = problem.loaded(1.0, FrictionLaw::Coulomb, None)?;
     let rest = match rest {
         Some(rest) => Some(rest),
         None => problem.rest_of(&rigid)?,
@@ -128,10 +130,7 @@ fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopSt
     };
     let loaded = match drive.law {
         FrictionLaw::Coulomb => rigid,
-        _ => {
-            problem.start = rigid.coordinate;
-            problem.loaded(1.0, drive.law)?
-        }
+        _ => problem.loaded(1.0, drive.law, Some(&rigid))?,
     };
     let rest = match drive.closure {
         Closure::SpanTension { .. } | Closure::SpanTractiveTension { .. } => {

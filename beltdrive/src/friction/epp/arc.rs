@@ -1,10 +1,14 @@
 //! An arc whose friction is elastic up to its limit.
 
-use super::zone::{Elastic, elastic};
+use super::zone::Elastic;
 use crate::friction::rim::contact::{Arc, Contact, Place};
 use crate::friction::rim::zone::{ContactZone, Friction, Law};
-use crate::mechanics::root::bracketed;
+use crate::mechanics::root::{bracketed, near_with_slope};
 use std::cell::Cell;
+
+/// The last step of the secant method for the place where slip begins, relative to the arc. Its error is about this
+/// times the step before.
+const NEAR: f64 = 1e-11;
 
 /// An arc with elastic friction.
 pub(super) struct ElasticArc {
@@ -40,7 +44,10 @@ impl ElasticArc {
     fn transition(&self, coordinate: f64) -> Option<Transition> {
         self.evaluations.set(self.evaluations.get() + 1);
         let Arc { belt, sense, .. } = self.arc;
-        let reach = sense * self.arc.slip_rate / self.rate * (0.5 * self.rate * coordinate).tanh();
+        let decayed = (-self.rate * coordinate).exp_m1();
+        // tanh(w σ/2)
+        let share = -decayed / (2.0 + decayed);
+        let reach = sense * self.arc.slip_rate / self.rate * share;
         let square = reach * belt.stretch_slope();
         let linear = 1.0 - reach * belt.stretch_offset();
         let root = (linear * linear - 4.0 * square * self.arc.entry()).sqrt();
@@ -63,8 +70,9 @@ impl ElasticArc {
 
     /// The strain e = w |u|/sinh(w σ) at the entry of an elastic zone that ends at σ with |u|.
     fn strain(&self, coordinate: f64, displacement: f64) -> f64 {
-        let [_, slope] = elastic(self.rate, coordinate, [0.0, displacement], 0.0);
-        slope
+        let exponent = -self.rate * coordinate;
+        let decay = exponent.exp();
+        -2.0 * self.rate * displacement * decay / (exponent.exp_m1() * (1.0 + decay))
     }
 
     /// Arc length s at σ from the entry, where the displacement is |u|: with `P_o = P(0) ∓ D e`,
@@ -82,6 +90,45 @@ impl ElasticArc {
         }
     }
 
+    /// Whether elastic friction reaches its limit from below wherever slip begins.
+    fn never_touches(&self) -> bool {
+        let Arc { belt, sense, .. } = self.arc;
+        belt.stretch_slope() == 0.0 && (sense < 0.0 || self.rate >= self.arc.slip_rate)
+    }
+
+    /// Slope of elastic friction less that of its limit where slip begins, over `k_f` |u₁|.
+    fn gap(&self, transition: &Transition) -> f64 {
+        let Arc { belt, sense, .. } = self.arc;
+        let traction = transition.place.traction;
+        let steepening = belt.stretch_slope() * traction;
+        let limit = self.arc.slip_rate * (belt.stretch(traction) + steepening);
+        self.rate / (self.rate * transition.coordinate).tanh() - sense * limit
+    }
+
+    /// The contact with a load, if it is found at once from a belt that slips where elastic friction would need no
+    /// room to develop.
+    pub(super) fn near(&self, load: f64) -> Option<Contact> {
+        let Arc {
+            belt,
+            slip_rate,
+            length,
+            ..
+        } = self.arc;
+        let stretch = belt.stretch(self.arc.entry());
+        let (guess, slope) = ((length - load / slip_rate) / stretch, -slip_rate * stretch);
+        let residual = |coordinate| Some(self.load(coordinate)? - load);
+        let range = [0.0, 2.0 * length / stretch];
+        let coordinate = near_with_slope(residual, guess, slope, range, NEAR * length)?;
+        let transition = self.transition(coordinate)?;
+        if !self.never_touches() && self.gap(&transition) < 0.0 {
+            return None;
+        }
+        match transition.place.arc_length < length {
+            true => self.slipping(coordinate),
+            false => self.all_elastic(),
+        }
+    }
+
     /// The last coordinate at which slip can begin: where the arc ends, or where elastic friction only
     /// touches its limit.
     pub(super) fn last_transition(&self) -> Option<f64> {
@@ -92,17 +139,12 @@ impl ElasticArc {
             true => entered,
             false => self.arc.length / belt.stretch_offset(),
         };
-        if belt.stretch_slope() == 0.0 && (sense < 0.0 || self.rate >= self.arc.slip_rate) {
+        if self.never_touches() {
             return Some(longest);
         }
-        // Slope of elastic friction less that of its limit, over k_f |u₁|.
         let gap = |coordinate: f64| {
-            self.transition(coordinate).map_or(-1.0, |transition| {
-                let steepening = belt.stretch_slope() * transition.place.traction;
-                let limit =
-                    self.arc.slip_rate * (belt.stretch(transition.place.traction) + steepening);
-                self.rate / (self.rate * coordinate).tanh() - sense * limit
-            })
+            self.transition(coordinate)
+                .map_or(-1.0, |found| self.gap(&found))
         };
         let at_end = gap(longest);
         let last = match at_end < 0.0 {

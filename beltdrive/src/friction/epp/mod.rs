@@ -81,6 +81,9 @@ pub(crate) fn solve(arc: Arc, stiffness: f64) -> Option<Contact> {
     if load >= arc.capacity() {
         return None;
     }
+    if let Some(contact) = elastic.near(load) {
+        return Some(contact);
+    }
     let last = elastic.last_transition()?;
     let excess = elastic.load(last)? - load;
     if excess >= 0.0 {
@@ -109,4 +112,32 @@ pub(crate) fn smallest_stiffness(arc: Arc) -> Option<f64> {
     let ends = [softest, stiffest.max(softest + 1.0)];
     let root = bracketed(excess, ends, ends.map(excess))?;
     Some(root.exp())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::NormalForce;
+    use crate::friction::rim::traction::Traction;
+
+    #[test]
+    fn where_slip_begins_is_found_in_few_evaluations() {
+        for normal_force in NormalForce::ALL {
+            let belt = Traction::new(normal_force, 0.1, 1e5, 20.0);
+            for sense in [1.0, -1.0] {
+                let arc = Arc {
+                    belt,
+                    sense,
+                    slip_rate: belt.slip_rate(0.5, 0.1),
+                    length: 0.3,
+                    low: 300.0,
+                    change: 200.0,
+                };
+                let contact = solve(arc, 1e8).unwrap();
+                assert_eq!(contact.zones.len(), 2);
+                assert!(contact.evaluations < 8, "{}", contact.evaluations);
+                assert!((contact.end(&contact.zones[1]).traction / arc.exit() - 1.0).abs() < 1e-13);
+            }
+        }
+    }
 }

@@ -22,9 +22,13 @@ pub(super) fn rest_near(
             let grooves = groove_compliances(drive, layout);
             let compliance = length / axial + grooves.iter().sum::<f64>();
             let tension = |layout: &Layout| (layout.length() - length) / compliance;
-            let found = equilibrium(drive, start, Towards::Force, "at rest", |layout| {
-                Ok([tension(layout), compliance.recip()])
-            });
+            let found = equilibrium(
+                drive,
+                (start, layout.clone()),
+                Towards::Force,
+                "at rest",
+                |layout| Ok([tension(layout), compliance.recip()]),
+            );
             match found {
                 Err(_) if tension(layout) <= 0.0 => (start, tension(layout)),
                 found => {
@@ -34,9 +38,13 @@ pub(super) fn rest_near(
             }
         }
         Known::Tension(tension) => {
-            let found = equilibrium(drive, start, Towards::Newton, "at rest", |_| {
-                Ok([tension, 0.0])
-            });
+            let found = equilibrium(
+                drive,
+                (start, layout.clone()),
+                Towards::Newton,
+                "at rest",
+                |_| Ok([tension, 0.0]),
+            );
             (found?.0, tension)
         }
         Known::Equilibrium => {
