@@ -27,12 +27,15 @@ struct Scaled {
 }
 
 impl Kind {
-    fn exact(self, t: f64) -> [f64; 2] {
+    /// The solution at t = 1 − `rest`, both without cancellation: where u is 1e8 in its unit and vanishes at the
+    /// end, the rounding of t would show.
+    fn exact(self, t: f64, rest: f64) -> [f64; 2] {
         match self {
             Self::Layer { width } => {
-                let (down, up) = ((-t / width).exp(), ((t - 2.0) / width).exp());
-                let both = 1.0 - (-2.0 / width).exp();
-                [(down - up) / both, -(down + up) / (both * width)]
+                let (down, up) = ((-t / width).exp(), (-rest / width).exp());
+                let both = -(-2.0 / width).exp_m1();
+                let slope = -(down + up * (-1.0 / width).exp()) / (both * width);
+                [-(-2.0 * rest / width).exp_m1() * down / both, slope]
             }
             Self::Wave { frequency } => {
                 let (sin, cos) = (frequency * t).sin_cos();
@@ -74,7 +77,7 @@ impl Formula for Scaled {
     }
 
     fn residual<T: Real>(&self, a: &[T], b: &[T], _p: &[T], r: &mut [T]) {
-        let (start, end) = (self.kind.exact(0.0), self.kind.exact(1.0));
+        let (start, end) = (self.kind.exact(0.0, 1.0), self.kind.exact(1.0, 0.0));
         let of = |y: &[T], i: usize, u: f64| y[i] - u * self.sizes[i];
         let residuals = match self.kind {
             Kind::Layer { .. } | Kind::Wave { .. } => [of(a, 0, start[0]), of(b, 0, end[0])],
@@ -141,7 +144,8 @@ pub(crate) fn draw(draw: &mut Draw) -> Trial {
         }
     });
     let exact = move |x: f64| {
-        let u = kind.exact((x - start) / length);
+        let (t, rest) = ((x - start) / length, (start + length - x) / length);
+        let u = kind.exact(t, rest);
         [sizes[0] * u[0], sizes[1] * u[1]]
     };
     let guess: Known = match draw.below(3) {
