@@ -69,9 +69,6 @@
 //! * Near a limit point, where a change of the problem by far less than the tolerance makes a solution out of
 //!   none, such a solution may be returned: p² + ε = 0 has one within √ε of zero. Likewise where a condition tends
 //!   to zero at infinity and Newton's corrections become smaller than the tolerance on the way there.
-//! * A linear problem is solved by one step on a mesh. Its rounding, 1e-17, may be 1e-5 of a state of 1e-12 and
-//!   grow with it: of 3334 problems with seeds down to 1e-12 that grow beyond one, 17 were accepted at 1e-9 with
-//!   errors of up to 9300 tolerances, and one at 1e-6.
 //! * The estimate of the error is one of first order. On a mesh that is too coarse for it, it can be too
 //!   small; how often is said below.
 //! * The amplification is a lower bound, by one set of random signs. A direction that these signs do not

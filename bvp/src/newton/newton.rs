@@ -87,10 +87,7 @@ impl Newton {
             // whose own correction is expected to be small, by the curvature of one direction.
             let predicted = 0.5 * self.curvature * size.largest * size.largest;
             if size.largest <= tolerance || fresh && ONE_SAMPLE * predicted <= tolerance {
-                self.trial.set_sum(x, 1.0, &self.delta);
-                std::mem::swap(x, &mut self.trial);
-                self.moved += size.mean;
-                stats.newton_steps += 1;
+                self.full_step(x, size, stats);
                 return Ok(());
             }
             let shrunk = match self.step(collocation, x, size, &mut damping, fresh, stats) {
@@ -126,6 +123,8 @@ impl Newton {
             let next = norm(x, &self.delta);
             let negligible = next.largest <= rounding;
             if negligible && next.mean > KEEP_JACOBIAN_BELOW * size.mean {
+                // It may be one of slow convergence, too.
+                self.full_step(x, next, stats);
                 return Ok(());
             }
             // Prediction of the damping from the curvature seen over the last step.
@@ -142,6 +141,14 @@ impl Newton {
             return Ok(());
         }
         Err(self.no_convergence(collocation, x, size))
+    }
+
+    /// Adds the correction of this size without a check.
+    fn full_step(&mut self, x: &mut Iterate, size: Norm, stats: &mut Stats) {
+        self.trial.set_sum(x, 1.0, &self.delta);
+        std::mem::swap(x, &mut self.trial);
+        self.moved += size.mean;
+        stats.newton_steps += 1;
     }
 
     /// Whether the factors may be those of the iterate to rounding, as those of a linear problem are: ω ‖Δx‖,

@@ -3,16 +3,21 @@
 use crate::accuracy::amplification::{is_amplified, is_high, is_open, is_steady, vanishes};
 use crate::accuracy::further_places::FurtherPlaces;
 use crate::accuracy::rounding::{UNIT_ROUNDOFF, exceeds};
-use crate::discretisation::mesh::{Mesh, halved};
+use crate::discretisation::mesh::{Mesh, halved, intervals};
 use crate::result::error::Error;
 use crate::result::quality::Direction;
 use crate::result::solution::Solution;
-use crate::shares::{AIM, TWO_DIGITS, UNNOTICED};
+use crate::shares::{AIM, INVISIBLE, ONE_SAMPLE, TWO_DIGITS, UNNOTICED};
 use crate::solver::discretised::{Discretised, OnMesh};
+use crate::solver::failure::ill_conditioned;
 
 /// How often a mesh is halved because the solution on it does not seem to be isolated: where that is so by
 /// a coarse mesh alone, a halved one shows it.
 const DOUBTS: usize = 3;
+
+/// Corrections that shrink to no more than this share are not rounding. What is left of one then is at most three
+/// times as large as it; with 0.5, of 540 runs of y′ = y from seeds of 1e-11 to 1e-14 14 more were refused.
+const SHRINKS: f64 = 0.75;
 
 /// What a second look at a solution within the tolerance says.
 pub(crate) enum Confirmed {
@@ -93,6 +98,18 @@ impl Acceptance {
         }
         let in_all = problem.collocation.amplification_in_all(a, &solution.x);
         let grown = problem.growth(&solution.x);
+        // The elimination rounds beside the largest change of a step what the states make of a small one, as the
+        // 1e-12 from which y′ = y grows to 1e3. On every interval that is a forcing as those of the growth, which
+        // are a tolerance in all.
+        let rounding = problem.collocation.amplification_in_all(grown, &solution.x)
+            * UNIT_ROUNDOFF
+            * moved
+            * intervals(&solution.mesh) as f64;
+        if ONE_SAMPLE * rounding > harmless * problem.options.tolerance
+            && self.settles(problem, solution)?
+        {
+            return Ok(Confirmed::Moved);
+        }
         if is_high(in_all) || is_high(grown) || problem.collocation.is_suspect() {
             // Beside its largest value, which need not be where the solution rounds, an amplification that leaves no
             // two digits counts: with less than that flat belts were refused at 1e-12 whose error is smaller.
@@ -178,6 +195,42 @@ impl Acceptance {
             Err(failure) => return Err(problem.failed(failure, x)),
         };
         Ok(true)
+    }
+
+    /// Lets Newton's method go on from a solution until its corrections do not show beside the tolerance, or are
+    /// rounding; returns whether it did.
+    fn settles(
+        &mut self,
+        problem: &mut Discretised<'_>,
+        solution: &mut Solution,
+    ) -> Result<bool, Error> {
+        let tolerance = problem.options.tolerance;
+        let (mut x, mut before) = (solution.x.clone(), f64::INFINITY);
+        loop {
+            let size = match problem.correction(&x) {
+                Ok(size) => size,
+                Err(failure) => return Err(problem.failed(failure, x)),
+            };
+            let shrinks = size <= SHRINKS * before;
+            if !shrinks && size > AIM * tolerance {
+                self.refused = true;
+                let mut best = solution.clone();
+                best.stats = problem.cost();
+                return Err(ill_conditioned(size, tolerance, best));
+            }
+            if !shrinks || size <= INVISIBLE * tolerance {
+                break;
+            }
+            if let Err(failure) = problem.iterate(&mut x) {
+                return Err(problem.failed(failure, x));
+            }
+            before = size;
+        }
+        let moved = before < f64::INFINITY;
+        if moved {
+            *solution = problem.assess(x)?;
+        }
+        Ok(moved)
     }
 
     /// The mesh for what the right-hand side shows of a solution at further places.

@@ -48,6 +48,43 @@ fn growth_from_below_the_tolerance_is_resolved() {
     assert!(solved > 200, "{solved} of 240 solved");
 }
 
+/// y' = y from 1e-12 to beyond 1: the elimination rounds the seed beside what has become of it, so that after
+/// one step of this linear problem up to 1e-5 was wrong everywhere. Steps that shrink the error are taken until
+/// it is small, and where they no longer do the solution is refused.
+#[test]
+fn rounding_beside_what_a_seed_has_become_is_seen() {
+    let mut solved = 0;
+    for (i, tolerance) in (0..60).zip([1e-6, 1e-9, 1e-9].into_iter().cycle()) {
+        let seed = 10f64.powf(-11.0 - 0.05 * f64::from(i));
+        let length = 24.0 + 0.25 * f64::from(i);
+        let problem = TwoPoint::new(
+            [1, 0],
+            [0.0, length],
+            |_s, y, _p, dy| dy[0] = y[0],
+            |start, _end, _p, r| r[0] = start[0] - seed,
+        );
+        for guess in [0.0, 0.5, 3.0] {
+            match solve(&problem, &Constant::new([guess]), &Options::to(tolerance)) {
+                Ok(solution) => {
+                    let error = error(&solution, 0, |x| seed * x.exp());
+                    assert!(
+                        error <= tolerance,
+                        "{seed:e} over {length}, {tolerance:e}: {error:e}"
+                    );
+                    solved += 1;
+                }
+                Err(
+                    Error::IllConditioned { .. }
+                    | Error::SingularConditions { .. }
+                    | Error::MeshLimit { .. },
+                ) => {}
+                Err(other) => panic!("{seed:e} over {length}, {tolerance:e}: {other}"),
+            }
+        }
+    }
+    assert!(solved > 120, "{solved} of 180 solved");
+}
+
 /// An epidemic, s' = −2 s i and i' = 2 s i − i, from an infected share of 1e-13 to 1e-7: without infected there
 /// is a solution, too, and Newton's method, led there by the guess, left the share at what a mesh of three
 /// intervals makes of it. Where the epidemic has passed, s solves s = exp(2 (s − 1)), 0.2031878699799799.
