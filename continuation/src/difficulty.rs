@@ -35,13 +35,13 @@ pub enum Difficulty {
     #[error("the linearised system is singular")]
     Singular,
     /// Newton's method did not converge.
-    #[error("newton: correction {correction:.1e} after {steps} steps, limit {limit:.1e}")]
+    #[error("newton: correction {correction:.1e} after {steps} steps, {}", wanted(*.limit))]
     NoConvergence {
         /// Length of the last correction.
         correction: f64,
         /// Number of corrections.
         steps: usize,
-        /// Length wanted.
+        /// Length wanted; 0 for rounding.
         limit: f64,
     },
     /// Newton's method left the bounds of λ.
@@ -74,4 +74,12 @@ pub enum Difficulty {
         /// Distance of the branches in the arclength norm.
         gap: f64,
     },
+}
+
+/// The length of a correction that was wanted.
+fn wanted(limit: f64) -> String {
+    match limit > 0.0 {
+        true => format!("limit {limit:.1e}"),
+        false => "limit: rounding".to_owned(),
+    }
 }

@@ -40,7 +40,8 @@ pub enum Direction {
 /// The iterator yields the start, every accepted step and every special point in between, in order,
 /// and ends with a reason ([`stop`](Self::stop)). It keeps the last few points only. While points
 /// are drawn by `while let Some(point) = branch.next()`, [`system`](Self::system) is the system in
-/// the discretisation of the last point yielded.
+/// the discretisation of the last point yielded. A `for` loop takes the branch, and its reason with it: write
+/// `for point in branch.by_ref()` to ask for that. The system is borrowed until the branch is dropped.
 pub struct Branch<'a, S: System> {
     curve: Curve<'a, S>,
     events: Events<'a, S>,

@@ -23,13 +23,18 @@ pub(crate) struct Closures {
 impl Closures {
     /// # Panics
     /// If there is no parameter of the number `lambda`.
+    #[track_caller]
     pub(crate) fn new(
         states: usize,
         parameters: &[f64],
         lambda: usize,
         residual: impl Fn(&[f64], &[f64], &mut [f64]) + Send + Sync + 'static,
     ) -> Self {
-        assert!(lambda < parameters.len(), "one of the parameters varies");
+        let count = parameters.len();
+        assert!(
+            lambda < count,
+            "parameter {lambda} is to vary, but there are {count}, numbered from 0"
+        );
         Self {
             states,
             parameters: parameters.to_vec(),
@@ -44,8 +49,13 @@ impl Closures {
     ///
     /// # Panics
     /// If there is no parameter of that number.
+    #[track_caller]
     pub(crate) fn name_second(&mut self, second: usize) {
-        assert!(second < self.parameters.len(), "one of the parameters");
+        let count = self.parameters.len();
+        assert!(
+            second < count,
+            "parameter {second} is to vary, too, but there are {count}, numbered from 0"
+        );
         self.second = Some(second);
     }
 

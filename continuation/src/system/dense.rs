@@ -68,6 +68,7 @@ impl DenseSystem {
     ///
     /// # Panics
     /// If there is no parameter of that number.
+    #[track_caller]
     pub fn new(
         states: usize,
         parameters: &[f64],
@@ -89,17 +90,20 @@ impl DenseSystem {
     /// nor narrow features of G matter to these, as they do to differences.
     ///
     /// ```
-    /// use bvp::Real;
+    /// use bvp::{LeftOf, Real};
     /// use continuation::{Branch, DenseSystem, Differentiable, Direction, Kind, Options};
     ///
     /// /// Steady states of a stirred tank (Uppal, Ray & Poore 1974).
     /// struct Tank;
     ///
     /// impl Differentiable for Tank {
-    ///     fn residual<T: Real>(&self, x: &[T], p: &[T], g: &mut [T]) {
-    ///         let rate = p[0] * (-x[0] + 1.0) * x[1].exp();
+    ///     fn residual<T: Real>(&self, x: &[T], p: &[T], g: &mut [T])
+    ///     where
+    ///         f64: LeftOf<T>,
+    ///     {
+    ///         let rate = p[0] * (1.0 - x[0]) * x[1].exp();
     ///         g[0] = rate - x[0];
-    ///         g[1] = p[1] * rate - (p[2] + 1.0) * x[1];
+    ///         g[1] = p[1] * rate - (1.0 + p[2]) * x[1];
     ///     }
     /// }
     ///
@@ -114,6 +118,7 @@ impl DenseSystem {
     /// # Panics
     /// If there is no parameter of the number `lambda`.
     #[cfg(feature = "bvp")]
+    #[track_caller]
     pub fn exact(
         states: usize,
         parameters: &[f64],
@@ -145,6 +150,7 @@ impl DenseSystem {
     /// # Panics
     /// If there is no parameter of that number.
     #[must_use]
+    #[track_caller]
     pub fn with_second(mut self, second: usize) -> Self {
         self.closures.name_second(second);
         self

@@ -1,14 +1,17 @@
 //! Exact derivatives by dual numbers: the feature `bvp`.
 
-use bvp::{Dual, Real};
+use bvp::{Dual, LeftOf, Real};
 
 /// Number of derivatives that one evaluation carries.
 const WIDTH: usize = 4;
 
 /// Equations G(x, p) = 0 written once over any scalar, for values and for exact derivatives.
 pub trait Differentiable {
-    /// `g` = G(x, p), as many numbers as states x; every one must be written.
-    fn residual<T: Real>(&self, x: &[T], p: &[T], g: &mut [T]);
+    /// `g` = G(x, p), as many numbers as states x; every one must be written. The bound lets numbers stand on
+    /// the left, `2.0 * x[0]`; equations without them may leave it out.
+    fn residual<T: Real>(&self, x: &[T], p: &[T], g: &mut [T])
+    where
+        f64: LeftOf<T>;
 }
 
 /// Writes the derivative of G along a direction: x and p, then the rates of both.

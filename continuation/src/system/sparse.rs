@@ -89,6 +89,7 @@ impl SparseSystem {
     ///
     /// # Panics
     /// If there is no parameter of the number `lambda`.
+    #[track_caller]
     pub fn new(
         states: usize,
         parameters: &[f64],
@@ -158,6 +159,7 @@ impl SparseSystem {
     /// # Panics
     /// If there is no parameter of the number `lambda`, or no equation or state of a pair.
     #[cfg(feature = "bvp")]
+    #[track_caller]
     pub fn exact(
         states: usize,
         parameters: &[f64],
@@ -197,6 +199,7 @@ impl SparseSystem {
     /// # Panics
     /// If there is no parameter of that number.
     #[must_use]
+    #[track_caller]
     pub fn with_second(mut self, second: usize) -> Self {
         self.closures.name_second(second);
         self
