@@ -73,6 +73,7 @@
 //!   small; how often is said below.
 //! * The amplification is a lower bound, by one set of random signs. A direction that these signs do not
 //!   excite is not seen.
+//! * The estimate may be less than what rounding leaves anywhere, 1e-16 of a number.
 //! * Rounding inside the right-hand side is not seen. Where f is a small difference of large numbers, the
 //!   solution has no more digits than f.
 //! * The estimate uses the Jacobians. Derivatives written by hand, if they are wrong, make it wrong, too

@@ -165,7 +165,8 @@
 //!
 //! *Cut off*: solve on 0 ≤ x ≤ L with conditions at L that forbid the growing solutions of the equations
 //! linearised about the state at infinity, such as u′ = −u where u decays like exp(−x). Lengthen L until
-//! that changes nothing. Example: `front`.
+//! that changes nothing: the estimated error is that of the problem on 0 ≤ x ≤ L, without what cutting off does
+//! (5·10⁻⁴ of f″(0) in Blasius' boundary layer with L = 6, and 10⁻⁹ with L = 10). Example: `front`.
 //!
 //! *Mapped*: with x = L s/(1 − s), 0 ≤ s < 1, and f multiplied by dx/ds = L/(1 − s)². It is shorter to
 //! write; s = 1 is never asked for, but states must be bounded, and L should be the length over which

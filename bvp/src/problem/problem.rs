@@ -187,9 +187,10 @@ pub trait Problem: Sync {
     }
 
     /// Number of conditions that [`conditions`](Self::conditions) writes. The default is the
-    /// number that a well-posed problem needs, Σ nᵢ + k; state your own count to have it checked. A
-    /// problem with fewer conditions is a [`Family`](crate::Family), and [`solve`](crate::solve)
-    /// refuses it.
+    /// number that a well-posed problem needs, Σ nᵢ + k: one that `conditions` leaves out is refused as not
+    /// written, and one too many is beyond the end of its slice. State your own count to have it checked before.
+    /// A problem with fewer conditions is a [`Family`](crate::Family), which must state their number, and
+    /// [`solve`](crate::solve) refuses it.
     fn condition_count(&self) -> usize {
         self.segments().iter().map(|s| s.states).sum::<usize>() + self.parameters()
     }
