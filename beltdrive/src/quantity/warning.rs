@@ -3,6 +3,7 @@
 use super::precision::six_digits;
 use super::{Group, Layout, Measure, Quantity, Subject, words};
 use crate::{Role, Warning};
+use std::fmt;
 
 /// What a warning calls a pulley.
 pub(super) trait Named {
@@ -41,6 +42,20 @@ pub(super) fn group(warnings: &[Warning<impl Named>]) -> Group {
 /// What warnings tell the user, on one line each.
 pub(super) fn messages(warnings: &[Warning<impl Named>]) -> Vec<String> {
     warnings.iter().map(message).collect()
+}
+
+/// The sentence of the table.
+impl fmt::Display for Warning<Role> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&message(self))
+    }
+}
+
+/// The sentence of the table.
+impl fmt::Display for Warning<String> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&message(self))
+    }
 }
 
 /// What a warning tells the user, on one line.

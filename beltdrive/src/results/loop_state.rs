@@ -85,7 +85,8 @@ pub struct LoopConvergence {
 }
 
 impl LoopState {
-    /// Remarks on the validity of this state of a loop, with the names of its pulleys.
+    /// Remarks on the validity of this state of `drive`, which must be the one that was solved, with the names of
+    /// its pulleys.
     pub fn warnings(&self, drive: &Drive) -> Vec<Warning<String>> {
         let belt = &drive.belt;
         let tensions = self.spans.iter().map(|span| span.tension);
