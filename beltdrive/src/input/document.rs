@@ -173,7 +173,7 @@ fn unreadable(text: &str, error: &toml::de::Error) -> Finding {
     let range = error.span().unwrap_or(text.len()..text.len());
     let quoted = text.get(..range.start).and_then(|before| {
         let line_start = before.rfind('\n').map_or(0, |feed| feed + 1);
-        quote_value(text[line_start..].lines().next()?)
+        mend_value(text[line_start..].lines().next()?)
     });
     let (message, expected) = match error.message().split_once(", expected ") {
         Some((message, expected)) => (message, Some(expected)),
@@ -187,18 +187,33 @@ fn unreadable(text: &str, error: &toml::de::Error) -> Finding {
     .did_you_mean(quoted)
 }
 
-/// The line `key = 120 kN` with its value in quotes, where that is what it lacks.
-fn quote_value(line: &str) -> Option<String> {
+/// The line `key = 120 kN` with its value in quotes, or `key = 0,4` with a point, where that is what it lacks.
+fn mend_value(line: &str) -> Option<String> {
     let (key, value) = line.split_once('=')?;
     let value = value.split('#').next()?.trim();
     let is_bare = value.starts_with(|c: char| c.is_alphanumeric() || matches!(c, '+' | '-' | '.'));
-    let lacks_quotes = is_bare && !value.contains(['"', '\'']) && DeValue::parse(value).is_err();
-    lacks_quotes.then(|| format!("{} = \"{value}\"", key.trim()))
+    let is_faulty = is_bare && !value.contains(['"', '\'']) && DeValue::parse(value).is_err();
+    let key = key.trim();
+    let point = value.replace(',', ".");
+    is_faulty.then(|| match point.parse::<f64>() {
+        Ok(_) => format!("{key} = {point}"),
+        Err(_) => format!("{key} = \"{value}\""),
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_value_that_lacks_quotes_or_a_point_is_mended() {
+        assert_eq!(
+            mend_value("length = 3 m"),
+            Some("length = \"3 m\"".to_owned())
+        );
+        assert_eq!(mend_value("mu = 0,4 # dry"), Some("mu = 0.4".to_owned()));
+        assert_eq!(mend_value("mu = 0.4"), None);
+    }
 
     #[test]
     fn entries_are_flat_and_unknown_tables_closed() {
