@@ -143,7 +143,8 @@ pub(crate) fn check(drive: &Drive, options: &SolveOptions) -> Result<(), SolveEr
     }
     let Some(two) = drive.two_pulleys() else {
         return Err(SolveError::NotModelled(
-            "this needs an open belt round two pulleys, closed by the tensions of both spans"
+            "this needs an open belt round two pulleys, closed by the tensions of both spans; \
+             belt_loop::solve, trace and limits take every drive"
                 .into(),
         ));
     };

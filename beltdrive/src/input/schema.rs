@@ -277,6 +277,25 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_documents_name_every_entry() {
+        let documents = [
+            include_str!("../../../docs/commands.md"),
+            include_str!("../../../docs/loops.md"),
+        ]
+        .concat();
+        for rule in RULES.iter().filter(|rule| !rule.is_refused()) {
+            // Of lists and vectors the tables of the documents have the names alone.
+            let (table, name) = split(rule.path);
+            let of_part = ["x", "y", "low", "high"].contains(&name);
+            let name = if of_part { split(table).1 } else { name };
+            let is_part = rule.path.contains('*') || rule.path.starts_with("tensioner.");
+            let is_named = documents.contains(&format!("`{}`", rule.path))
+                || is_part && documents.contains(&format!("`{name}`"));
+            assert!(is_named, "{} is not named", rule.path);
+        }
+    }
+
+    #[test]
     fn tables_and_names_follow_from_the_rules() {
         assert!(is_table("pulleys") && is_table("pulleys.driver") && is_table(""));
         assert!(!is_table("belt.type") && !is_table("puls"));
