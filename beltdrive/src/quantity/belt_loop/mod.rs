@@ -159,9 +159,6 @@ fn whole(drive: &Drive, state: &LoopState, scale: &Scale) -> Vec<Quantity> {
             state.unstretched_length,
         ),
         length("belt_length_running", "belt length, running", state.length),
-        scale.relative("toy", "mass of the belt", Measure::Number, {
-            drive.belt.mass_per_length * state.unstretched_length
-        }),
         scale.relative("mass_flow", "mass flow", Measure::MassFlow, state.mass_flow),
         scale.relative(
             "unstretched_speed",
