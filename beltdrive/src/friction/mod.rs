@@ -9,7 +9,6 @@ pub(crate) mod creep_rate;
 pub(crate) mod epp;
 pub(crate) mod rim;
 mod row;
-mod toy;
 
 pub(crate) use row::{Parameter, Row};
 
@@ -41,21 +40,10 @@ pub enum FrictionLaw {
         /// Slip velocity `v_s` at which friction is fully developed, m/s.
         velocity: f64,
     },
-    /// Coulomb friction of which a share acts; flat belts only.
-    Toy {
-        /// The share σ.
-        share: f64,
-    },
 }
 
 /// The rows of all laws, in the order in which messages list them, but for other kinds of them.
-pub(crate) const ROWS: &[&Row] = &[
-    &coulomb::ROW,
-    &epp::ROW,
-    &bristle::ROW,
-    &creep_rate::ROW,
-    &toy::ROW,
-];
+pub(crate) const ROWS: &[&Row] = &[&coulomb::ROW, &epp::ROW, &bristle::ROW, &creep_rate::ROW];
 
 impl FrictionLaw {
     /// The name of the law in drive files and outputs.
@@ -88,7 +76,6 @@ impl FrictionLaw {
             Self::Epp { stiffness } => (&epp::ROW, Some(stiffness)),
             Self::VectorEpp { stiffness } => (&epp::VECTOR, Some(stiffness)),
             Self::Bristle { stiffness } => (&bristle::ROW, Some(stiffness)),
-            Self::Toy { share } => (&toy::ROW, Some(share)),
             Self::CreepRate { velocity } => (&creep_rate::ROW, Some(velocity)),
         }
     }
