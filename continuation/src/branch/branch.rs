@@ -9,7 +9,7 @@ use crate::branch::start::{TURNING, correct_across, correct_start, set_out};
 use crate::branch::step::{Step, Stepper};
 use crate::branch::switching::{HalfBranch, first_step};
 use crate::curve::curve::{Curve, reverse};
-use crate::curve::metric::Metric;
+use crate::curve::metric::{FARTHEST, FARTHEST_ACROSS, Metric};
 use crate::difficulty::Difficulty;
 use crate::error::{Error, check_length};
 use crate::options::Options;
@@ -88,7 +88,11 @@ impl<'a, S: System> Branch<'a, S> {
         } = &mut branch;
         let node = &mut progress.node;
         node.tangent.clone_from(&point.tangent);
-        curve.metric.reach(&point.tangent);
+        let farthest = match point.kind {
+            Kind::BranchPoint => FARTHEST_ACROSS,
+            _ => FARTHEST,
+        };
+        curve.metric.reach(&point.tangent, farthest);
         let mut ahead = true;
         if point.kind == Kind::BranchPoint {
             (progress.unoriented, progress.from_branch_point) = (true, true);

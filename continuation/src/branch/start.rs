@@ -3,6 +3,7 @@
 use crate::branch::progress::Progress;
 use crate::curve::corrector::{Accuracy, Condition};
 use crate::curve::curve::{Curve, reverse};
+use crate::curve::metric::FARTHEST;
 use crate::difficulty::Difficulty;
 use crate::error::Error;
 use crate::point::{Kind, Point};
@@ -39,7 +40,7 @@ pub(crate) fn correct_start<S: System>(
     }
     curve.metric.observe(&node.z);
     node.tangent = curve.tangent(&node.z).map_err(Error::Start)?;
-    curve.metric.reach(&node.tangent);
+    curve.metric.reach(&node.tangent, FARTHEST);
     curve.metric.normalise(&mut node.tangent);
     choose_border(curve, node).map_err(Error::Start)?;
     if node.eta().abs() < SINGULAR {

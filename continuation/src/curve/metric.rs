@@ -15,7 +15,11 @@ const ROUNDED: f64 = 1e-10;
 /// Tangents that reach further than this many times the largest size, or one, are vertical: as far as
 /// unknowns of that size would be rounding. With 1e12 a tangent at a pitchfork, vertical but for 1e-12 by
 /// differences, made sizes of 1e12 of unknowns of 4, and the branch was not found.
-const FARTHEST: f64 = 1.0 / ROUNDED;
+pub(crate) const FARTHEST: f64 = 1.0 / ROUNDED;
+/// The same for the other branch at a branch point, whose rate of λ is known no better than its place: with
+/// 1e10, of a pitchfork in units of 10 to 1000 rates of 1e-9 made sizes of 1e9, beside which no correction showed,
+/// and points that are no solutions were accepted. A unit that is larger costs some steps.
+pub(crate) const FARTHEST_ACROSS: f64 = 1e4;
 
 /// The weighted inner product ⟨a, b⟩ = Σ wᵢ aᵢ bᵢ.
 ///
@@ -88,15 +92,15 @@ impl Metric {
         self.weigh();
     }
 
-    /// Gives groups that are zero the size that the tangent `t` reaches over the range of λ, else
-    /// that of the largest group, else one.
-    pub(crate) fn reach(&mut self, t: &[f64]) {
+    /// Gives groups that are zero the size that the tangent `t` reaches over the range of λ, else, and where it
+    /// reaches `farthest` times the largest size or more, that of the largest group, else one.
+    pub(crate) fn reach(&mut self, t: &[f64], farthest: f64) {
         let rate = t[t.len() - 1].abs();
         if self.given {
             return;
         }
         let negligible = NEGLIGIBLE * self.largest();
-        let farthest = FARTHEST * self.largest().max(1.0);
+        let farthest = farthest * self.largest().max(1.0);
         let mut reached = vec![0.0f64; self.size.len()];
         for ((&group, &share), t) in self.group.iter().zip(&self.share).zip(t) {
             if share > 0.0 {

@@ -2,7 +2,7 @@
 
 use crate::curve::corrector::Corrector;
 use crate::curve::curve::Curve;
-use crate::curve::metric::Metric;
+use crate::curve::metric::{FARTHEST, Metric};
 use crate::difficulty::{Cause, Difficulty};
 use crate::options::Options;
 use crate::special_points::branch_point::equation_sizes;
@@ -81,7 +81,7 @@ impl<S: TwoParameter + Clone> NullSurface<S> {
     ) -> Result<Self, Difficulty> {
         let anywhere = Options::within(f64::NEG_INFINITY, f64::INFINITY);
         let mut metric = Metric::new(&base, &anywhere, z);
-        metric.reach(&vec![0.0; z.len()]);
+        metric.reach(&vec![0.0; z.len()], FARTHEST);
         let mu = base.second();
         Self::with_metric(base, metric, anywhere.bounds, z, mu, border)
     }

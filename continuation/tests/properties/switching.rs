@@ -53,6 +53,50 @@ fn both_halves_of_a_transcritical_point_are_followed() {
     assert_eq!(ends, [-1.0, 2.0]);
 }
 
+/// x = s u with u (u² + (λ − c)² − r²) = 0 crosses u = 0 at λ = c ± r; the other unknowns are far from zero. Found
+/// at s = 170, c = 3.04, r = 0.042: the rate of λ along the other branch, zero but for 1e-9, made the size of x
+/// 1e9 and more, and 500 r was accepted for u.
+#[test]
+fn no_unit_of_a_pitchfork_hides_that_a_point_is_no_solution() {
+    let mut closed = 0;
+    for (i, scale) in [0.1, 1.0, 10.0, 85.0, 170.0, 1e3].into_iter().enumerate() {
+        for (j, radius) in [0.041, 0.15, 0.4, 0.9].into_iter().enumerate() {
+            let centre = 2.3 + 0.13 * i as f64 + 0.07 * j as f64;
+            let equation = move |x: f64, lambda: f64| {
+                let u = x / scale;
+                u * (u * u + (lambda - centre).powi(2) - radius * radius)
+            };
+            let mut system = DenseSystem::new(3, &[0.0], 0, move |x, p, g| {
+                let u = x[0] / scale;
+                g[0] = equation(x[0], p[0]);
+                g[1] = x[1] - 0.7 * u * u - p[0];
+                g[2] = x[2] + 1.1 * u * u - 0.4 * p[0];
+            });
+            let options = Options::within(0.0, 5.0);
+            let (points, _) = trace(&mut system, &[0.0; 4], Increasing, &options);
+            let crossings = of(&points, Kind::BranchPoint);
+            for crossing in crossings {
+                for half in [HalfBranch::Forward, HalfBranch::Backward] {
+                    let Ok(branch) = Branch::switch(&mut system, crossing, half, &options) else {
+                        continue;
+                    };
+                    let (points, stop) = finish(branch);
+                    for point in &points {
+                        let miss = equation(point.z[0], point.lambda());
+                        assert!(
+                            miss.abs() < 1e-6,
+                            "s {scale}, r {radius}, {half:?}: {:?} misses by {miss:e}",
+                            point.z
+                        );
+                    }
+                    closed += usize::from(matches!(stop, Stop::Closed));
+                }
+            }
+        }
+    }
+    assert!(closed >= 60, "{closed} of 96 are closed");
+}
+
 #[test]
 fn a_limit_point_right_behind_a_branch_point_is_found() {
     // x (λ − x − 20 x²) = 0: λ = x + 20 x² turns at x = −1/40, λ = −1/80.
