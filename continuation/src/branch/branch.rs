@@ -7,7 +7,7 @@ use crate::branch::labels::Labels;
 use crate::branch::progress::Progress;
 use crate::branch::start::{TURNING, correct_across, correct_start, set_out};
 use crate::branch::step::{Step, Stepper};
-use crate::branch::switching::{HalfBranch, first_step};
+use crate::branch::switching::{HalfBranch, SHORTEST, first_step};
 use crate::curve::curve::{Curve, reverse};
 use crate::curve::metric::{FARTHEST, FARTHEST_ACROSS, Metric};
 use crate::difficulty::Difficulty;
@@ -128,16 +128,28 @@ impl<'a, S: System> Branch<'a, S> {
         }
         onward.kind = Kind::BranchPoint;
         let mut branch = Self::resume(system, &onward, options)?;
-        let accuracy = branch.curve.accuracy(options.accuracy);
-        let directions = [&point.tangent[..], &branch.progress.node.tangent];
-        branch.step = first_step(
-            &mut branch.curve,
-            &point.z,
-            directions,
-            branch.step,
-            accuracy,
-        )?;
+        let (old, longest) = (&point.tangent, branch.step);
+        let first = branch.first_step(old, longest);
+        // An unknown that is zero at the branch point has no size of its own: how short the first step must be tells it.
+        let share = first.as_ref().map_or(SHORTEST, |step| step / longest);
+        if share < 1.0 && branch.curve.metric.shrink(share) {
+            let Self {
+                curve, progress, ..
+            } = &mut branch;
+            curve.metric.normalise(&mut progress.node.tangent);
+            set_borders(curve, &point.z).map_err(Error::Start)?;
+            branch.step = branch.first_step(old, longest)?;
+        } else {
+            branch.step = first?;
+        }
         Ok(branch)
+    }
+
+    /// The length of a first step from the branch point at which the branch stands, at most `longest`.
+    fn first_step(&mut self, old: &[f64], longest: f64) -> Result<f64, Error> {
+        let (curve, node) = (&mut self.curve, &self.progress.node);
+        let accuracy = curve.accuracy(self.options.accuracy);
+        first_step(curve, &node.z, [old, &node.tangent], longest, accuracy)
     }
 
     /// A branch that stands at `z`, not yet corrected.

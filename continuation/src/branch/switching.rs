@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::system::system::System;
 
 /// The first step onto another branch is shortened at most to this.
-const SHORTEST: f64 = 1e-6;
+pub(crate) const SHORTEST: f64 = 1e-6;
 
 /// The two halves of the other branch at a branch point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -37,6 +37,8 @@ pub(crate) struct Metric {
     group: Vec<usize>,
     share: Vec<f64>,
     size: Vec<f64>,
+    /// Whether the size of a group was never met: it is what a tangent reaches, that of another group, or one.
+    is_borrowed: Vec<bool>,
     range: f64,
     weights: Vec<f64>,
     /// Weights given by the caller are never changed.
@@ -52,6 +54,7 @@ impl Metric {
             group: Vec::new(),
             share: Vec::new(),
             size: Vec::new(),
+            is_borrowed: Vec::new(),
             range: if range.is_finite() {
                 range
             } else {
@@ -120,8 +123,19 @@ impl Metric {
         let sizes: Vec<f64> = (0..self.size.len())
             .map(|group| self.size_of(group))
             .collect();
+        let pairs = sizes.iter().zip(&self.size);
+        self.is_borrowed = pairs.map(|(new, own)| new != own).collect();
         self.size = sizes;
         self.weigh();
+    }
+
+    /// Makes sizes that are not a group's own less by this factor; false where there are none.
+    pub(crate) fn shrink(&mut self, factor: f64) -> bool {
+        let pairs = self.size.iter_mut().zip(&self.is_borrowed);
+        let borrowed = pairs.filter(|(_, is_borrowed)| **is_borrowed);
+        let count = borrowed.map(|(size, _)| *size *= factor).count();
+        self.weigh();
+        count > 0
     }
 
     fn largest(&self) -> f64 {
