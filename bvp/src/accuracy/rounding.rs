@@ -65,12 +65,12 @@ impl Collocation<'_> {
         self.smallest_pivot() < 1.0 / MODERATE
     }
 
-    /// What the amplification a at the solution `x` is of the rounding anywhere: the elimination rounds relative
-    /// to what is largest, as at the end of an exponential growth, beside which its start is small. As in the
-    /// amplification, states that are the derivative of another one are left out.
-    pub(crate) fn amplification_in_all(&self, a: f64, x: &Iterate) -> f64 {
+    /// The largest state of the solution `x`, or one: the elimination rounds relative to what is largest, as at the
+    /// end of an exponential growth, beside which its start is small. As in the amplification, states that are the
+    /// derivative of another one are left out.
+    pub(crate) fn largest_in_all(&self, x: &Iterate) -> f64 {
         let segments = self.equations.segments().iter().zip(&x.segments);
-        let largest = segments
+        segments
             .enumerate()
             .fold(1.0, |largest, (index, (segment, x))| {
                 let states =
@@ -78,8 +78,7 @@ impl Collocation<'_> {
                 states.fold(largest, |m: f64, state| {
                     m.max(Component::new(&x.nodes, segment.states, state).largest)
                 })
-            });
-        a * largest
+            })
     }
 
     /// The rounding error of the solution `x`, the largest over states and parameters relative to 1 + |x|, by

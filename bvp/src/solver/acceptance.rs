@@ -9,7 +9,6 @@ use crate::result::quality::Direction;
 use crate::result::solution::Solution;
 use crate::shares::{AIM, INVISIBLE, ONE_SAMPLE, TWO_DIGITS, UNNOTICED};
 use crate::solver::discretised::{Discretised, OnMesh};
-use crate::solver::failure::ill_conditioned;
 
 /// How often a mesh is halved because the solution on it does not seem to be isolated: where that is so by
 /// a coarse mesh alone, a halved one shows it.
@@ -96,15 +95,14 @@ impl Acceptance {
             }
             a = problem.amplification(&solution.x);
         }
-        let in_all = problem.collocation.amplification_in_all(a, &solution.x);
+        let largest = problem.collocation.largest_in_all(&solution.x);
+        let in_all = a * largest;
         let grown = problem.growth(&solution.x);
         // The elimination rounds beside the largest change of a step what the states make of a small one, as the
         // 1e-12 from which y′ = y grows to 1e3. On every interval that is a forcing as those of the growth, which
         // are a tolerance in all.
-        let rounding = problem.collocation.amplification_in_all(grown, &solution.x)
-            * UNIT_ROUNDOFF
-            * moved
-            * intervals(&solution.mesh) as f64;
+        let count = intervals(&solution.mesh) as f64;
+        let rounding = grown * largest * UNIT_ROUNDOFF * moved * count;
         if ONE_SAMPLE * rounding > harmless * problem.options.tolerance
             && self.settles(problem, solution)?
         {
@@ -113,12 +111,12 @@ impl Acceptance {
         if is_high(in_all) || is_high(grown) || problem.collocation.is_suspect() {
             // Beside its largest value, which need not be where the solution rounds, an amplification that leaves no
             // two digits counts: with less than that flat belts were refused at 1e-12 whose error is smaller.
-            let largest = if in_all * UNIT_ROUNDOFF > TWO_DIGITS {
+            let counted = if in_all * UNIT_ROUNDOFF > TWO_DIGITS {
                 in_all
             } else {
                 a
             };
-            self.refuse_rounding(problem, solution, largest)?;
+            self.refuse_rounding(problem, solution, counted)?;
         }
         if is_open(a) && problem.rounds(solution) {
             let direction = problem.amplified(&solution.x);
@@ -214,9 +212,7 @@ impl Acceptance {
             let shrinks = size <= SHRINKS * before;
             if !shrinks && size > AIM * tolerance {
                 self.refused = true;
-                let mut best = solution.clone();
-                best.stats = problem.cost();
-                return Err(ill_conditioned(size, tolerance, best));
+                return Err(problem.ill_conditioned(size, solution.clone()));
             }
             if !shrinks || size <= INVISIBLE * tolerance {
                 break;

@@ -271,7 +271,7 @@ impl<'a> Discretised<'a> {
         }
         let best = self.solution(x, Quality::unknown(&self.collocation.mesh));
         match rounding {
-            Some(rounding) => ill_conditioned(rounding, self.options.tolerance, best),
+            Some(rounding) => self.ill_conditioned(rounding, best),
             None => numerical(failure, best, self.wanted()),
         }
     }
@@ -283,9 +283,9 @@ impl<'a> Discretised<'a> {
         direction: Direction,
         mut best: Solution,
     ) -> Error {
-        best.stats = self.cost();
         let Direction { felt, shift, free } = direction;
         if felt && (shift || rounding.is_none()) {
+            best.stats = self.cost();
             return Error::SingularConditions {
                 conditions: vec![],
                 free,
@@ -293,7 +293,12 @@ impl<'a> Discretised<'a> {
                 best: Box::new(best),
             };
         }
-        let rounding = rounding.unwrap_or(f64::INFINITY);
+        self.ill_conditioned(rounding.unwrap_or(f64::INFINITY), best)
+    }
+
+    /// The error for a solution of which rounding may change this much.
+    pub(crate) fn ill_conditioned(&self, rounding: f64, mut best: Solution) -> Error {
+        best.stats = self.cost();
         ill_conditioned(rounding, self.options.tolerance, best)
     }
 

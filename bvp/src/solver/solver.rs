@@ -15,7 +15,7 @@ use crate::result::solution::Solution;
 use crate::shares::{AIM, UNNOTICED};
 use crate::solver::acceptance::{Acceptance, Confirmed};
 use crate::solver::discretised::Discretised;
-use crate::solver::failure::{check_mesh, ill_conditioned};
+use crate::solver::failure::check_mesh;
 use crate::solver::homotopy::rough_solution;
 use crate::solver::options::{Control, Options};
 use crate::solver::statement::{check_guess, check_statement, first_mesh, in_units};
@@ -298,9 +298,7 @@ impl Run<'_> {
         if self.problem.estimates() && self.problem.collocation.mesh == solution.mesh {
             let rounding = self.problem.collocation.rounding(&solution.x);
             if rounding.is_nan() || rounding >= UNNOTICED * self.problem.options.tolerance {
-                let mut best = solution.clone();
-                best.stats = self.problem.cost();
-                return ill_conditioned(rounding, self.problem.options.tolerance, best);
+                return self.problem.ill_conditioned(rounding, solution.clone());
             }
         }
         error
