@@ -120,19 +120,24 @@ mod tests {
     use crate::NormalForce;
     use crate::friction::rim::traction::Traction;
 
+    /// An arc of 0.3 m that takes the traction from 300 N to 500 N, or back.
+    pub(super) fn sample(belt: Traction, sense: f64) -> Arc {
+        Arc {
+            belt,
+            sense,
+            slip_rate: belt.slip_rate(0.5, 0.1),
+            length: 0.3,
+            low: 300.0,
+            change: 200.0,
+        }
+    }
+
     #[test]
     fn where_slip_begins_is_found_in_few_evaluations() {
         for normal_force in NormalForce::ALL {
             let belt = Traction::new(normal_force, 0.1, 1e5, 20.0);
             for sense in [1.0, -1.0] {
-                let arc = Arc {
-                    belt,
-                    sense,
-                    slip_rate: belt.slip_rate(0.5, 0.1),
-                    length: 0.3,
-                    low: 300.0,
-                    change: 200.0,
-                };
+                let arc = sample(belt, sense);
                 let contact = solve(arc, 1e8).unwrap();
                 assert_eq!(contact.zones.len(), 2);
                 assert!(contact.evaluations < 8, "{}", contact.evaluations);

@@ -135,6 +135,7 @@ mod tests {
     use super::*;
     use crate::NormalForce;
     use crate::friction::epp;
+    use crate::friction::epp::tests::sample;
     use crate::friction::rim::traction::Traction;
     use crate::friction::rim::zone::Friction;
 
@@ -149,14 +150,7 @@ mod tests {
         ] {
             let belt = Traction::new(normal_force, 0.1, axial, 20.0);
             for (sense, stiffness) in [(1.0, 1e5), (1.0, 1e8), (-1.0, 1e3), (-1.0, 1e7)] {
-                let arc = Arc {
-                    belt,
-                    sense,
-                    slip_rate: belt.slip_rate(0.5, 0.1),
-                    length: 0.3,
-                    low: 300.0,
-                    change: 200.0,
-                };
+                let arc = sample(belt, sense);
                 let contact = epp::solve(arc, stiffness).unwrap();
                 let zone = &contact.zones[0];
                 let known = contact.elongation_by_quadrature(zone);
