@@ -49,10 +49,11 @@
 //! the margins ([`solve_with_margins`]), all torques are raised together from a small share. A state whose
 //! invariants fail is an error ([`LoopState::checks`], [`SolveError::Violated`](crate::SolveError::Violated)).
 //!
-//! With elastic/perfectly-plastic friction the displacement grows from the tension `T_o` of the slackest span
-//! on every pulley (its tractive tension where the closure gives one), as in a drive with two pulleys. The
-//! scalar displacement knows no direction, and with soft friction the way to a state is not always found
-//! ([`SolveError::Unreached`](crate::SolveError::Unreached)).
+//! With elastic/perfectly-plastic friction the displacement in grooves grows from the tension `T_o` of the slackest
+//! span on every pulley (its tractive tension where the closure gives one), as in a drive with two pulleys. A pulley
+//! that the belt enters with about that tension is driven by friction that has hardly developed: if it is soft, the
+//! loop carries far less than with Coulomb friction, or with the vector law. The back of the belt has the friction of a
+//! flat belt, with a tension `T_o` of its own on every pulley.
 //!
 //! Sources: M. B. Rubin, An exact solution for steady motion of an extensible belt in multipulley belt
 //! drive systems, J. Mech. Des. 122 (2000); S. E. Bechtel, S. Vohra, K. I. Jacob and C. D. Carlson, J.

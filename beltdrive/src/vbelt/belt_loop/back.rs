@@ -6,10 +6,14 @@
 //!
 //! ```text
 //! Coulomb   q = μ p e/|e|,  |e| = sqrt(e² + ε²), where ℓ/R takes the part of ε if there is one
-//! EPP       q = min(k_f |u|, μ p) e/|e|,  du/ds = (T − T_o)/EA
+//! EPP       q = k_f u, −μ p ≤ q ≤ μ p,  du/ds = (V − ω R)/c
 //! bristle   q = p B,        dB/ds = κ (e − |e| B/μ)
 //! vector    q = b as long as |b| < μ p, else μ p in its sense,  db/ds = k_f e
 //! ```
+//!
+//! EPP friction is that of flat belts: du/ds is (T − `T_o`)/EA with the tension at which this belt would run as fast
+//! as this rim. A tension that all pulleys share would leave the friction of a short contact a fixed multiple of the
+//! load, so that a loop in which it is too small would not carry any load, however light.
 
 use super::super::Strand;
 use super::super::groove::Law;
@@ -41,6 +45,8 @@ pub(super) struct Rubbing<T> {
     pub(super) friction: T,
     /// Magnitude of the slip.
     size: T,
+    /// Slip velocity over the speed of the unstretched belt, (V − ω R)/c.
+    creep: T,
 }
 
 impl Back {
@@ -59,7 +65,8 @@ impl Back {
         let tractive = state[TENSION];
         let tension = self.strand.tension(tractive, flow);
         let speed = self.strand.speed(tension, flow);
-        let slip = ((flow - omega) + flow * self.strand.strain(tension)) / speed;
+        let creep = (flow - omega) + flow * self.strand.strain(tension);
+        let slip = creep / speed;
         let epsilon = match self.law {
             // Only keeps the derivative of |e| finite where e = 0.
             Law::Bristle { .. } | Law::Vector { .. } => 1e-20,
@@ -67,21 +74,23 @@ impl Back {
         };
         let size = (slip * slip + epsilon.powi(2)).sqrt();
         let limit = tractive * self.friction_coefficient;
-        let friction = self.law.elastic().map_or(limit, |elastic| {
-            let excess = state[self.displacement()].abs() * elastic.stiffness - limit;
-            limit.min(limit + excess * elastic.weight)
-        });
-        let friction = match self.law {
-            Law::Bristle { .. } => friction * (state[LAW] / self.friction_coefficient),
-            Law::Vector { .. } => state[LAW].min(limit).max(-limit),
-            Law::Normalised { .. } | Law::Sliding { .. } => friction * (slip / size),
+        let within = |friction: T| friction.min(limit).max(-limit);
+        let slipping = match self.law {
+            Law::Bristle { .. } => limit * (state[LAW] / self.friction_coefficient),
+            Law::Vector { .. } => within(state[LAW]),
+            Law::Normalised { .. } | Law::Sliding { .. } => limit * (slip / size),
         };
+        let friction = self.law.elastic().map_or(slipping, |elastic| {
+            let held = within(state[self.displacement()] * elastic.stiffness);
+            slipping + (held - slipping) * elastic.weight
+        });
         Rubbing {
             tension,
             speed,
             slip,
             friction,
             size,
+            creep: creep / flow,
         }
     }
 
@@ -96,8 +105,9 @@ impl Back {
             Law::Vector { stiffness, .. } => rates[LAW] = at.slip * stiffness,
             Law::Normalised { .. } | Law::Sliding { .. } => {}
         }
-        if let Some(elastic) = self.law.elastic() {
-            rates[self.displacement()] = at.tension - elastic.unstretched;
+        if self.law.elastic().is_some() {
+            // In the unit of u, in which a tension is its strain.
+            rates[self.displacement()] = at.creep / self.strand.compliance;
         }
     }
 }

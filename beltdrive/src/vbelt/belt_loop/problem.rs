@@ -4,7 +4,7 @@
 //! back the belt has one for a pulley, and none for an idler, since the tension passes it unchanged. The last state
 //! of every segment is the elongation e of the belt from the entry, de/ds = (T/EA)/(1 + T/EA). Unknown parameters are
 //! G, the coordinate q of the tensioner, the speeds of all pulleys with a segment but the driver, and the length L
-//! of every segment; with EPP friction also the tension `T_o` at which the displacement does not grow.
+//! of every segment; with EPP friction also the tension `T_o` at which the displacement in grooves does not grow.
 //!
 //! ```text
 //! conditions of a contact with z zones and n states                               number
@@ -261,6 +261,9 @@ impl Problem for LoopProblem {
             Seat::Groove(groove) => {
                 let contact = Contact::new(groove, self.regime(segment), y, omega, flow);
                 contact.rates(groove, y, dy);
+                if let Some(index) = self.unknowns.reference(self.segments.len()) {
+                    dy[groove.displacement()] -= p[index];
+                }
                 contact.tension
             }
             Seat::Back(back) => {
@@ -271,9 +274,6 @@ impl Problem for LoopProblem {
             Seat::Idle => y[TENSION],
         };
         let strain = self.units.strand().strain(tension);
-        if let Some(index) = self.unknowns.reference(self.segments.len()) {
-            dy[y.len() - 2] -= p[index];
-        }
         dy[y.len() - 1] = strain / (strain + 1.0);
         let length = self.length(segment, p);
         for rate in dy {
