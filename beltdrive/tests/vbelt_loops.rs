@@ -873,3 +873,15 @@ fn elastic_friction_on_the_back_is_that_of_a_flat_belt() {
     });
     assert!(elastic > 0.99 && slipping < 0.9, "{elastic} {slipping}");
 }
+
+/// Beside the kinks of elastic friction halving the mesh changes the derivatives however fine it is, which ended the
+/// way to the limit where it began.
+#[test]
+fn kinks_do_not_end_the_way_to_the_limit() {
+    let drive = epp_loop_of_survey(42);
+    let SolveError::Overloaded { load_factor, .. } = solve(&drive).unwrap_err() else {
+        panic!("more than the loop carries")
+    };
+    close("limit", load_factor, 7.498e-3, 1e-5);
+    solve(&times(&drive, BELOW * load_factor)).unwrap();
+}

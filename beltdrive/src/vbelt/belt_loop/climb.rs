@@ -5,6 +5,7 @@ use super::super::BeltProblem;
 use super::super::path::{Effort, Solved};
 use super::levelling::Levelling;
 use super::problem::LoopProblem;
+use super::rising::Rising;
 use super::solve::Search;
 use super::unknowns::FLOW;
 use crate::SolveError;
@@ -85,13 +86,13 @@ impl Search<'_> {
             factor: begin,
         };
         let lost = |reached, cause| Climbed::Lost { reached, cause };
-        let (mut family, z) = match Family::new(&free, unknown, &[], &guess, &options) {
-            Ok(family) => family,
+        let (mut curve, z) = match Family::new(&free, unknown, &[], &guess, &options) {
+            Ok((family, z)) => (Rising(family), z),
             Err(error) => return lost(begin, difficulty::of_solver(&error)),
         };
         let branch_options = followed([begin.min(0.0), to], &options);
         let direction = Direction::Increasing;
-        let mut branch = match Branch::new(&mut family, &z, direction, &branch_options) {
+        let mut branch = match Branch::new(&mut curve, &z, direction, &branch_options) {
             Ok(branch) => branch,
             Err(error) => return lost(begin, difficulty::of_branch(&error)),
         };

@@ -16,6 +16,7 @@ mod plane;
 mod problem;
 mod rest;
 mod rest_guess;
+mod rising;
 mod round;
 mod running;
 mod seat;
