@@ -6,7 +6,7 @@ mod random_numbers;
 use beltdrive::belt_loop::{LoopState, solve, solve_to, solve_with_margins};
 use beltdrive::{
     Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, Pulley, Sense, Side,
-    SolveError, SolveOptions, Tensioner, TensionerLoad, VBelt, Warning, examples, input,
+    SolveError, SolveOptions, Tensioner, TensionerLoad, VBelt, Warning, ZoneKind, examples, input,
 };
 use random_numbers::Random;
 
@@ -872,6 +872,22 @@ fn elastic_friction_on_the_back_is_that_of_a_flat_belt() {
         elastic / length
     });
     assert!(elastic > 0.99 && slipping < 0.9, "{elastic} {slipping}");
+}
+
+/// Where a belt that hardly slips sticks until the traction turns to lift it, no place between is cut.
+#[test]
+fn a_belt_that_sticks_until_it_is_lifted_is_found() {
+    let drive = epp_loop_of_survey(19);
+    let state = solve(&drive).unwrap();
+    let work = state.convergence.as_ref().unwrap();
+    println!("{} Newton steps", work.newton_steps);
+    let sticks = |pulley: usize| {
+        let zones = &state.pulleys[pulley].zones;
+        zones.iter().any(|zone| zone.kind == ZoneKind::Adhesion)
+    };
+    assert!(sticks(0) && sticks(2));
+    // With every combination of places on all pulleys 4082 were taken, and no state found.
+    assert!(work.newton_steps < 400, "{}", work.newton_steps);
 }
 
 /// Beside the kinks of elastic friction halving the mesh changes the derivatives however fine it is, which ended the

@@ -4,6 +4,7 @@
 //! these places is entered across the kinks at which elastic friction reaches its limit, as stiff bristles would
 //! make it: with ℓ = μ/κ their direction has the same equation. Then the kinks become ends of zones too.
 
+use super::astray::Astray;
 use super::{Asked, START_STIFFNESS};
 use crate::vbelt::BeltProblem;
 use crate::vbelt::carried::Carried;
@@ -14,20 +15,8 @@ use crate::vbelt::zones::{Cut, Loose};
 /// they are tried. Of 45 searches on 40 random drives the first found 43 and the second one more.
 const STIFFER: [f64; 2] = [10.0, 1.0];
 
-/// Where the belt is taken to break loose on each of so many pulleys, in the order in which that is tried.
-fn places(pulleys: usize) -> impl Iterator<Item = Vec<Loose>> {
-    let everywhere = move |loose| vec![loose; pulleys];
-    let never_on = move |pulley| {
-        let mut places = everywhere(Loose::Early);
-        places[pulley] = Loose::Never;
-        places
-    };
-    [Loose::Early, Loose::Late]
-        .into_iter()
-        .map(everywhere)
-        .chain((0..pulleys).map(never_on))
-        .chain([everywhere(Loose::Never)])
-}
+/// Where the belt may be taken to break loose on a pulley, in the order in which that is tried.
+const ORDER: [Loose; 4] = [Loose::Early, Loose::Late, Loose::Turning, Loose::Never];
 
 impl Path<'_> {
     /// EPP friction by way of bristles, if it is found so and friction obeys its law.
@@ -52,20 +41,47 @@ impl Path<'_> {
                 continue;
             };
             let lag = 1.0 / (stiffer * START_STIFFNESS);
-            let mut tried: Vec<Cut<'_, A::Problem>> = Vec::new();
-            for loose in places(soft.problem.pulleys()) {
-                let cut = Cut::of_bristles(&bristles, &loose);
-                if tried.iter().any(|other| cut.is_like(other)) {
-                    continue;
-                }
-                let found = self.epp_from(asked, &cut, lag);
-                if found.is_some() {
-                    return found;
-                }
-                tried.push(cut);
+            if let Some(found) = self.epp_from_bristles(asked, &bristles, lag) {
+                return Some(found);
             }
         }
         None
+    }
+
+    /// EPP friction from the zones that bristles show. Where the belt breaks loose they tell roughly: the place is
+    /// another one on the pulley on which the way went astray, until that has none left.
+    fn epp_from_bristles<A: Asked>(
+        &mut self,
+        asked: &A,
+        bristles: &Solved<A::Problem>,
+        lag: f64,
+    ) -> Option<Solved<A::Problem>> {
+        let pulleys = bristles.problem.pulleys();
+        let mut tried: Vec<Cut<'_, A::Problem>> = Vec::new();
+        let mut place = vec![0; pulleys];
+        loop {
+            let loose: Vec<_> = place.iter().map(|&place| ORDER[place]).collect();
+            let cut = Cut::of_bristles(bristles, &loose);
+            let astray = match self.epp_from(asked, &cut, lag) {
+                Ok(found) => return Some(found),
+                Err(astray) => astray,
+            };
+            tried.push(cut);
+            let Some(pulley) = astray.pulley else { break };
+            let other = (place[pulley] + 1..ORDER.len()).find(|&other| {
+                let mut loose = loose.clone();
+                loose[pulley] = ORDER[other];
+                let cut = Cut::of_bristles(bristles, &loose);
+                !tried.iter().any(|tried| cut.is_like(tried))
+            });
+            let Some(other) = other else { break };
+            place[pulley] = other;
+        }
+        let never = Cut::of_bristles(bristles, &vec![Loose::Never; pulleys]);
+        match tried.iter().any(|tried| never.is_like(tried)) {
+            true => None,
+            false => self.epp_from(asked, &never, lag).ok(),
+        }
     }
 
     /// As stiff bristles with the limit of EPP friction as show its zones. The largest load of an accessory drive was
@@ -102,10 +118,13 @@ impl Path<'_> {
         asked: &A,
         cut: &Cut<'_, A::Problem>,
         lag: f64,
-    ) -> Option<Solved<A::Problem>> {
-        let problem = asked.problem(asked.law(), lag).led(false);
-        let entered = self.attempt(cut.apply(problem), cut, Effort::Rough).ok()?;
-        let split = self.split_zones(entered, Effort::Rough).ok()?;
+    ) -> Result<Solved<A::Problem>, Astray> {
+        let problem = cut.apply(asked.problem(asked.law(), lag).led(false));
+        let entered = self
+            .attempt(problem.clone(), cut, Effort::Rough)
+            .map_err(|cause| Astray::of(&problem, &cause))?;
+        let split = self.split_zones(entered, Effort::Rough);
+        let split = split.map_err(|stuck| stuck.astray())?;
         self.sharpen(split)
     }
 }

@@ -13,6 +13,7 @@
 //! moves in steps that grow on success and shrink on failure. Solutions on the way are rough. A state of
 //! Coulomb or EPP friction that is not found in this way is sought once more with a normalised direction.
 
+mod astray;
 mod epp;
 mod finish;
 mod normalised;

@@ -8,9 +8,10 @@ use crate::vbelt::{BeltProblem, Law, Regime, limit_excess};
 /// accurate as its defect.
 pub(in crate::vbelt) const ALLOWED: f64 = 10.0;
 
-/// The contacts in grooves.
-fn grooves<P: BeltProblem>(solved: &Solved<P>) -> impl Iterator<Item = OnPulley<'_>> {
-    (0..solved.problem.pulleys()).filter_map(|pulley| solved.in_groove(pulley))
+/// The contacts in grooves, with their pulleys.
+fn grooves<P: BeltProblem>(solved: &Solved<P>) -> impl Iterator<Item = (usize, OnPulley<'_>)> {
+    let pulleys = 0..solved.problem.pulleys();
+    pulleys.filter_map(|pulley| Some((pulley, solved.in_groove(pulley)?)))
 }
 
 /// Whether friction is against the slip, and elastic or at its limit where it is taken to be.
@@ -24,7 +25,7 @@ pub(super) fn obeys_friction<P: BeltProblem>(solved: &Solved<P>, tolerance: f64)
 /// elsewhere. A traction that has turned the wrong way round meets all equations but the sense of friction.
 pub(in crate::vbelt) fn power_gained<P: BeltProblem>(solved: &Solved<P>) -> f64 {
     let (mut gained, mut friction) = (0.0, 0.0);
-    for on in grooves(solved) {
+    for (_, on) in grooves(solved) {
         let sum = on.integrate();
         gained += sum.gained;
         friction += sum.friction;
@@ -32,35 +33,61 @@ pub(in crate::vbelt) fn power_gained<P: BeltProblem>(solved: &Solved<P>) -> f64 
     gained / (friction + gained)
 }
 
+/// The pulley on which friction obeys its law least: where the belt gains the largest share of the power of friction,
+/// or if it gains none where friction is not of the kind that it is taken for.
+pub(super) fn least_obedient<P: BeltProblem>(solved: &Solved<P>, tolerance: f64) -> Option<usize> {
+    let gains = power_gained(solved) > ALLOWED * tolerance;
+    let wrong = grooves(solved).map(|(pulley, on)| {
+        let wrong = match gains {
+            true => {
+                let sum = on.integrate();
+                sum.gained / (sum.friction + sum.gained)
+            }
+            false => wrong_on(&on)[0],
+        };
+        (pulley, wrong)
+    });
+    let most = wrong.max_by(|(_, one), (_, other)| one.total_cmp(other));
+    most.map(|(pulley, _)| pulley)
+}
+
 /// By how much friction is above its limit in elastic zones, below it in slip zones, or more than holds a belt that
 /// sticks, or the pressure below zero, as a share of the largest pressure.
 pub(in crate::vbelt) fn wrong_friction<P: BeltProblem>(solved: &Solved<P>) -> f64 {
-    let (mut highest, mut wrong) = (0.0f64, 0.0f64);
-    for on in grooves(solved) {
-        // Traction that vector EPP friction would lose where its plastic rate is negative.
-        let mut lost = 0.0;
-        on.for_each_point(|stretch, _, weight, y| {
-            let pressure = on.contact(stretch.regime, y).pressure;
-            highest = highest.max(pressure);
-            wrong = wrong.max(-pressure);
-            let excess = limit_excess(on.groove, stretch.regime, y, on.omega, on.flow);
-            wrong = wrong.max(match stretch.regime {
-                Regime::Elastic => excess,
-                Regime::Slip => match on.groove.law {
-                    Law::Vector { stiffness, .. } => {
-                        let strain = on.groove.strand.compliance;
-                        lost += weight * stiffness * strain * (-excess).max(0.0);
-                        lost
-                    }
-                    _ => -excess,
-                },
-                Regime::Stick => {
-                    let limit = on.contact(Regime::Either, y).friction();
-                    on.contact(Regime::Stick, y).friction() - limit
-                }
-                Regime::Either => 0.0,
-            });
+    let [wrong, highest] = grooves(solved)
+        .map(|(_, on)| wrong_on(&on))
+        .fold([0.0f64; 2], |[wrong, highest], here| {
+            [wrong.max(here[0]), highest.max(here[1])]
         });
-    }
     wrong / highest
+}
+
+/// By how much friction on a pulley is wrong in that sense, and the largest pressure.
+fn wrong_on(on: &OnPulley<'_>) -> [f64; 2] {
+    let (mut highest, mut wrong) = (0.0f64, 0.0f64);
+    // Traction that vector EPP friction would lose where its plastic rate is negative.
+    let mut lost = 0.0;
+    on.for_each_point(|stretch, _, weight, y| {
+        let pressure = on.contact(stretch.regime, y).pressure;
+        highest = highest.max(pressure);
+        wrong = wrong.max(-pressure);
+        let excess = limit_excess(on.groove, stretch.regime, y, on.omega, on.flow);
+        wrong = wrong.max(match stretch.regime {
+            Regime::Elastic => excess,
+            Regime::Slip => match on.groove.law {
+                Law::Vector { stiffness, .. } => {
+                    let strain = on.groove.strand.compliance;
+                    lost += weight * stiffness * strain * (-excess).max(0.0);
+                    lost
+                }
+                _ => -excess,
+            },
+            Regime::Stick => {
+                let limit = on.contact(Regime::Either, y).friction();
+                on.contact(Regime::Stick, y).friction() - limit
+            }
+            Regime::Either => 0.0,
+        });
+    });
+    [wrong, highest]
 }

@@ -66,7 +66,7 @@ pub(super) fn cut_at_breakaway(
     length: f64,
     sense: f64,
 ) -> Vec<Zone> {
-    if zones.iter().any(|zone| zone.regime == Regime::Stick) {
+    if sticks(&zones) {
         return zones;
     }
     let Some(turn) = zones.windows(2).rfind(|pair| is_cut(pair)) else {
@@ -101,6 +101,11 @@ pub(super) fn without_short_elastic(mut zones: Vec<Zone>, length: f64) -> Vec<Zo
     }
     join(&mut zones, |_| true);
     zones
+}
+
+/// Whether the belt sticks in one of the zones.
+pub(super) fn sticks(zones: &[Zone]) -> bool {
+    zones.iter().any(|zone| zone.regime == Regime::Stick)
 }
 
 /// Whether two neighbours are of the same kind.

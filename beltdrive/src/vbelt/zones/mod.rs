@@ -15,7 +15,7 @@ use super::path::Solved;
 use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
 use kinds::{
     Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, join, join_elastic, one_zone,
-    without_kinks, without_short_elastic,
+    sticks, without_kinks, without_short_elastic,
 };
 use places::{ends, keep_junctions, locate};
 use samples::{CLEAR_TURN, Sample, samples};
@@ -35,6 +35,8 @@ pub(super) enum Loose {
     Early,
     /// Where the bristles reach their limit again.
     Late,
+    /// In the turn of the traction that lifts it, so that it slips nowhere in front of that.
+    Turning,
     /// At once: it does not stick.
     Never,
 }
@@ -201,6 +203,7 @@ fn cut<P: BeltProblem>(
             let zones = cut_at_turn(zones, &samples, length, CLEAR_TURN);
             cut_at_breakaway(zones, &samples, length, problem.sense(pulley))
         }
+        _ if loose == Loose::Turning && sticks(&zones) => zones,
         _ => cut_at_turn(zones, &samples, length, 0.0),
     };
     keep_junctions(&mut zones, (solved, pulley), ELSEWHERE * length);

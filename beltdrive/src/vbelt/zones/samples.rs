@@ -139,11 +139,12 @@ fn keep_first_stick(samples: &mut [Sample], loose: Loose) {
             .enumerate()
             .min_by(|(_, one), (_, other)| one.share.total_cmp(&other.share))
             .map_or(0, |(index, _)| index + 1),
-        Loose::Late | Loose::Seen => run.count(),
+        Loose::Late | Loose::Turning | Loose::Seen => run.count(),
         Loose::Never => 0,
     };
+    let room = if loose == Loose::Turning { 0.0 } else { ROOM };
     let latest = match (turn(samples, 0.0), samples.last()) {
-        (Some(turn), Some(last)) => turn - ROOM * last.place,
+        (Some(turn), Some(last)) => turn - room * last.place,
         _ => f64::INFINITY,
     };
     for (index, sample) in samples.iter_mut().enumerate() {
