@@ -771,7 +771,8 @@ fn epp_loop_of_survey(index: usize) -> Drive {
 }
 
 /// Solves random loops, prints the score and returns how many were neither solved nor refused for a reason. A loop
-/// that is refused for its load is to carry a little less than is said.
+/// that is refused for its load is to carry a little less than is said, or to be refused for another reason: closed by
+/// the tension of a span, its belt at rest is pressed through a groove at some loads.
 fn survey(name: &str, count: usize, draw: impl Fn(&mut Random) -> Drive) -> usize {
     let (mut refused, mut failed, mut wrong, mut seconds) = (0, 0, 0, Vec::new());
     for (index, drive) in of_survey(draw).take(count).enumerate() {
@@ -780,7 +781,7 @@ fn survey(name: &str, count: usize, draw: impl Fn(&mut Random) -> Drive) -> usiz
         let took = start.elapsed().as_secs_f64();
         match outcome {
             Ok(_) => seconds.push(took),
-            Err(error @ (SolveError::Unreached { .. } | SolveError::Violated(_))) => {
+            Err(error) if is_lost(&error) => {
                 failed += 1;
                 println!("{index}, {took:.2} s: {error}\n{drive:?}");
             }
@@ -789,6 +790,7 @@ fn survey(name: &str, count: usize, draw: impl Fn(&mut Random) -> Drive) -> usiz
                 println!("{index}, {took:.2} s: {error}");
                 if let SolveError::Overloaded { load_factor, .. } = error
                     && let Err(error) = solve(&times(&drive, BELOW * load_factor))
+                    && (is_lost(&error) || matches!(error, SolveError::Overloaded { .. }))
                 {
                     wrong += 1;
                     println!("{index}, at {BELOW} of that: {error}");
@@ -805,6 +807,14 @@ fn survey(name: &str, count: usize, draw: impl Fn(&mut Random) -> Drive) -> usiz
         seconds.len(),
     );
     failed + wrong
+}
+
+/// Whether a state was not found, with no reason why there should be none.
+fn is_lost(error: &SolveError) -> bool {
+    matches!(
+        error,
+        SolveError::Unreached { .. } | SolveError::Violated(_)
+    )
 }
 
 /// Share of its largest load that a loop is to carry.
