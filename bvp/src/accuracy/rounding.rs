@@ -27,8 +27,10 @@
 
 use crate::discretisation::iterate::{Interval, Iterate, Residual, SegmentIterate};
 use crate::discretisation::ratio::{Component, largest_ratio};
+use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::dot;
 use crate::kernels::random::Signs;
+use crate::kernels::specialise::specialise;
 use crate::newton::collocation::{Collocation, gather_ends};
 use crate::problem::problem::Segment;
 use crate::shares::{INVISIBLE, MODERATE, ONE_SAMPLE, TWO_DIGITS};
@@ -88,14 +90,15 @@ impl Collocation<'_> {
         let (mut image, mut residual) = (self.residual_buffer(), self.residual_buffer());
         self.linear_residual(&known, &mut image);
         let (mut found, mut correction) = (self.zeros(), self.zeros());
-        // The second solve refines.
-        for _ in 0..2 {
-            self.linear_residual(&found, &mut residual);
-            subtract(&mut residual, &image);
-            self.correction(&residual, &mut correction);
-            let before = found.clone();
-            found.set_sum(&before, 1.0, &correction);
-        }
+        // The residual of zero is zero.
+        subtract(&mut residual, &image);
+        self.correction(&residual, &mut found);
+        // A second solve refines.
+        self.linear_residual(&found, &mut residual);
+        subtract(&mut residual, &image);
+        self.correction(&residual, &mut correction);
+        let refined = found.clone();
+        found.set_sum(&refined, 1.0, &correction);
         correction.set_sum(&found, -1.0, &known);
         norm_by_component(self.equations.segments(), x, &correction)
     }
@@ -106,24 +109,12 @@ impl Collocation<'_> {
         let (t, k) = (&*self.tableau, z.p.len());
         let segments = self.equations.segments();
         for (index, segment) in segments.iter().enumerate() {
-            let n = segment.states;
-            let mut y = vec![0.0; n];
-            let SegmentIterate { nodes, stages } = &mut image.equations[index];
-            let images = stages.chunks_exact_mut(t.stages * n);
-            let images = images.zip(nodes[n..].chunks_exact_mut(n));
-            let mut slopes = z.segments[index].stages.iter();
-            let mut rows = self.stages[index].jacobians().chunks_exact(n + k);
-            let pairs = self.mesh[index].windows(2).enumerate();
-            for ((i, pair), (stages, continuity)) in pairs.zip(images) {
-                let interval = Interval::new(&z.segments[index], [t.stages, n], i, pair);
-                for (j, r) in stages.chunks_exact_mut(n).enumerate() {
-                    interval.stage_state(t, j, &mut y);
-                    for ((r, slope), row) in r.iter_mut().zip(&mut slopes).zip(&mut rows) {
-                        *r = slope - dot(&row[..n], &y) - dot(&row[n..], &z.p);
-                    }
-                }
-                interval.continuity(t, continuity);
-            }
+            let (m, n) = (t.stages, segment.states);
+            let jacobians = self.stages[index].jacobians();
+            let (mesh, z) = (&self.mesh[index], (&z.segments[index], &z.p[..]));
+            let image = &mut image.equations[index];
+            specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] => specialise!(k in [0] =>
+                linear_residuals([m, n, k], t, mesh, jacobians, z, image))));
         }
         let states: usize = segments.iter().map(|segment| segment.states).sum();
         let mut unknowns = vec![0.0; 2 * states];
@@ -133,6 +124,36 @@ impl Collocation<'_> {
         for (r, row) in image.conditions.iter_mut().zip(rows) {
             *r = dot(row, &unknowns);
         }
+    }
+}
+
+/// The part of A z of one segment with these Jacobians at its stages, with m stages, n states and k parameters.
+#[inline(always)]
+fn linear_residuals(
+    [m, n, k]: [usize; 3],
+    t: &Tableau,
+    mesh: &[f64],
+    jacobians: &[f64],
+    (z, p): (&SegmentIterate, &[f64]),
+    image: &mut SegmentIterate,
+) {
+    let mut y = vec![0.0; n];
+    let (y, a) = (&mut y[..n], &t.a[..m * m]);
+    let images = image.stages.chunks_exact_mut(m * n);
+    let images = images.zip(image.nodes[n..].chunks_exact_mut(n));
+    let jacobians = jacobians.chunks_exact(m * n * (n + k));
+    let pairs = mesh.windows(2).enumerate();
+    for (((i, pair), (stages, continuity)), jacobians) in pairs.zip(images).zip(jacobians) {
+        let interval = Interval::new(z, [m, n], i, pair);
+        let rows = jacobians.chunks_exact(n * (n + k));
+        for ((j, r), rows) in stages.chunks_exact_mut(n).enumerate().zip(rows) {
+            interval.state(&a[j * m..][..m], y);
+            let slopes = interval.stage_slope(j);
+            for ((r, slope), row) in r.iter_mut().zip(slopes).zip(rows.chunks_exact(n + k)) {
+                *r = slope - dot(&row[..n], y) - dot(&row[n..], p);
+            }
+        }
+        interval.continuity(t, continuity);
     }
 }
 
