@@ -52,7 +52,8 @@ impl Acceptance {
         }
     }
 
-    /// Estimates the error of a solution by the last linearisation.
+    /// Estimates the error of a solution by the last linearisation. One beyond the tolerance is refused where it may
+    /// be nothing but rounding: no mesh changes that. The others are confirmed or refused by a second look.
     pub(crate) fn estimate(
         &mut self,
         problem: &mut Discretised<'_>,
@@ -65,13 +66,12 @@ impl Acceptance {
             ..
         } = problem;
         solution.quality.errors = newton.global_errors(collocation, &solution.x, samples, local);
-        match problem.collocation.is_suspect() {
-            true => {
-                let a = problem.amplification(&solution.x);
-                self.refuse_rounding(problem, solution, a)
-            }
-            false => Ok(()),
+        let within = |error: f64| error <= problem.options.tolerance;
+        if solution.error_estimate().is_some_and(within) || !problem.collocation.is_suspect() {
+            return Ok(());
         }
+        let a = problem.amplification(&solution.x);
+        self.refuse_rounding(problem, solution, a)
     }
 
     /// Takes a second look at a solution within the tolerance: what was found of it must hold at the
