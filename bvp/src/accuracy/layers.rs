@@ -5,10 +5,9 @@
 //! them. If the conditions ask for a layer there, another solution is found that satisfies them without, the
 //! same on every mesh that is as coarse there. A mesh that resolves the layer tells.
 
-use crate::discretisation::mesh::Mesh;
+use crate::discretisation::mesh::{Mesh, ceil};
 use crate::newton::collocation::Collocation;
 use crate::problem::problem::Segment;
-use crate::shares::PARTS;
 use faer::MatRef;
 
 /// An interval longer than this many decay lengths does not show a layer.
@@ -74,16 +73,20 @@ fn fastest_growth(jacobian: &[f64], n: usize, h: f64, direction: f64) -> Option<
         let rates = eigenvalues.iter().map(|z| direction * z.re);
         rates.fold(0.0, f64::max)
     };
-    (rate * h > HIDDEN).then_some(rate)
+    (rate.is_finite() && rate * h > HIDDEN).then_some(rate)
 }
 
 /// Distances from the end, descending, at which an interval of length h is cut for a layer that grows
-/// at this rate.
+/// at this rate: each the same share of the one before, and at least half of it. At most a quarter in the place of
+/// the half, and a last interval of what is left, so short that the next mesh is short around it, took 9, 9 and 7 %
+/// more instructions on the reference set at 1e-3, 1e-6 and 1e-9, at least a third 3, 1 and 2 %.
 fn distances(h: f64, rate: f64) -> Vec<f64> {
-    let part = |d: f64| d / PARTS as f64;
-    let shorter = std::iter::successors(Some(part(h)), |&d| Some(part(d)));
-    let mut distances: Vec<f64> = shorter.take_while(|d| d * rate > SHOWN).collect();
-    distances.push(SHOWN / rate);
+    let first = SHOWN / rate;
+    let cuts = ceil((h / first).log2());
+    let share = (first / h).powf(1.0 / cuts as f64);
+    let ascending = std::iter::successors(Some(first), |&d| Some(d / share));
+    let mut distances: Vec<f64> = ascending.take(cuts).collect();
+    distances.reverse();
     distances
 }
 
@@ -100,6 +103,8 @@ mod tests {
         let rate = fastest_growth(&jacobian, 2, 1.0, -1.0).unwrap();
         assert!((rate - 300.0).abs() < 1e-9);
         assert_eq!(fastest_growth(&jacobian, 2, 0.1, 1.0), None);
+        let overflow = [1e200, 0.0, 0.0, -1e200];
+        assert_eq!(fastest_growth(&overflow, 2, 1.0, 1.0), None);
         let oscillation = [0.0, 1.0, -1e6, 0.0];
         assert_eq!(fastest_growth(&oscillation, 2, 1.0, 1.0), None);
     }
@@ -107,6 +112,12 @@ mod tests {
     #[test]
     fn cuts_reach_from_the_interval_to_the_layer() {
         let found = distances(1.0, 100.0);
-        assert_eq!(found, [0.25, 0.0625, 0.02]);
+        let shares = found.windows(2).map(|pair| pair[1] / pair[0]);
+        assert_eq!((found.len(), found[5]), (6, 0.02));
+        assert!(
+            shares
+                .chain([found[0]])
+                .all(|share| (share - 0.02_f64.powf(1.0 / 6.0)).abs() < 1e-15)
+        );
     }
 }

@@ -70,5 +70,5 @@ fn work_of_a_boundary_layer() {
         let stats = solution.stats();
         [stats.factorisations, stats.meshes, intervals(&solution)]
     });
-    assert_eq!(work, [[5, 5, 10], [4, 4, 15], [5, 5, 26]]);
+    assert_eq!(work, [[3, 3, 9], [3, 3, 16], [4, 4, 41]]);
 }
