@@ -144,11 +144,13 @@ impl Acceptance {
         };
         let tolerance = problem.options.tolerance;
         let unsure = is_high(a) || vanishes(&solution.x, tolerance);
-        if (unsure || is_amplified(grown)) && problem.may_halve(&solution.mesh) {
+        let struggled = problem.struggled(&solution.mesh);
+        if (unsure || struggled || is_amplified(grown)) && problem.may_halve(&solution.mesh) {
             let direction = problem.amplified(&solution.x);
             let finer = halved(&solution.mesh);
             let on_finer = problem.on_mesh(finer.clone(), solution);
-            if unsure && !is_steady(a, on_finer.amplification) {
+            let opens = is_amplified(on_finer.amplification);
+            if (unsure || struggled && opens) && !is_steady(a, on_finer.amplification) {
                 return self
                     .doubt(problem, direction, a, solution)
                     .map(Confirmed::On);

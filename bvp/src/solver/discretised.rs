@@ -15,7 +15,7 @@ use crate::result::error::Error;
 use crate::result::quality::{Direction, Quality, Samples};
 use crate::result::solution::Solution;
 use crate::result::stats::Stats;
-use crate::shares::{INVISIBLE, NEGLIGIBLE, TWO_DIGITS};
+use crate::shares::{INVISIBLE, NEGLIGIBLE, TWO_DIGITS, UNNOTICED};
 use crate::solver::failure::{ill_conditioned, numerical};
 use crate::solver::options::{Control, Options};
 use crate::solver::transfer::transfer;
@@ -294,6 +294,14 @@ impl<'a> Discretised<'a> {
             };
         }
         self.ill_conditioned(rounding.unwrap_or(f64::INFINITY), best)
+    }
+
+    /// Whether the way to a solution on this mesh was so long that a look on a halved one, with twice as many
+    /// Jacobians, does not show beside it. An interface whose place is exponentially ill determined is held by a
+    /// coarse mesh at places that depend on the mesh alone; Newton's method finds them after many detours.
+    pub(crate) fn struggled(&self, mesh: &Mesh) -> bool {
+        let once = self.stages() * intervals(mesh);
+        UNNOTICED * self.stats.jacobian_evaluations as f64 > 2.0 * once as f64
     }
 
     /// The error for a solution of which rounding may change this much.

@@ -1,7 +1,7 @@
 //! Shocks whose place is exponentially ill determined.
 
 use super::{Score, place};
-use bvp::{Ends, Function, Options, Problem, Real, Segment, solve};
+use bvp::{Ends, Function, Options, Problem, Real, Segment, TwoPoint, solve};
 use std::f64::consts::SQRT_2;
 
 /// ε y'' = y y', y(0) = 1, y(1) = −1.
@@ -73,17 +73,20 @@ impl Problem for Interface {
     }
 }
 
+/// tanh((s − a) / √2 w) and its derivative, a solution for w = ε of ε² y'' = y³ − y.
+fn interface(at: f64, width: f64, s: f64) -> [f64; 2] {
+    let rate = 1.0 / (SQRT_2 * width);
+    let tanh = (rate * (s - at)).tanh();
+    [tanh, rate * (1.0 - tanh * tanh)]
+}
+
 #[test]
 fn an_interface_that_the_ends_hardly_feel_is_in_the_middle_or_refused() {
     for i in 0..160 {
         let epsilon = 0.004 * 12f64.powf(f64::from(i) / 160.0);
         let (at, wide) = (0.15 + 0.7 * place(i), 0.6 + 2.0 * place(3 * i));
-        let rate = 1.0 / (SQRT_2 * epsilon * wide);
         let guess = Function {
-            state: |_: usize, s: f64| {
-                let tanh = (rate * (s - at)).tanh();
-                [tanh, rate * (1.0 - tanh * tanh)]
-            },
+            state: |_: usize, s: f64| interface(at, wide * epsilon, s),
             parameters: vec![],
         };
         let Ok(solution) = solve(&Interface { epsilon }, &guess, &Options::to(1e-3)) else {
@@ -101,5 +104,38 @@ fn an_interface_that_the_ends_hardly_feel_is_in_the_middle_or_refused() {
         }
         let [even, odd] = asymmetry;
         assert!(even.min(odd) <= 2e-2, "{epsilon} from {at}: {even} {odd}");
+    }
+}
+
+/// The values at the ends, that of the interface at 0.564, differ from −1 and 1 by less than rounding. A coarse mesh
+/// holds an interface at places that depend on the mesh alone.
+#[test]
+fn an_interface_that_only_a_mesh_holds_is_refused() {
+    let (epsilon, exact) = (0.004_235_184_622, 0.564_411_648);
+    let ends = [0.0, 1.0].map(|s| interface(exact, epsilon, s)[0]);
+    let problem = TwoPoint::new(
+        [2, 0],
+        [0.0, 1.0],
+        move |_, y, _, dy| {
+            dy[0] = y[1];
+            dy[1] = (y[0].powi(3) - y[0]) / epsilon.powi(2);
+        },
+        move |a, b, _, r| {
+            r[0] = a[0] - ends[0];
+            r[1] = b[0] - ends[1];
+        },
+    );
+    // Without a look at a halved mesh after a long way the third of these guesses leads to an accepted solution.
+    for i in 15..19 {
+        let (at, wide) = (0.1 + 0.8 * place(i), 0.5 + 2.5 * place(3 * i));
+        let guess = Function {
+            state: |_: usize, s: f64| interface(at, wide * epsilon, s),
+            parameters: vec![],
+        };
+        let mut score = Score::default();
+        let outcome = solve(&problem, &guess, &Options::to(1e-3));
+        score.count(&format!("from {at}"), 1e-3, outcome, |s| {
+            interface(exact, epsilon, s)[0]
+        });
     }
 }
