@@ -119,6 +119,14 @@ impl Collocation<'_> {
 /// From 1e-16 to 1 a power of s below δ, a negligible one, changes by 4 %: as far as numbers tell it is a constant.
 fn on_growing(residue: &Mat<f64>) -> Option<Mat<f64>> {
     let n = residue.nrows();
+    // All eigenvalues lie in Gershgorin's circles. As a rule S is diagonal with entries that are not positive.
+    let rightmost = |i: usize| {
+        let others = (0..n).filter(|&j| j != i).map(|j| residue[(i, j)].abs());
+        residue[(i, i)] + others.sum::<f64>()
+    };
+    if (0..n).all(|i| rightmost(i) < NEGLIGIBLE) {
+        return None;
+    }
     let identity = Mat::<f64>::identity(n, n);
     let mut x = residue - &identity * faer::Scale(NEGLIGIBLE);
     // A step halves an eigenvalue, or its inverse, until it is near ±1, and then doubles its digits: no more steps
