@@ -134,16 +134,20 @@ impl Path<'_> {
         {
             return Ok(solved);
         }
-        let law = match law {
+        let softer = match law {
             FrictionLaw::Bristle { .. } => law,
             _ => asked.softest(),
         };
-        let start = self
-            .attempt(asked.problem(law, 0.0), &Carried(near), Effort::Start)
-            .map_err(|cause| Stuck::after(near.clone(), cause))?;
-        match asked.law() {
-            FrictionLaw::Bristle { .. } => self.with_estimate(start),
-            _ => self.sharper(asked, start),
+        let start = self.attempt(asked.problem(softer, 0.0), &Carried(near), Effort::Start);
+        let solved = match (start, law) {
+            (Err(cause), _) => Err(Stuck::after(near.clone(), cause)),
+            (Ok(start), FrictionLaw::Bristle { .. }) => self.with_estimate(start),
+            (Ok(start), _) => self.sharper(asked, start),
+        };
+        match near.problem.law() {
+            // Soft bristles carry less than Coulomb friction: just below the largest load they have no state.
+            Law::Normalised { .. } => solved.or_else(|_| self.sharper_normalised(near.clone())),
+            _ => solved,
         }
     }
 

@@ -23,6 +23,15 @@ impl Path<'_> {
         self.normalised_to(asked, start, Self::finish)
     }
 
+    /// Coulomb friction with a smaller ε, to the tolerance.
+    pub(super) fn sharper_normalised<P: BeltProblem>(
+        &mut self,
+        entered: Solved<P>,
+    ) -> Result<Solved<P>, Stuck<P>> {
+        let sharp = self.lower_epsilon(entered, RESOLVED)?;
+        self.finish(sharp)
+    }
+
     /// The law of the drive with a normalised direction and the smallest ε that is reached where its effect is not
     /// below the tolerance, with an estimate of the error where that costs little.
     pub(super) fn normalised_roughly<A: Asked>(
