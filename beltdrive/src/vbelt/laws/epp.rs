@@ -49,39 +49,42 @@ impl Path<'_> {
     }
 
     /// EPP friction from the zones that bristles show. Where the belt breaks loose they tell roughly: the place is
-    /// another one on the pulley on which the way went astray, until that has none left.
+    /// another one on the pulley on which the way went astray, until that has none left, and at last the belt sticks
+    /// nowhere.
     fn epp_from_bristles<A: Asked>(
         &mut self,
         asked: &A,
         bristles: &Solved<A::Problem>,
         lag: f64,
     ) -> Option<Solved<A::Problem>> {
-        let pulleys = bristles.problem.pulleys();
-        let mut tried: Vec<Cut<'_, A::Problem>> = Vec::new();
-        let mut place = vec![0; pulleys];
-        loop {
+        let of = |place: Vec<usize>| {
             let loose: Vec<_> = place.iter().map(|&place| ORDER[place]).collect();
-            let cut = Cut::of_bristles(bristles, &loose);
+            (Cut::of_bristles(bristles, &loose), place)
+        };
+        let pulleys = bristles.problem.pulleys();
+        let never = vec![ORDER.len() - 1; pulleys];
+        let mut tried: Vec<Cut<'_, A::Problem>> = Vec::new();
+        let mut next = Some(of(vec![0; pulleys]));
+        while let Some((cut, place)) = next {
             let astray = match self.epp_from(asked, &cut, lag) {
                 Ok(found) => return Some(found),
                 Err(astray) => astray,
             };
             tried.push(cut);
-            let Some(pulley) = astray.pulley else { break };
-            let other = (place[pulley] + 1..ORDER.len()).find(|&other| {
-                let mut loose = loose.clone();
-                loose[pulley] = ORDER[other];
-                let cut = Cut::of_bristles(bristles, &loose);
-                !tried.iter().any(|tried| cut.is_like(tried))
+            let others = astray.pulley.into_iter().flat_map(|pulley| {
+                (place[pulley] + 1..ORDER.len()).map(move |other| (pulley, other))
             });
-            let Some(other) = other else { break };
-            place[pulley] = other;
+            let others = others.map(|(pulley, other)| {
+                let mut place = place.clone();
+                place[pulley] = other;
+                place
+            });
+            next = others
+                .chain([never.clone()])
+                .map(of)
+                .find(|(cut, _)| !tried.iter().any(|tried| cut.is_like(tried)));
         }
-        let never = Cut::of_bristles(bristles, &vec![Loose::Never; pulleys]);
-        match tried.iter().any(|tried| never.is_like(tried)) {
-            true => None,
-            false => self.epp_from(asked, &never, lag).ok(),
-        }
+        None
     }
 
     /// As stiff bristles with the limit of EPP friction as show its zones. The largest load of an accessory drive was
