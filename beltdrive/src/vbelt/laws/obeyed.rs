@@ -1,6 +1,7 @@
 //! Whether friction in a solution obeys its law.
 
-use crate::vbelt::on_pulley::OnPulley;
+use super::astray::Astray;
+use crate::vbelt::on_pulley::{Integrals, OnPulley};
 use crate::vbelt::path::Solved;
 use crate::vbelt::{BeltProblem, Law, Regime, limit_excess};
 
@@ -14,41 +15,61 @@ fn grooves<P: BeltProblem>(solved: &Solved<P>) -> impl Iterator<Item = (usize, O
     pulleys.filter_map(|pulley| Some((pulley, solved.in_groove(pulley)?)))
 }
 
-/// Whether friction is against the slip, and elastic or at its limit where it is taken to be.
-pub(super) fn obeys_friction<P: BeltProblem>(solved: &Solved<P>, tolerance: f64) -> bool {
+/// Whether friction is against the slip, and elastic or at its limit where it is taken to be; else the pulley on which
+/// it obeys its law least.
+pub(super) fn obey_friction<P: BeltProblem>(
+    solved: &Solved<P>,
+    tolerance: f64,
+) -> Result<(), Astray> {
     let limit = ALLOWED * tolerance;
+    let gains = Gains::of(solved);
     let is_right = !solved.problem.has_zones() || wrong_friction(solved) <= limit;
-    is_right && power_gained(solved) <= limit
+    match is_right && gains.share() <= limit {
+        true => Ok(()),
+        false => Err(gains.astray(solved, tolerance)),
+    }
 }
 
 /// Power that the belt gains where the traction pulls with its slip, as a share of that which it spends
 /// elsewhere. A traction that has turned the wrong way round meets all equations but the sense of friction.
 pub(in crate::vbelt) fn power_gained<P: BeltProblem>(solved: &Solved<P>) -> f64 {
-    let (mut gained, mut friction) = (0.0, 0.0);
-    for (_, on) in grooves(solved) {
-        let sum = on.integrate();
-        gained += sum.gained;
-        friction += sum.friction;
-    }
-    gained / (friction + gained)
+    Gains::of(solved).share()
 }
 
-/// The pulley on which friction obeys its law least: where the belt gains the largest share of the power of friction,
-/// or if it gains none where friction is not of the kind that it is taken for.
-pub(super) fn least_obedient<P: BeltProblem>(solved: &Solved<P>, tolerance: f64) -> Option<usize> {
-    let gains = power_gained(solved) > ALLOWED * tolerance;
-    let wrong = grooves(solved).map(|(pulley, on)| {
-        let wrong = match gains {
-            true => {
-                let sum = on.integrate();
-                sum.gained / (sum.friction + sum.gained)
-            }
-            false => wrong_on(&on)[0],
-        };
-        (pulley, wrong)
-    });
-    let most = wrong.max_by(|(_, one), (_, other)| one.total_cmp(other));
-    most.map(|(pulley, _)| pulley)
+/// The power of friction in every groove.
+pub(super) struct Gains(Vec<Integrals>);
+
+impl Gains {
+    pub(super) fn of<P: BeltProblem>(solved: &Solved<P>) -> Self {
+        Self(grooves(solved).map(|(_, on)| on.integrate()).collect())
+    }
+
+    /// As [`power_gained`].
+    pub(super) fn share(&self) -> f64 {
+        let (mut gained, mut friction) = (0.0, 0.0);
+        for sum in &self.0 {
+            gained += sum.gained;
+            friction += sum.friction;
+        }
+        gained / (friction + gained)
+    }
+
+    /// The pulley of the same solution on which friction obeys its law least: where the belt gains the largest share of
+    /// the power of friction, or if it gains none where friction is not of the kind that it is taken for.
+    pub(super) fn astray<P: BeltProblem>(&self, solved: &Solved<P>, tolerance: f64) -> Astray {
+        let gains = self.share() > ALLOWED * tolerance;
+        let wrong = grooves(solved).zip(&self.0).map(|((pulley, on), sum)| {
+            let wrong = match gains {
+                true => sum.gained / (sum.friction + sum.gained),
+                false => wrong_on(&on)[0],
+            };
+            (pulley, wrong)
+        });
+        let most = wrong.max_by(|(_, one), (_, other)| one.total_cmp(other));
+        Astray {
+            pulley: most.map(|(pulley, _)| pulley),
+        }
+    }
 }
 
 /// By how much friction is above its limit in elastic zones, below it in slip zones, or more than holds a belt that

@@ -4,7 +4,7 @@
 //! likes, and with a lead from there on, which needs few mesh intervals however short ℓ is.
 
 use super::astray::Astray;
-use super::obeyed::{least_obedient, obeys_friction, power_gained};
+use super::obeyed::{Gains, obey_friction, power_gained};
 use super::{Asked, RESOLVED};
 use crate::FrictionLaw;
 use crate::vbelt::BeltProblem;
@@ -73,12 +73,8 @@ impl Path<'_> {
             }
         };
         let solved = self.finish(sharp).map_err(|stuck| stuck.astray())?;
-        match obeys_friction(&solved, self.tolerance) {
-            true => Ok(solved),
-            false => Err(Astray {
-                pulley: least_obedient(&solved, self.tolerance),
-            }),
-        }
+        obey_friction(&solved, self.tolerance)?;
+        Ok(solved)
     }
 
     /// A direction that is led, with a short ℓ, if the belt gains no power from friction then.
@@ -90,15 +86,16 @@ impl Path<'_> {
         let sharp = self
             .smooth_less(led, RESOLVED, Effort::Rough)
             .map_err(|stuck| Unled::Failed(stuck.astray()))?;
-        let gained = power_gained(&sharp);
-        let astray = Astray {
-            pulley: least_obedient(&sharp, self.tolerance),
-        };
-        match gained <= WRONG_WAY {
-            true => Ok(sharp),
-            false if power_gained(following) > SAME_WAY * gained => Err(Unled::WrongWay(astray)),
-            false => Err(Unled::Failed(astray)),
+        let gains = Gains::of(&sharp);
+        let gained = gains.share();
+        if gained <= WRONG_WAY {
+            return Ok(sharp);
         }
+        let astray = gains.astray(&sharp, self.tolerance);
+        Err(match power_gained(following) > SAME_WAY * gained {
+            true => Unled::WrongWay(astray),
+            false => Unled::Failed(astray),
+        })
     }
 }
 
