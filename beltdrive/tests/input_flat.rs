@@ -263,12 +263,12 @@ fn loads_of_one_quantity_or_none() {
     help: two quantities close a drive: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
     "#);
     assert_snapshot!(flat_error(&["load.slack_tension="]), @r#"
-    error: missing key `slack_tractive_tension` or `slack_tension` or `tight_tractive_tension` or `tight_tension` in [load]
+    error: missing key `slack_tractive_tension` or `slack_tension` or `tight_tractive_tension` or `tight_tension` or `setup_tension` or `belt_length` in [load]
        --> flat.toml:26:2
        |
     26 | [load]                             # the slack tension and the torque of the driven pulley close the drive
        |  ^^^^
-    expected: slack_tractive_tension = "100 N" or slack_tension = "110 N" or tight_tractive_tension = "700 N" or tight_tension = "710 N"
+    expected: slack_tractive_tension = "100 N" or slack_tension = "110 N" or tight_tractive_tension = "700 N" or tight_tension = "710 N" or setup_tension = "400 N" or belt_length = "4.36 m"
     help: two quantities close a drive: two tensions, or the torque or power of the driven pulley with a span tension, the setup tension or the belt length
     "#);
     assert_snapshot!(flat_error(&["load.slack_tension=", "load.driven_torque=", "load.tight_tension=550 N"]), @r#"

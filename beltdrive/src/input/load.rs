@@ -62,7 +62,9 @@ pub(super) fn load(values: &Values<'_>, belt: BeltKind) -> Result<(Duty, Closure
             Err(values.missing(&[&SLACK[..], &[TORQUE]].concat()).help(TWO))
         }
         (None, None, None, None) => Err(values.missing(&SLACK).help(TWO)),
-        (None, None, Some(_), None) => Err(values.missing(&TENSIONS).help(TWO)),
+        (None, None, Some(_), None) => Err(values
+            .missing(&[&TENSIONS[..], &CLOSURE[..2]].concat())
+            .help(TWO)),
         (None, None, None, Some(_)) => Err(values.missing(&EFFORT).help(TWO)),
         _ => Err(overdetermined(values)),
     }
