@@ -437,6 +437,31 @@ fn every_number_of_a_loop_has_a_branch_and_limits() {
     );
 }
 
+/// Standard error of a command that fails.
+fn errors(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert!(!output.status.success(), "{arguments:?}");
+    String::from_utf8(output.stderr).unwrap()
+}
+
+/// A bare speed is in rad/s: one that was meant in rpm makes the belt too fast.
+#[test]
+fn a_refused_drive_with_a_bare_speed_is_told_its_unit() {
+    for (name, key, number) in [
+        ("poly-v", "pulleys.driver.speed", "12000"),
+        ("back-side-idler", "pulley.motor.speed", "1900"),
+    ] {
+        let file = example(name);
+        let refusal = |speed: &str| errors(&["solve", &file, "--set", &format!("{key}={speed}")]);
+        let bare = refusal(number);
+        let meant = format!("`{key}` has no unit: it is {number} rad/s");
+        assert!(bare.contains(&meant), "{bare}");
+        assert!(bare.contains(&format!("write \"{number} rpm\"")), "{bare}");
+        let stated = refusal(&format!("{number} rad/s"));
+        assert!(!stated.contains("help:"), "{stated}");
+    }
+}
+
 #[test]
 fn a_v_belt_with_a_tensioner_has_all_that_a_loop_has() {
     let directory = directory("loops-v");

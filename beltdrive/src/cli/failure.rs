@@ -2,6 +2,7 @@
 
 use beltdrive::SolveError;
 use beltdrive::belt_loop::Refusal;
+use beltdrive::input::DriveFile;
 use std::error::Error;
 
 /// Why a command fails: a message for standard error, by exit status.
@@ -16,6 +17,14 @@ impl Failure {
     /// A fault of the input or the command line.
     pub(super) fn usage(message: impl ToString) -> Self {
         Self::Usage(message.to_string())
+    }
+
+    /// The same failure; if the drive has no steady state, with what its file may say otherwise than was meant.
+    pub(super) fn of(self, file: &DriveFile) -> Self {
+        match (self, file.bare_speed()) {
+            (Self::Unsolved(text), Some(help)) => Self::Unsolved(format!("{text}\nhelp: {help}")),
+            (failure, _) => failure,
+        }
     }
 
     /// The failure to do something with a file or stream.

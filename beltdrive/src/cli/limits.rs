@@ -28,9 +28,13 @@ pub(super) struct Limits {
 impl Limits {
     pub(super) fn run(&self) -> Result<(), Failure> {
         let (file, origin) = self.common.file()?;
+        self.of(&file, &origin).map_err(|failure| failure.of(&file))
+    }
+
+    fn of(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
         let drive = file.drive().map_err(Failure::usage)?;
         if drive.two_pulleys().is_none() {
-            return self.of_loop(&file, &origin);
+            return self.of_loop(file, origin);
         }
         let key = match &self.parameter {
             Some(value) => parameter::key("--parameter", value, &drive)?,
@@ -45,7 +49,7 @@ impl Limits {
             let branch = quantity::branch::answer(&limits.branch);
             plot::write_rows(&branch, "branch.svg", directory, Some(metadata))
         };
-        self.common.output.write(answer, &draw, &origin)
+        self.common.output.write(answer, &draw, origin)
     }
 
     fn of_loop(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {

@@ -2,6 +2,7 @@
 
 use super::{common::Common, failure::Failure, origin::Origin};
 use beltdrive::belt_loop;
+use beltdrive::input::DriveFile;
 use beltdrive::quantity::{Group, two_pulleys};
 use beltdrive::{SteadyState, plot, quantity};
 use clap::Args;
@@ -23,24 +24,28 @@ pub(super) struct Solve {
 impl Solve {
     pub(super) fn run(&self) -> Result<(), Failure> {
         let (file, origin) = self.common.file()?;
+        self.of(&file, &origin).map_err(|failure| failure.of(&file))
+    }
+
+    fn of(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
         let drive = file.drive().map_err(Failure::usage)?;
         let options = self.common.options();
         if drive.two_pulleys().is_some() {
             let state = beltdrive::solve(&drive, &options)?;
-            return self.write_drive(&state, two_pulleys::groups(&state), &origin);
+            return self.write_drive(&state, two_pulleys::groups(&state), origin);
         }
         let state = belt_loop::solve_with_margins(&drive, &options)?;
         // A drive with two pulleys is shown as one.
         if let Some(as_drive) = two_pulleys::as_drive(&drive, &state) {
             let groups = two_pulleys::of_loop(&drive, &state);
             let state = beltdrive::solve(&as_drive, &options)?;
-            return self.write_drive(&state, groups, &origin);
+            return self.write_drive(&state, groups, origin);
         }
         let answer = &quantity::belt_loop::answer(&drive, &state);
         let draw = |directory: &Path, metadata: &str| {
             plot::write_state(answer, "loop.svg", directory, Some(metadata))
         };
-        self.common.output.write(answer, &draw, &origin)
+        self.common.output.write(answer, &draw, origin)
     }
 
     /// Writes the steady state of a drive with two pulleys, and what there is to tell of it as a loop.

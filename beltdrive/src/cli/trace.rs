@@ -44,16 +44,20 @@ pub(super) struct Trace {
 impl Trace {
     pub(super) fn run(&self) -> Result<(), Failure> {
         let (file, origin) = self.common.file()?;
+        self.of(&file, &origin).map_err(|failure| failure.of(&file))
+    }
+
+    fn of(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
         let drive = file.drive().map_err(Failure::usage)?;
         if drive.two_pulleys().is_none() {
-            return self.of_loop(&file, &origin);
+            return self.of_loop(file, origin);
         }
         let key = parameter::key("--parameter", &self.parameter, &drive)?;
         match &self.curve {
-            None => self.branch(&drive, key, &origin),
+            None => self.branch(&drive, key, origin),
             Some(curve) => {
                 let second = parameter::key("--curve", curve, &drive)?;
-                self.limit_curve(&drive, key, second, &origin)
+                self.limit_curve(&drive, key, second, origin)
             }
         }
     }

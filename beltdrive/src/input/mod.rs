@@ -16,6 +16,7 @@
 //! The first finding of any stage ends the reading and is shown where it stands.
 
 mod argument;
+mod bare_speed;
 mod belt;
 mod belt_loop;
 mod check;
