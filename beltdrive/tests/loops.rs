@@ -463,6 +463,19 @@ fn a_refused_drive_with_a_bare_speed_is_told_its_unit() {
 }
 
 #[test]
+fn a_branch_that_begins_where_the_belt_cannot_be_laid_says_where() {
+    let file = example("back-side-idler");
+    let range = ["--from", "200 mm", "--to", "400 mm"];
+    let trace = ["trace", &file, "--parameter", "pulley.fan.centre.x"];
+    let refusal = errors(&[&trace, &range[..]].concat());
+    assert!(refusal.contains("overlap"), "{refusal}");
+    assert!(
+        refusal.contains("help: that is at --from 200 mm; begin where"),
+        "{refusal}"
+    );
+}
+
+#[test]
 fn a_v_belt_with_a_tensioner_has_all_that_a_loop_has() {
     let directory = directory("loops-v");
     let text = fs::read_to_string(example("v-power")).unwrap();

@@ -107,12 +107,16 @@ impl Trace {
         let parameter = key("--parameter", &self.parameter)?;
         let varied = Varied::Key(parameter.clone());
         let options = self.common.options();
-        let beginning = |refusal: Refusal| match Failure::from(refusal) {
-            Failure::Unsolved(text) => Failure::Unsolved(format!(
-                "{text}\nhelp: that is at --from {}; begin where the loop has a state",
-                self.from
-            )),
-            usage @ Failure::Usage(_) => usage,
+        let beginning = |refusal: Refusal| {
+            let help = |text: String| {
+                let from = &self.from;
+                format!("{text}\nhelp: that is at --from {from}; begin where the loop has a state")
+            };
+            match Failure::from(refusal) {
+                Failure::Unsolved(text) => Failure::Unsolved(help(text)),
+                // The file itself was read.
+                Failure::Usage(text) => Failure::Usage(help(text)),
+            }
         };
         let (name, answer) = match &self.curve {
             None => {
