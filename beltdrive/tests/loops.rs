@@ -475,6 +475,17 @@ fn a_branch_that_begins_where_the_belt_cannot_be_laid_says_where() {
     );
 }
 
+/// A number of ribs has no neighbours, and no limits.
+#[test]
+fn a_whole_number_does_not_vary() {
+    let file = example("serpentine");
+    let refusal = errors(&["limits", &file, "--parameter", "belt.ribs"]);
+    let reason = "`belt.ribs` is a whole number and does not vary";
+    assert!(refusal.contains(reason), "{refusal}");
+    let listed = refusal.split_once("expected: ").unwrap().1;
+    assert!(!listed.contains("belt.ribs"), "{refusal}");
+}
+
 #[test]
 fn a_v_belt_with_a_tensioner_has_all_that_a_loop_has() {
     let directory = directory("loops-v");

@@ -50,7 +50,7 @@ impl PartialEq for FileKey {
 }
 
 impl DriveFile {
-    /// The numbers that the file gives.
+    /// The numbers that the file gives, but for whole ones.
     pub fn keys(&self) -> Vec<FileKey> {
         let entries = self.document.entries.iter();
         entries
@@ -88,6 +88,9 @@ impl DriveFile {
         }
         let paths = || keys.iter().map(|key| key.path.as_str());
         let message = match schema::rule(path) {
+            Some(rule) if rule.is_whole() => {
+                format!("`{path}` is a whole number and does not vary")
+            }
             Some(_) => format!("the drive file gives no number `{path}`"),
             None => format!("unknown key `{path}`"),
         };
@@ -109,11 +112,14 @@ impl Argument<'_> {
     }
 }
 
-/// The key of the number at a path.
+/// The key of the number at a path, unless it is a whole one: that does not vary.
 fn key(path: &str) -> Option<FileKey> {
     let QuantityRule {
         dimension, range, ..
     } = schema::quantity_rule(path)?;
+    if let schema::Range::Whole = range {
+        return None;
+    }
     Some(FileKey {
         path: path.to_owned(),
         measure: dimension.measure()?,

@@ -103,6 +103,17 @@ impl Rule {
         format!("{} = {}", split(self.path).1, self.example)
     }
 
+    /// Whether the entry is a whole number.
+    pub(super) fn is_whole(&self) -> bool {
+        matches!(
+            self.kind,
+            Kind::Quantity {
+                range: Range::Whole,
+                ..
+            }
+        )
+    }
+
     /// Whether the entry may not be given.
     pub(super) fn is_refused(&self) -> bool {
         matches!(self.kind, Kind::Refused { .. })
