@@ -486,6 +486,15 @@ fn a_whole_number_does_not_vary() {
     assert!(!listed.contains("belt.ribs"), "{refusal}");
 }
 
+/// With the compressor beyond 0.67 m the belt would fit the other way round, too.
+#[test]
+fn a_belt_that_comes_to_fit_either_way_keeps_its_sense() {
+    let file = example("serpentine");
+    let trace = ["trace", &file, "--parameter", "pulley.compressor.centre.x"];
+    let found = json(&[&trace[..], &["--from", "0.2 m", "--to", "20 m"]].concat());
+    assert_eq!(found["end"]["reason"], "target", "{}", found["end"]);
+}
+
 #[test]
 fn a_v_belt_with_a_tensioner_has_all_that_a_loop_has() {
     let directory = directory("loops-v");

@@ -68,7 +68,8 @@ const LOCATED: f64 = 0.1;
 
 /// The loops that differ in one number of a drive file.
 pub(super) struct Members<'f> {
-    file: &'f DriveFile,
+    /// With the sense of the loop.
+    file: DriveFile,
     varied: &'f Varied,
     options: &'f SolveOptions,
 }
@@ -76,7 +77,7 @@ pub(super) struct Members<'f> {
 impl<'f> Members<'f> {
     pub(super) fn new(file: &'f DriveFile, varied: &'f Varied, options: &'f SolveOptions) -> Self {
         Self {
-            file,
+            file: file.with_sense(),
             varied,
             options,
         }

@@ -38,6 +38,14 @@ pub enum Sense {
 }
 
 impl Sense {
+    /// Its word in drive files.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Clockwise => "clockwise",
+            Self::CounterClockwise => "counter-clockwise",
+        }
+    }
+
     /// +1 counter-clockwise, −1 clockwise.
     pub fn sign(self) -> f64 {
         match self {

@@ -2,7 +2,7 @@
 
 use super::{
     Argument, Diagnostic, DriveFile, Finding, check,
-    document::Content,
+    document::{Content, Entry},
     schema::{self, QuantityRule},
     spelling,
     values::Values,
@@ -73,6 +73,31 @@ impl DriveFile {
         let mut file = self.clone();
         if let Some(entry) = file.document.entries.get_mut(&key.path) {
             entry.content = Content::Number(value);
+        }
+        file
+    }
+
+    /// The file with the sense in which its belt runs round the pulleys, where it leaves that to their places: as a
+    /// number varies, the belt may come to fit the other way round, too.
+    #[must_use]
+    pub(crate) fn with_sense(&self) -> Self {
+        let mut file = self.clone();
+        if let Ok(drive) = self.drive()
+            && self.document.entries.contains_key(schema::PULLEY)
+        {
+            let end = self.document.end.clone();
+            let entry = |content| Entry {
+                key: end.clone(),
+                place: end.clone(),
+                content,
+            };
+            let entries = &mut file.document.entries;
+            for (path, content) in [
+                ("layout", Content::Table),
+                ("layout.sense", Content::Text(drive.sense.name().to_owned())),
+            ] {
+                entries.entry(path.to_owned()).or_insert(entry(content));
+            }
         }
         file
     }

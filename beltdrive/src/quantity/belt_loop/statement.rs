@@ -2,7 +2,7 @@
 
 use super::super::precision::six_digits;
 use super::super::{Quantity, words};
-use crate::{BeltKind, Closure, Drive, NormalForce, Sense};
+use crate::{BeltKind, Closure, Drive, NormalForce};
 
 /// The title, and what the loop is.
 pub(crate) fn heading(drive: &Drive) -> Vec<String> {
@@ -64,10 +64,7 @@ pub(crate) fn statement(drive: &Drive) -> Vec<Quantity> {
         BeltKind::V(_) => ("v", None),
         BeltKind::Flat { normal_force } => ("flat", Some(normal_force.name().to_owned())),
     };
-    let sense = match drive.sense {
-        Sense::Clockwise => "clockwise",
-        Sense::CounterClockwise => "counter-clockwise",
-    };
+    let sense = drive.sense.name();
     let word = |key, word: &str| Quantity::word(key, "", word.to_owned());
     let mut statement = vec![
         Quantity::word("title", "", drive.title.clone()),
