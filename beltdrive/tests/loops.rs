@@ -496,6 +496,18 @@ fn a_belt_that_comes_to_fit_either_way_keeps_its_sense() {
 }
 
 #[test]
+fn at_the_end_of_its_travel_no_number_is_beyond_itself() {
+    let file = example("conveyor");
+    let limits = json(&["limits", &file, "--parameter", "load.belt_length"]);
+    for end in ["smallest", "largest"] {
+        assert_eq!(
+            limits[end]["description"],
+            "the tensioner `take-up` reaches the end of its travel"
+        );
+    }
+}
+
+#[test]
 fn a_v_belt_with_a_tensioner_has_all_that_a_loop_has() {
     let directory = directory("loops-v");
     let text = fs::read_to_string(example("v-power")).unwrap();

@@ -70,6 +70,12 @@ impl std::fmt::Display for LoopEnd {
                 SolveError::GrossSlip { pulley, .. } | SolveError::Overloaded { pulley, .. } => {
                     write!(f, "pulley `{pulley}` slips grossly")
                 }
+                SolveError::TensionerBeyondTravel { pulley, .. } => {
+                    write!(f, "the tensioner `{pulley}` reaches the end of its travel")
+                }
+                SolveError::Overstretched { .. } => {
+                    f.write_str("the belt is stretched to twice its length")
+                }
                 error => error.fmt(f),
             },
             Self::Limit(refusal) => refusal.fmt(f),

@@ -145,7 +145,10 @@ pub enum SolveError {
         pulley: String,
     },
     /// The belt would be stretched to more than twice its length, where no belt is linear elastic.
-    #[error("the belt would be stretched by {strain:.3e} of its length")]
+    #[error(
+        "the belt would be stretched by {} times its length, where no belt is linear elastic",
+        six_digits(*.strain)
+    )]
     Overstretched {
         /// Largest strain T/EA.
         strain: f64,
