@@ -12,7 +12,7 @@ use std::{env, fs};
 type Figure = (&'static str, &'static str, &'static str);
 
 /// The figures that take no time.
-const FIGURES: [Figure; 9] = [
+const FIGURES: [Figure; 10] = [
     ("serpentine-loop", "loop", "solve serpentine"),
     ("kim2009-drive", "drive", "solve kim2009"),
     ("kim2009-tension", "tension", "solve kim2009"),
@@ -26,6 +26,11 @@ const FIGURES: [Figure; 9] = [
         "kim2009-flat-soft",
         "friction_force",
         "solve kim2009-flat --set model.normal_force=exact --set friction.stiffness=1e6 --set load.tight_tension=4000",
+    ),
+    (
+        "kim2009-stiffness",
+        "branch",
+        "trace kim2009-epp --set friction.epp.kind=vector --parameter friction.stiffness --from 1e6 --to 1e9",
     ),
     (
         "kim2009-flat-branch",
