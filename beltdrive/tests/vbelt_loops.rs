@@ -987,6 +987,16 @@ fn a_load_just_below_the_limit_of_coulomb_friction_is_found() {
     assert!(estimate < 1e-6, "{estimate}");
 }
 
+/// A state to which the load was raised need not be found again on a coarse mesh.
+#[test]
+fn a_load_just_below_the_limit_of_bristles_is_found() {
+    let drive = of_survey(random_loop).nth(5).unwrap();
+    let limit = limit_of(&drive).unwrap().unwrap();
+    let state = solve(&times(&drive, BELOW * limit)).unwrap();
+    let estimate = state.convergence.unwrap().error_estimate;
+    assert!(estimate < 1e-6, "{estimate}");
+}
+
 /// With ε = 10⁻³ this loop was said to carry 0.617 of its load, and 0.636 of it was carried.
 #[test]
 fn the_limit_of_coulomb_friction_is_that_of_a_small_normalisation() {

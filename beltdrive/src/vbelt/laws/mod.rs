@@ -134,15 +134,13 @@ impl Path<'_> {
         {
             return Ok(solved);
         }
-        let softer = match law {
-            FrictionLaw::Bristle { .. } => law,
-            _ => asked.softest(),
-        };
-        let start = self.attempt(asked.problem(softer, 0.0), &Carried(near), Effort::Start);
-        let solved = match (start, law) {
-            (Err(cause), _) => Err(Stuck::after(near.clone(), cause)),
-            (Ok(start), FrictionLaw::Bristle { .. }) => self.with_estimate(start),
-            (Ok(start), _) => self.sharper(asked, start),
+        if let FrictionLaw::Bristle { .. } = law {
+            return self.with_estimate(near.clone());
+        }
+        let softest = asked.problem(asked.softest(), 0.0);
+        let solved = match self.attempt(softest, &Carried(near), Effort::Start) {
+            Ok(start) => self.sharper(asked, start),
+            Err(cause) => Err(Stuck::after(near.clone(), cause)),
         };
         match near.problem.law() {
             // Soft bristles carry less than Coulomb friction: just below the largest load they have no state.
