@@ -229,7 +229,7 @@ fn tensions_that_contradict() {
        |
     29 | tight_tractive_tension = "99.5 N"
        |                          ^^^^^^^^
-    expected: a force of at least 100 N
+    expected: a force of at least 100 N; a driven pulley that drives the belt has a negative torque in [[pulley]] tables
     "#);
     assert_snapshot!(override_error(&["load.slack_tension=8 kN", "load.tight_tension=7 kN"]), @r#"
     error: the tight tension 7000 N is below the slack tension 8000 N
@@ -237,7 +237,7 @@ fn tensions_that_contradict() {
       |
     2 | --set load.tight_tension=7 kN
       |                          ^^^^
-    expected: a force of at least 8000 N
+    expected: a force of at least 8000 N; a driven pulley that drives the belt has a negative torque in [[pulley]] tables
     "#);
     assert_snapshot!(error("[load]", "[load]\nslack_tension = 110"), @r#"
     error: both `load.slack_tractive_tension` and `load.slack_tension` are given

@@ -148,7 +148,9 @@ fn backwards(closure: Closure) -> Option<Contradiction> {
         path,
         between: schema::TENSIONS.as_slice(),
         message: format!("the tight tension {high} N is below the slack tension {low} N"),
-        expected: format!("a force of at least {low} N"),
+        expected: format!(
+            "a force of at least {low} N; a driven pulley that drives the belt has a negative torque in [[pulley]] tables"
+        ),
     })
 }
 
