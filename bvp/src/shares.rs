@@ -24,7 +24,8 @@ pub(crate) const NEGLIGIBLE: f64 = 1e-3;
 /// Numbers whose ratio is at most this may be added and eliminated: ten of the sixteen digits are left.
 pub(crate) const MODERATE: f64 = 1e6;
 
-/// Into how many parts an interval is cut that does not show what is in it: a defect at a further place. With 2, problems with singular ends took 12 % more factorisations, and 8 of 503 were lost.
+/// Into how many parts an interval is cut that does not show what is in it: a defect at a further place. With 2,
+/// problems with singular ends took 12 % more factorisations, and 8 of 503 were lost.
 pub(crate) const PARTS: usize = 4;
 
 /// How many parts of a segment are told apart: by a look at so many places at least, which costs as much as four to
