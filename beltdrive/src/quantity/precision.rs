@@ -18,8 +18,9 @@ pub(crate) fn known(value: f64, error: f64, digits: f64) -> String {
 const SMALL: f64 = 1e-3;
 const PLACES: f64 = 9.0;
 
-/// The value rounded to a number of decimals, or of tens when this is negative.
-fn rounded(value: f64, decimals: f64) -> String {
+/// The value rounded to a number of decimals, or of tens when this is negative: `0` if no digit is left, whatever
+/// its sign.
+pub(crate) fn rounded(value: f64, decimals: f64) -> String {
     if !value.is_finite() {
         return "not known".to_owned();
     }
@@ -41,7 +42,8 @@ fn rounded(value: f64, decimals: f64) -> String {
 
 /// A number from a drive file, at most six digits, none of them a trailing zero.
 pub(crate) fn six_digits(value: f64) -> String {
-    let value: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+    // A negative zero has no sign either.
+    let value = format!("{value:.5e}").parse().unwrap_or(value) + 0.0;
     if (1e-3..1e6).contains(&value.abs()) || value == 0.0 {
         format!("{value}")
     } else {
@@ -91,7 +93,13 @@ mod tests {
 
     #[test]
     fn given_numbers_stay_as_given() {
-        let shown = [0.4, 1620.0, 8.1e6, 0.1 + 0.2, 0.0, 2e-4].map(six_digits);
-        assert_eq!(shown, ["0.4", "1620", "8.1e6", "0.3", "0", "2e-4"]);
+        let shown = [0.4, 1620.0, 8.1e6, 0.1 + 0.2, 0.0, -0.0, 2e-4].map(six_digits);
+        assert_eq!(shown, ["0.4", "1620", "8.1e6", "0.3", "0", "0", "2e-4"]);
+    }
+
+    #[test]
+    fn nothing_has_no_sign() {
+        let shown = [-0.0, -4e-5, 4e-5, -6e-5].map(|value| rounded(value, 4.0));
+        assert_eq!(shown, ["0", "0", "0", "-0.0001"]);
     }
 }

@@ -1,7 +1,7 @@
 //! How a steady state is sought, and why there is none.
 
 use crate::drive::layout::LayoutError;
-use crate::quantity::precision::six_digits;
+use crate::quantity::precision::{rounded, six_digits};
 use crate::results::difficulty;
 use crate::{Check, Impossible, LimitReason};
 use std::borrow::Cow;
@@ -61,7 +61,7 @@ pub enum SolveError {
         tight: f64,
     },
     /// The belt has no tension at rest.
-    #[error("the belt is slack at rest: its tension would be {tension:.4} N")]
+    #[error("the belt is slack at rest: its tension would be {} N", rounded(*.tension, 4.0))]
     Slack {
         /// Uniform belt tension that the equations give, N; not positive.
         tension: f64,
@@ -81,8 +81,8 @@ pub enum SolveError {
     /// The belt does not press on the pulleys: even without torques; or under them with
     /// [`crate::NormalForce::Thesis`], whose friction does not know of it.
     #[error(
-        "the belt lifts off{}: its tractive tension would be {tractive_tension:.4} N at {speed:.4} m/s",
-        if *.is_loaded { "" } else { " even without load" }
+        "the belt lifts off{}: its tractive tension would be {} N at {speed:.4} m/s",
+        if *.is_loaded { "" } else { " even without load" }, rounded(*.tractive_tension, 4.0)
     )]
     LiftsOff {
         /// Tractive tension F = T − G V, N; not positive. That of the whole belt without torques, or of the
@@ -95,9 +95,8 @@ pub enum SolveError {
     },
     /// The tensioner would have to go beyond one of its stops.
     #[error(
-        "the tensioner `{pulley}` goes beyond its travel: {coordinate:.6} is not between {:.6} and {:.6}",
-        travel[0],
-        travel[1]
+        "the tensioner `{pulley}` goes beyond its travel: {} is not between {} and {}",
+        rounded(*.coordinate, 6.0), rounded(travel[0], 6.0), rounded(travel[1], 6.0)
     )]
     TensionerBeyondTravel {
         /// The pulley on the tensioner.

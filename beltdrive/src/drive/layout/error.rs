@@ -1,5 +1,6 @@
 //! Why a belt cannot be laid round pulleys.
 
+use crate::quantity::precision::rounded;
 use thiserror::Error;
 
 /// Why a belt cannot be laid round pulleys.
@@ -33,7 +34,7 @@ pub enum LayoutError {
         radii: f64,
     },
     /// The belt misses a pulley: its wrap is below zero.
-    #[error("the belt does not reach pulley `{pulley}`: its wrap would be {:.4}°", wrap.to_degrees())]
+    #[error("the belt does not reach pulley `{pulley}`: its wrap would be {}°", rounded(wrap.to_degrees(), 4.0))]
     NegativeWrap {
         /// The pulley.
         pulley: String,
@@ -58,4 +59,21 @@ pub enum LayoutError {
         /// The pulley in the way.
         pulley: String,
     },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wrap_just_below_zero_is_shown_without_a_sign() {
+        let message = |wrap: f64| {
+            let pulley = "fan".to_owned();
+            LayoutError::NegativeWrap { pulley, wrap }.to_string()
+        };
+        let found = message(-1e-9);
+        assert!(found.ends_with("would be 0°"), "{found}");
+        let found = message(-1e-3);
+        assert!(found.ends_with("would be -0.0573°"), "{found}");
+    }
 }
