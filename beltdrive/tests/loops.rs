@@ -437,6 +437,41 @@ fn every_number_of_a_loop_has_a_branch_and_limits() {
     );
 }
 
+/// Near these ends a span at the idler of the tensioner is so short that the force of the belt changes abruptly with
+/// the coordinate.
+#[test]
+fn a_range_ends_where_pulleys_touch_and_not_just_before() {
+    for key in [
+        "tensioner.arm.length",
+        "pulley.tensioner.diameter",
+        "pulley.crankshaft.diameter",
+        "pulley.alternator.diameter",
+    ] {
+        let found = json(&["limits", &example("serpentine"), "--parameter", key]);
+        let found = &found["largest"];
+        let description = found["description"].as_str().unwrap();
+        assert_eq!(found["reason"], "layout", "{key}: {description}");
+        assert!(description.contains("overlap"), "{key}: {description}");
+    }
+}
+
+/// The driver runs ten million times as fast as the belt; a stiff belt tells its length to rounding only.
+#[test]
+fn rounding_is_no_end_of_a_range() {
+    for (name, key, end) in [
+        ("crossed", "pulley.driver.radius", "smallest"),
+        ("serpentine", "belt.axial_stiffness", "largest"),
+    ] {
+        let found = json(&["limits", &example(name), "--parameter", key]);
+        let found = &found[end];
+        assert_eq!(
+            found["reason"], "none found",
+            "{key}: {}",
+            found["description"]
+        );
+    }
+}
+
 /// Standard error of a command that fails.
 fn errors(arguments: &[&str]) -> String {
     let output = run(arguments);

@@ -16,13 +16,17 @@ const FIRST_STEP: f64 = 16.0;
 /// The same where the slope points the way, beyond the largest step.
 const FIRST_AHEAD: f64 = 4.0;
 
-/// Steps of the search that are smaller than this, relative to the largest, end it where the belt can no
-/// longer be laid round the pulleys.
-const SMALLEST_STEP: f64 = 1e-9;
-
 /// The last step of the secant method, relative to the largest step. Its error is about this times the step
 /// before.
 const NEAR: f64 = 1e-9;
+
+/// Belt and tensioner are in equilibrium if their forces differ by no more than this, relative: a hundredth of what
+/// the state is checked to.
+pub(crate) const BALANCED: f64 = 1e-11;
+
+/// A step towards an equilibrium leaves no more than this of the force, or half of it is tried: half a step of Newton's
+/// method leaves half.
+const SHARPER: f64 = 0.75;
 
 /// Most steps of a search: 500 radii of an idler on a straight guide.
 const STEPS: usize = 1000;
@@ -61,6 +65,18 @@ pub(crate) fn largest_step(radius: f64, guide: &Guide) -> f64 {
         Guide::Rotary { arm_length, .. } => (0.5 * radius / arm_length).min(LARGEST_ANGLE),
         Guide::Translating { .. } => 0.5 * radius,
     }
+}
+
+/// How well doubles tell where an idler is against the other pulleys of a belt, m: its centre, a difference of
+/// centres, its norm and a difference of radii are a dozen roundings of half the machine precision each.
+pub(crate) fn resolution(layout: &Layout, guide: &Guide) -> f64 {
+    let reach = match *guide {
+        Guide::Rotary { arm_length, .. } => arm_length,
+        Guide::Translating { origin, .. } => Vector2::from(origin).norm(),
+    };
+    let pulleys = layout.pulleys().iter();
+    let extents = pulleys.map(|pulley| Vector2::from(pulley.centre).norm() + pulley.radius);
+    6.0 * f64::EPSILON * extents.fold(reach, f64::max)
 }
 
 /// The coordinate nearest to `start`, in the direction in which the idler goes from there, at which the
@@ -119,6 +135,9 @@ impl Search<'_> {
         let (pulley, tensioner) = self.carried;
         let name = || drive.pulleys[pulley].name.clone();
         let guide = &tensioner.guide;
+        // Smaller steps tell no more of where the belt can no longer be laid round the pulleys.
+        let [_, velocity, _] = guide.centre(start).map(Vector2::from);
+        let smallest = resolution(layout, guide) / velocity.norm();
         // Force along the coordinate, and about its slope.
         let mut force = |coordinate: f64| -> Result<[f64; 2], SolveError> {
             self.move_to(layout, coordinate)?;
@@ -159,13 +178,14 @@ impl Search<'_> {
                 false => force(coordinate).ok().map(|[force, _]| force),
             };
             if let Some(found) = near_with_slope(at, start, slope, ends, precision) {
-                return Ok(found);
+                let load = |coordinate: f64| tensioner.load_at(coordinate)[0];
+                return sharpened(&mut force, load, found, smallest);
             }
             let next = here.0 + direction * step;
             match force(next) {
                 Err(error) => {
                     step *= 0.5;
-                    if step < SMALLEST_STEP * largest {
+                    if step < smallest {
                         within_travel(drive, here.0)?;
                         return Err(error);
                     }
@@ -177,7 +197,7 @@ impl Search<'_> {
                     }
                     // Between the two the belt cannot be laid round the pulleys.
                     step *= 0.5;
-                    if step < SMALLEST_STEP * largest {
+                    if step < smallest {
                         return Err(SolveError::NotFound {
                             what: "coordinate of the tensioner",
                         });
@@ -198,6 +218,33 @@ impl Search<'_> {
             which,
         })
     }
+}
+
+/// A coordinate near an equilibrium, or one where the force vanishes against the load of the tensioner, as far as
+/// steps above the smallest lead: where a span at the idler is short, the force changes so fast that a precise
+/// coordinate is not enough.
+fn sharpened(
+    mut force: impl FnMut(f64) -> Result<[f64; 2], SolveError>,
+    load: impl Fn(f64) -> f64,
+    near: f64,
+    smallest: f64,
+) -> Result<f64, SolveError> {
+    let mut coordinate = near;
+    let [mut off, mut slope] = force(near)?;
+    let mut step = -off / slope;
+    while off.abs() > BALANCED * load(coordinate).abs() && step.abs() > smallest {
+        match force(coordinate + step) {
+            Ok([off_next, slope_next]) if off_next.abs() < SHARPER * off.abs() => {
+                coordinate += step;
+                (off, slope) = (off_next, slope_next);
+                step = -off / slope;
+            }
+            // Too far, perhaps beyond where the belt can be laid: the force changes like the length of a span, which
+            // is the square root of the way to there.
+            _ => step *= 0.5,
+        }
+    }
+    Ok(coordinate)
 }
 
 /// Whether the tensioner is between its stops.

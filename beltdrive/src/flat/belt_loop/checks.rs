@@ -1,11 +1,14 @@
 //! The invariants of a state, from the friction law along the contacts and from the geometry, and not from the
 //! equations that were solved.
 
+use crate::drive::layout::Layout;
 use crate::friction::rim::contact::Contact;
 use crate::friction::rim::quadrature::integrals;
 use crate::friction::rim::zone::{ContactZone, Friction};
+use crate::mechanics::tensioner::resolution;
 use crate::results::loop_state::{Contacts, LoopState};
 use crate::{Check, Drive, Pulley, SolveError};
+use nalgebra::Vector2;
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
@@ -46,7 +49,7 @@ fn checks(drive: &Drive, state: &LoopState, contacts: &[Contact]) -> Vec<Check> 
         .map(|contact| contact.arc.entry())
         .fold(0.0, f64::max);
     let count = state.pulleys.len();
-    let [mut torque, mut power, mut excess] = [0.0_f64; 3];
+    let [mut torque, mut power, mut transmitted, mut excess] = [0.0_f64; 4];
     let mut unstretched = 0.0;
     let (mut hubs, mut polygon) = ([[0.0; 2]; 2], [0.0; 2]);
     let mut turned = 0.0;
@@ -56,6 +59,7 @@ fn checks(drive: &Drive, state: &LoopState, contacts: &[Contact]) -> Vec<Check> 
         let along = along(contact, stated, rim);
         torque = torque.max((along.friction - pulley.torque / stated.radius).abs());
         power += along.dissipated + pulley.power / state.unstretched_speed;
+        transmitted = transmitted.max((pulley.power / state.unstretched_speed).abs());
         excess = excess.max(along.excess);
         unstretched += along.unstretched;
         for (sum, load) in hubs.iter_mut().zip([pulley.hub_load, pulley.rest_hub_load]) {
@@ -90,7 +94,8 @@ fn checks(drive: &Drive, state: &LoopState, contacts: &[Contact]) -> Vec<Check> 
     };
     vec![
         check("torques of the pulleys from their friction", torque / scale),
-        check("power of the loop", power.abs() / scale),
+        // A pulley that almost stalls the belt has far more power than the belt.
+        check("power of the loop", power.abs() / scale.max(transmitted)),
         check(
             "hub forces in equilibrium",
             (hub(hubs[0]) / scale).max(hub(hubs[1]) / state.rest_tension),
@@ -100,7 +105,7 @@ fn checks(drive: &Drive, state: &LoopState, contacts: &[Contact]) -> Vec<Check> 
             length.map(f64::abs).into_iter().fold(0.0, f64::max) / state.length,
         ),
         check("turning of the belt", turned.abs()),
-        check("moment of the tensioner", moment(drive, state)),
+        moment(drive, state),
         Check {
             name: "tensions above 0",
             deviation: (-slackest / scale).max(0.0),
@@ -111,19 +116,44 @@ fn checks(drive: &Drive, state: &LoopState, contacts: &[Contact]) -> Vec<Check> 
 }
 
 /// By how far the load of the tensioner and the hub load of its idler are out of equilibrium, running and at
-/// rest; 0 without a tensioner.
-fn moment(drive: &Drive, state: &LoopState) -> f64 {
+/// rest, of the two what is nearer to its limit; 0 without a tensioner.
+fn moment(drive: &Drive, state: &LoopState) -> Check {
+    let check = |deviation, rounding| Check {
+        name: "moment of the tensioner",
+        deviation,
+        limit: ALLOWED + rounding,
+    };
     let Some(((index, tensioner), found)) = drive.tensioner().zip(state.tensioner.as_ref()) else {
-        return 0.0;
+        return check(0.0, 0.0);
     };
-    let pulley = &state.pulleys[index];
-    let off = |coordinate: f64, [x, y]: [f64; 2]| {
-        let [_, [right, up], _] = tensioner.guide.centre(coordinate);
+    let (pulley, count) = (&state.pulleys[index], state.pulleys.len());
+    let off = |coordinate: f64, layout: &Layout, hub_load: [f64; 2], tensions: [f64; 2]| {
+        let [_, velocity, _] = tensioner.guide.centre(coordinate).map(Vector2::from);
         let [load, _] = tensioner.load_at(coordinate);
-        (load + x * right + y * up).abs() / (load.abs() + x.hypot(y) * right.hypot(up))
+        let hub_load = Vector2::from(hub_load);
+        let scale = load.abs() + hub_load.norm() * velocity.norm();
+        // A span turns by no more than the idler is moved across it over its length.
+        let resolution = resolution(layout, &tensioner.guide);
+        let spans = layout.spans_of(index).into_iter().zip(tensions);
+        let turned = spans.map(|(span, tension)| {
+            tension * span.normal().dot(&velocity).abs() * resolution / span.length
+        });
+        let deviation = (load + hub_load.dot(&velocity)).abs() / scale;
+        check(deviation, turned.sum::<f64>() / scale)
     };
-    let running = off(found.coordinate, pulley.hub_load);
-    running.max(off(found.rest_coordinate, pulley.rest_hub_load))
+    let tensions =
+        [(index + count - 1) % count, index].map(|span| state.spans[span].tractive_tension);
+    let running = off(found.coordinate, &state.layout, pulley.hub_load, tensions);
+    let rest = off(
+        found.rest_coordinate,
+        &state.rest_layout,
+        pulley.rest_hub_load,
+        [state.rest_tension; 2],
+    );
+    match running.deviation / running.limit >= rest.deviation / rest.limit {
+        true => running,
+        false => rest,
+    }
 }
 
 /// Integrals along a contact with a pulley whose rim has `rim` times the speed of the unstretched belt.

@@ -16,9 +16,11 @@ use super::problem::{Loaded, Problem};
 use super::running::{LOOSEST, Running};
 use crate::drive::layout::Layout;
 use crate::mechanics::root::{Local, near};
-use crate::mechanics::tensioner::{Towards, largest_step, length_derivatives};
+use crate::mechanics::tensioner::{
+    BALANCED, Towards, largest_step, length_derivatives, resolution,
+};
 use crate::{FrictionLaw, NormalForce};
-use nalgebra::{Matrix4, SMatrix, Vector4};
+use nalgebra::{Matrix4, SMatrix, Vector2, Vector4};
 use std::borrow::Cow;
 
 /// Tension of the slackest span as in [`Running::moving`] in N, speed c in m/s, coordinate of the tensioner in rad
@@ -26,8 +28,15 @@ use std::borrow::Cow;
 pub(super) type Unknowns = [f64; 4];
 
 /// The last step, relative to the tension without torques, the speed, the largest step of a search for the tensioner,
-/// and the factor. The error is below a hundredth of that, as the derivatives are known to a few percent.
+/// and the factor. The error is smaller by [`OF_LAST_STEP`], as the derivatives are known to a few percent.
 const WITHIN: Unknowns = [1e-11, 1e-13, 1e-9, 1e-11];
+
+/// The error over the last step, at most.
+const OF_LAST_STEP: f64 = 1e-2;
+
+/// The equations are solved once more from the solution if the coordinate of the tensioner asks for steps that are
+/// smaller by this: where a span at the idler is short, and not in a usual drive.
+const SHARPER: f64 = 0.1;
 
 /// How often the derivatives are estimated: at the start and after the first step, the longest. With one estimate a loop
 /// of eight pulleys with a tensioner takes seven evaluations in place of five, with three as many as with two.
@@ -157,24 +166,48 @@ impl<'p> Equations<'p> {
         let to = [infinite, 2.0 * speed, infinite, infinite];
         let tension = drive.belt.axial_stiffness * self.sticking.strain;
         let [within, units] = [WITHIN, [tension, speed, largest, factor]].map(Vector4::from);
-        let within = within.component_mul(&units).into();
+        let mut within: Unknowns = within.component_mul(&units).into();
         let state = |found: [f64; N]| {
             let mut state = start;
             state[..N].copy_from_slice(&found);
             state
         };
-        let mut estimates = 0..ESTIMATES;
-        let local = |found| {
-            let values = self.residuals(state(found))?;
-            let inverse = match estimates.next() {
-                Some(_) => Some(self.inverse(state(found))?),
-                None => None,
+        let [from, to] = [first(from), first(to)];
+        let mut start = start;
+        loop {
+            let mut estimates = 0..ESTIMATES;
+            let local = |found| {
+                let values = self.residuals(state(found))?;
+                let inverse = match estimates.next() {
+                    Some(_) => Some(self.inverse(state(found))?),
+                    None => None,
+                };
+                Some(Local { values, inverse })
             };
-            Some(Local { values, inverse })
-        };
-        let found = near(local, first(start), [first(from), first(to)], first(within))?;
-        self.place::<N>(state(found))?;
-        Some((state(found), self.layout))
+            let found = near(local, first(start), [from, to], first(within))?;
+            start = state(found);
+            self.place::<N>(start)?;
+            match self.coordinate_within::<N>(start) {
+                Some(needed) if needed < SHARPER * within[2] => within[2] = needed,
+                _ => return Some((start, self.layout)),
+            }
+        }
+    }
+
+    /// The last step of the coordinate of the tensioner that balances its load where the belt is laid, but no
+    /// less than doubles resolve; `None` if the coordinate is given.
+    fn coordinate_within<const N: usize>(&self, state: Unknowns) -> Option<f64> {
+        let (_, tensioner) = self.problem.drive.tensioner()?;
+        if N <= 2 {
+            return None;
+        }
+        let [_, _, coordinate, _] = state;
+        // At this tension, which is an unknown of its own.
+        let stiffness = self.derivatives::<N>(state)[(2, 2)];
+        let [load, _] = tensioner.load_at(coordinate);
+        let [_, velocity, _] = tensioner.guide.centre(coordinate).map(Vector2::from);
+        let resolved = resolution(&self.layout, &tensioner.guide) / velocity.norm();
+        Some((BALANCED / OF_LAST_STEP * (load / stiffness).abs()).max(resolved))
     }
 
     /// About the inverse of the derivatives where the belt is laid; `None` if the tensioner is pushed away from the
