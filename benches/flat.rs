@@ -4,10 +4,7 @@
 use beltdrive::belt_loop;
 use beltdrive::flat::ClosedForm;
 use beltdrive::input::Key;
-use beltdrive::{
-    Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, NormalForce, Pulley, Sense,
-    Side, SolveOptions, Tensioner, TensionerLoad, examples, input, limits, solve, stability,
-};
+use beltdrive::{Drive, SolveOptions, examples, input, limits, solve, stability};
 use criterion::{BenchmarkId, Criterion};
 use std::hint::black_box;
 
@@ -72,92 +69,35 @@ fn whole_range(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Eight pulleys on a circle, two of them idlers on the back of the belt, one of these on a tensioner: radius,
-/// distance from the middle, both in m, and torque in N·m.
-const PULLEYS: [[f64; 3]; 8] = [
-    [0.08, 0.3, 0.0],
-    [0.03, 0.25, 0.0],
-    [0.04, 0.3, 8.0],
-    [0.05, 0.3, 3.0],
-    [0.06, 0.3, 12.0],
-    [0.035, 0.27, 0.0],
-    [0.045, 0.3, 2.0],
-    [0.05, 0.3, 5.0],
-];
-const IDLERS: [usize; 2] = [1, 5];
-
-/// A loop of eight pulleys that is closed by where its tensioner rests.
-fn eight_pulleys(law: FrictionLaw, normal_force: NormalForce) -> Drive {
-    let mut angle: f64 = 0.0;
-    let pulley = |(index, [radius, distance, torque]): (usize, [f64; 3])| {
-        let centre = [distance * angle.cos(), distance * angle.sin()];
-        angle += std::f64::consts::FRAC_PI_4;
-        let duty = match index {
-            0 => Duty::Driver(300.0),
-            _ => Duty::Torque(torque),
-        };
-        Pulley {
-            side: match IDLERS.contains(&index) {
-                true => Side::Outside,
-                false => Side::Inside,
-            },
-            ..Pulley::new(&format!("pulley {index}"), centre, radius, 0.8, duty)
-        }
-    };
-    let mut pulleys: Vec<_> = PULLEYS.into_iter().enumerate().map(pulley).collect();
-    let rest = -std::f64::consts::FRAC_PI_4;
-    let length = 0.08;
-    let [tensioner, _] = IDLERS;
-    if let Mount::Fixed([x, y]) = pulleys[tensioner].mount {
-        pulleys[tensioner].mount = Mount::Tensioner(Tensioner {
-            guide: Guide::Rotary {
-                pivot: [x - length * rest.cos(), y - length * rest.sin()],
-                arm_length: length,
-            },
-            load: TensionerLoad::Spring {
-                stiffness: 40.0,
-                free_coordinate: rest - 0.6,
-            },
-            start_coordinate: rest,
-            travel: None,
-        });
-    }
-    Drive {
-        title: None,
-        belt: Belt {
-            ribs: 1,
-            mass_per_length: 0.12,
-            axial_stiffness: 1e5,
-            kind: BeltKind::Flat { normal_force },
-        },
-        law,
-        sense: Sense::CounterClockwise,
-        turning_number: 1,
-        pulleys,
-        closure: Closure::RestCoordinate(rest),
-    }
+/// A loop of eight pulleys that is closed by where its tensioner rests, with a friction law and its parameter, and a
+/// convention.
+fn eight_pulleys(law: &str, parameter: Option<&str>, convention: &str) -> Drive {
+    let text = include_str!("../beltdrive/tests/drives/eight-pulleys.toml");
+    let friction = [format!("law={law}")].into_iter();
+    let friction = friction.chain(parameter.map(str::to_owned));
+    let overrides = friction.map(|entry| format!("friction.{entry}"));
+    let overrides: Vec<_> = overrides
+        .chain([format!("model.normal_force={convention}")])
+        .collect();
+    input::parse("eight-pulleys.toml", text, &overrides).expect("a valid drive file")
 }
 
 /// Eight pulleys by torques and tensioner, with their load limit and checks.
 fn loops(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("flat, loop of 8 pulleys with tensioner");
     let laws = [
-        ("coulomb", FrictionLaw::Coulomb),
-        ("epp", FrictionLaw::Epp { stiffness: 1e8 }),
-        ("creep-rate", FrictionLaw::CreepRate { velocity: 0.03 }),
+        ("coulomb", None),
+        ("epp", Some("stiffness=1e8 N/m^2")),
+        ("creep-rate", Some("velocity=0.03 m/s")),
     ];
-    for (name, law) in laws {
-        for normal_force in [NormalForce::Inertia, NormalForce::Exact] {
-            let drive = eight_pulleys(law, normal_force);
-            group.bench_function(BenchmarkId::new(name, normal_force.name()), |b| {
-                b.iter(|| belt_loop::solve(black_box(&drive)).expect("a load that it carries"));
-            });
-        }
+    let conventions = laws.map(|law| [(law, "inertia"), (law, "exact")]);
+    let thesis = (laws[0], "thesis");
+    for ((law, parameter), convention) in conventions.into_iter().flatten().chain([thesis]) {
+        let drive = eight_pulleys(law, parameter, convention);
+        group.bench_function(BenchmarkId::new(law, convention), |b| {
+            b.iter(|| belt_loop::solve(black_box(&drive)).expect("a load that it carries"));
+        });
     }
-    let thesis = eight_pulleys(FrictionLaw::Coulomb, NormalForce::Thesis);
-    group.bench_function(BenchmarkId::new("coulomb", "thesis"), |b| {
-        b.iter(|| belt_loop::solve(black_box(&thesis)).expect("a load that it carries"));
-    });
     group.finish();
 }
 

@@ -340,96 +340,35 @@ fn first<const N: usize>(numbers: [f64; 4]) -> [f64; N] {
 #[cfg(test)]
 mod tests {
     use crate::belt_loop::solve;
-    use crate::{
-        Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, NormalForce, Pulley,
-        Sense, Side, Tensioner, TensionerLoad,
-    };
+    use crate::input;
     use std::cell::Cell;
-    use std::f64::consts::FRAC_PI_4;
 
     thread_local! {
         /// How often the equations were evaluated.
         pub(super) static EVALUATIONS: Cell<usize> = const { Cell::new(0) };
     }
 
-    /// The loop of the benches: eight pulleys on a circle with two idlers on the back of the belt, one of them on a
-    /// tensioner; radius and distance from the middle in m, and torque in N·m.
-    const PULLEYS: [[f64; 3]; 8] = [
-        [0.08, 0.3, 0.0],
-        [0.03, 0.25, 0.0],
-        [0.04, 0.3, 8.0],
-        [0.05, 0.3, 3.0],
-        [0.06, 0.3, 12.0],
-        [0.035, 0.27, 0.0],
-        [0.045, 0.3, 2.0],
-        [0.05, 0.3, 5.0],
-    ];
-    const TENSIONER: usize = 1;
-
-    fn eight_pulleys(law: FrictionLaw, normal_force: NormalForce) -> Drive {
-        let mut angle: f64 = 0.0;
-        let pulleys = PULLEYS.iter().enumerate();
-        let pulleys = pulleys.map(|(index, &[radius, distance, torque])| {
-            let centre = [distance * angle.cos(), distance * angle.sin()];
-            angle += FRAC_PI_4;
-            let duty = match index {
-                0 => Duty::Driver(300.0),
-                _ => Duty::Torque(torque),
-            };
-            let name = format!("pulley {index}");
-            let mut pulley = Pulley::new(&name, centre, radius, 0.8, duty);
-            if [TENSIONER, 5].contains(&index) {
-                pulley.side = Side::Outside;
-            }
-            pulley
-        });
-        let mut pulleys: Vec<_> = pulleys.collect();
-        let (rest, arm_length) = (-FRAC_PI_4, 0.08);
-        let Mount::Fixed([x, y]) = pulleys[TENSIONER].mount else {
-            panic!("a pulley at a place")
-        };
-        pulleys[TENSIONER].mount = Mount::Tensioner(Tensioner {
-            guide: Guide::Rotary {
-                pivot: [x - arm_length * rest.cos(), y - arm_length * rest.sin()],
-                arm_length,
-            },
-            load: TensionerLoad::Spring {
-                stiffness: 40.0,
-                free_coordinate: rest - 0.6,
-            },
-            start_coordinate: rest,
-            travel: None,
-        });
-        Drive {
-            title: None,
-            belt: Belt {
-                ribs: 1,
-                mass_per_length: 0.12,
-                axial_stiffness: 1e5,
-                kind: BeltKind::Flat { normal_force },
-            },
-            law,
-            sense: Sense::CounterClockwise,
-            turning_number: 1,
-            pulleys,
-            closure: Closure::RestCoordinate(rest),
-        }
-    }
-
     /// The unloaded loop, the load, its limit, and EPP friction in place of Coulomb friction.
     #[test]
     fn a_loop_takes_this_many_evaluations() {
-        let count = |law, normal_force| {
+        let count = |law: &str, normal_force: &str| {
+            let text = include_str!("../../../tests/drives/eight-pulleys.toml");
+            let law = law
+                .split_whitespace()
+                .map(|entry| format!("friction.{entry}"));
+            let overrides = law.chain([format!("model.normal_force={normal_force}")]);
+            let overrides: Vec<_> = overrides.collect();
+            let drive = input::parse("eight-pulleys.toml", text, &overrides).unwrap();
             EVALUATIONS.set(0);
-            solve(&eight_pulleys(law, normal_force)).unwrap();
+            solve(&drive).unwrap();
             EVALUATIONS.get()
         };
-        let epp = FrictionLaw::Epp { stiffness: 1e8 };
+        let epp = "law=epp stiffness=1e8";
         let counts = [
-            count(FrictionLaw::Coulomb, NormalForce::Inertia),
-            count(FrictionLaw::Coulomb, NormalForce::Thesis),
-            count(epp, NormalForce::Inertia),
-            count(epp, NormalForce::Exact),
+            count("law=coulomb", "inertia"),
+            count("law=coulomb", "thesis"),
+            count(epp, "inertia"),
+            count(epp, "exact"),
         ];
         assert_eq!(counts, [15, 16, 20, 20]);
     }
