@@ -34,8 +34,8 @@ const LARGEST_FACTOR: f64 = 1e9;
 pub(super) enum Climbed {
     /// At the load that was asked for.
     Reached(Box<Solved<LoopProblem>>),
-    /// At the largest load.
-    Limit(Top),
+    /// At the largest load, and the last state on the way with an ε that is worth a smaller one, if there is one.
+    Limit(Top, Option<Box<Solved<LoopProblem>>>),
     /// It was not followed farther than to this factor.
     Lost { reached: f64, cause: &'static str },
 }
@@ -66,7 +66,7 @@ impl Search<'_> {
         while to < LARGEST_FACTOR {
             match self.climb(&here, to) {
                 Climbed::Reached(solved) => here = *solved,
-                Climbed::Limit(Top { factor, pulley, .. }) => {
+                Climbed::Limit(Top { factor, pulley, .. }, _) => {
                     return Ok(Some(LoadLimit { factor, pulley }));
                 }
                 Climbed::Lost { reached, cause } => {
@@ -81,26 +81,20 @@ impl Search<'_> {
     /// Raises the load from a state to a factor on all torques, above that of the state; near the largest load with a
     /// smaller ε, if the direction of friction is normalised.
     pub(super) fn climb(&mut self, from: &Solved<LoopProblem>, to: f64) -> Climbed {
-        let (climbed, below) = self.climb_as_it_is(from, to);
-        let (Climbed::Limit(_), Some(below)) = (&climbed, below) else {
-            return climbed;
-        };
-        let is_blunt = below.problem.smoothing() > SHARPER;
-        match is_blunt.then(|| self.smooth_less(below, SHARPER, Effort::Rough)) {
-            Some(Ok(sharper)) => match self.climb_as_it_is(&sharper, to) {
-                (Climbed::Lost { .. }, _) => climbed,
-                (sharper, _) => sharper,
-            },
-            _ => climbed,
+        match self.climb_as_it_is(from, to) {
+            Climbed::Limit(blunt, Some(below)) => {
+                let sharper = self.smooth_less(*below, SHARPER, Effort::Rough);
+                match sharper.map(|sharper| self.climb_as_it_is(&sharper, to)) {
+                    Err(_) | Ok(Climbed::Lost { .. }) => Climbed::Limit(blunt, None),
+                    Ok(climbed) => climbed,
+                }
+            }
+            climbed => climbed,
         }
     }
 
-    /// As [`Search::climb`], with the same ε, and the last state on the way, if any.
-    fn climb_as_it_is(
-        &mut self,
-        from: &Solved<LoopProblem>,
-        to: f64,
-    ) -> (Climbed, Option<Solved<LoopProblem>>) {
+    /// As [`Search::climb`], with the same ε.
+    fn climb_as_it_is(&mut self, from: &Solved<LoopProblem>, to: f64) -> Climbed {
         let p = from.solution.parameters();
         let begin = from.problem.factor(p);
         let free = from.problem.clone().with_unknown_factor();
@@ -113,13 +107,13 @@ impl Search<'_> {
         let lost = |reached, cause| Climbed::Lost { reached, cause };
         let (mut curve, z) = match Family::new(&free, unknown, &[], &guess, &options) {
             Ok((family, z)) => (Rising(family), z),
-            Err(error) => return (lost(begin, difficulty::of_solver(&error)), None),
+            Err(error) => return lost(begin, difficulty::of_solver(&error)),
         };
         let branch_options = followed([begin.min(0.0), to], &options);
         let direction = Direction::Increasing;
         let mut branch = match Branch::new(&mut curve, &z, direction, &branch_options) {
             Ok(branch) => branch,
-            Err(error) => return (lost(begin, difficulty::of_branch(&error)), None),
+            Err(error) => return lost(begin, difficulty::of_branch(&error)),
         };
         let moving: Vec<_> = (0..free.pulleys())
             .filter_map(|pulley| Some((pulley, free.unknowns.speeds[pulley]?)))
@@ -128,23 +122,24 @@ impl Search<'_> {
             branch = branch.event(move |_, point| point.z[point.z.len() - 1 - unknown + index]);
         }
         let (mut reached, mut levelling) = (begin, Levelling::default());
+        let is_blunt = free.smoothing() > SHARPER;
         let mut below = None;
         while let Some(point) = branch.next() {
             let factor = point.lambda();
             let solution = || branch.system().solution(&point.z);
             let top = |factor| {
                 let (problem, solution) = (free.clone(), solution());
-                Climbed::Limit(top(&Solved { problem, solution }, &point, factor))
+                top(&Solved { problem, solution }, &point, factor)
             };
             match point.kind {
-                Kind::LimitPoint => return (top(factor), below),
+                Kind::LimitPoint => return Climbed::Limit(top(factor), below),
                 Kind::Event(index) => {
                     let top = Top {
                         factor,
                         pulley: moving[index].0,
                         overhangs: false,
                     };
-                    return (Climbed::Limit(top), below);
+                    return Climbed::Limit(top, below);
                 }
                 Kind::Bound if factor == to => {
                     let solution = solution();
@@ -154,25 +149,26 @@ impl Search<'_> {
                         solution: &solution,
                         factor: to,
                     };
-                    let climbed = match self.attempt(problem, &guess, Effort::Rough) {
+                    return match self.attempt(problem, &guess, Effort::Rough) {
                         Ok(solved) => Climbed::Reached(Box::new(solved)),
                         Err(cause) => lost(reached, difficulty::of_solver(&cause)),
                     };
-                    return (climbed, None);
                 }
                 _ => {
                     if let Some(factor) = levelling.top(&point, factor) {
-                        return (top(factor), below);
+                        return Climbed::Limit(top(factor), below);
                     }
                     reached = factor;
-                    let problem = free.clone().with_factor(factor);
-                    let solution = solution();
-                    below = Some(Solved { problem, solution });
+                    if is_blunt {
+                        let problem = free.clone().with_factor(factor);
+                        let solution = solution();
+                        below = Some(Box::new(Solved { problem, solution }));
+                    }
                 }
             }
         }
         let cause = "the states change too abruptly there to be followed";
-        (lost(reached, cause), below)
+        lost(reached, cause)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::super::BeltProblem;
 use super::super::groove::TENSION;
 use super::super::path::Solved;
-use super::climb::{Climbed, Top};
+use super::climb::Climbed;
 use super::guess::tractive_tensions;
 use super::problem::LoopProblem;
 use super::rest::Rest;
@@ -128,14 +128,10 @@ fn raise(
 ) -> Result<Solved<LoopProblem>, SolveError> {
     match search.climb(from, 1.0) {
         Climbed::Reached(raised) => Ok(*raised),
-        Climbed::Limit(Top {
-            factor,
-            pulley,
-            overhangs,
-        }) => Err(SolveError::Overloaded {
-            pulley: search.drive.pulleys[pulley].name.clone(),
-            load_factor: factor,
-            overhangs,
+        Climbed::Limit(top, _) => Err(SolveError::Overloaded {
+            pulley: search.drive.pulleys[top.pulley].name.clone(),
+            load_factor: top.factor,
+            overhangs: top.overhangs,
         }),
         Climbed::Lost { reached, cause } => Err(SolveError::Unreached { reached, cause }),
     }
