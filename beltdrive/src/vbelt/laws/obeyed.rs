@@ -15,19 +15,9 @@ fn grooves<P: BeltProblem>(solved: &Solved<P>) -> impl Iterator<Item = (usize, O
     pulleys.filter_map(|pulley| Some((pulley, solved.in_groove(pulley)?)))
 }
 
-/// Whether friction is against the slip, and elastic or at its limit where it is taken to be; else the pulley on which
-/// it obeys its law least.
-pub(super) fn obey_friction<P: BeltProblem>(
-    solved: &Solved<P>,
-    tolerance: f64,
-) -> Result<(), Astray> {
-    let limit = ALLOWED * tolerance;
-    let gains = Gains::of(solved);
-    let is_right = !solved.problem.has_zones() || wrong_friction(solved) <= limit;
-    match is_right && gains.share() <= limit {
-        true => Ok(()),
-        false => Err(gains.astray(solved, tolerance)),
-    }
+/// Whether friction is against the slip, and elastic or at its limit where it is taken to be.
+pub(super) fn obeys_friction<P: BeltProblem>(solved: &Solved<P>, tolerance: f64) -> bool {
+    Gains::of(solved).obey_friction(solved, tolerance)
 }
 
 /// Power that the belt gains where the traction pulls with its slip, as a share of that which it spends
@@ -52,6 +42,13 @@ impl Gains {
             friction += sum.friction;
         }
         gained / (friction + gained)
+    }
+
+    /// As [`obeys_friction`], of the same solution.
+    pub(super) fn obey_friction<P: BeltProblem>(&self, solved: &Solved<P>, tolerance: f64) -> bool {
+        let limit = ALLOWED * tolerance;
+        let is_right = !solved.problem.has_zones() || wrong_friction(solved) <= limit;
+        is_right && self.share() <= limit
     }
 
     /// The pulley of the same solution on which friction obeys its law least: where the belt gains the largest share of

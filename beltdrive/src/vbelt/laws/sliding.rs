@@ -4,7 +4,7 @@
 //! likes, and with a lead from there on, which needs few mesh intervals however short ℓ is.
 
 use super::astray::Astray;
-use super::obeyed::{Gains, obey_friction, power_gained};
+use super::obeyed::{Gains, power_gained};
 use super::{Asked, RESOLVED};
 use crate::FrictionLaw;
 use crate::vbelt::BeltProblem;
@@ -73,8 +73,11 @@ impl Path<'_> {
             }
         };
         let solved = self.finish(sharp).map_err(|stuck| stuck.astray())?;
-        obey_friction(&solved, self.tolerance)?;
-        Ok(solved)
+        let gains = Gains::of(&solved);
+        match gains.obey_friction(&solved, self.tolerance) {
+            true => Ok(solved),
+            false => Err(gains.astray(&solved, self.tolerance)),
+        }
     }
 
     /// A direction that is led, with a short ℓ, if the belt gains no power from friction then.

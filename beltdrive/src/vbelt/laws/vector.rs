@@ -5,7 +5,7 @@
 //! is. The higher the power, the more clearly it shows the zones in which friction is elastic and in which it is at its
 //! limit. These become segments.
 
-use super::obeyed::obey_friction;
+use super::obeyed::obeys_friction;
 use super::{Asked, GREAT_STEP, START_STIFFNESS};
 use crate::vbelt::carried::Carried;
 use crate::vbelt::path::{Effort, Path, Solved, Stuck};
@@ -99,7 +99,7 @@ impl Path<'_> {
                 };
                 for cut in cuts(&here) {
                     match self.vector_from(&cut, &here, effort) {
-                        Ok(solved) if obey_friction(&solved, self.tolerance).is_ok() => {
+                        Ok(solved) if obeys_friction(&solved, self.tolerance) => {
                             return Ok(solved);
                         }
                         Ok(solved) => wrong = Some(solved),
@@ -140,7 +140,7 @@ impl Path<'_> {
         let zones = self.split_zones(zones, effort)?;
         let asked = self.tolerance;
         match self.finish(zones.clone()) {
-            Ok(solved) if obey_friction(&solved, asked).is_ok() => Ok(solved),
+            Ok(solved) if obeys_friction(&solved, asked) => Ok(solved),
             _ => {
                 self.tolerance = (PRECISE * asked).max(FINEST);
                 let precise = self.finish(zones);
