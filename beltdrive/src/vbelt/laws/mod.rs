@@ -23,7 +23,7 @@ mod vector;
 
 use super::carried::Carried;
 use super::path::{Effort, Path, Solved, Stuck};
-use super::{BeltProblem, DriveProblem, Guess, Law, Scales};
+use super::{BeltProblem, DriveProblem, Guess, Scales};
 use crate::{Drive, FrictionLaw, TwoPulleys};
 use std::f64::consts::LN_10;
 
@@ -123,29 +123,20 @@ impl Path<'_> {
         asked: &A,
         near: &Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        let law = asked.law();
-        if let (FrictionLaw::Epp { .. }, Law::Bristle { .. }) = (law, near.problem.law())
-            && let Some(solved) = self.epp_by_bristles(asked, near)
-        {
+        let by_this_state = match asked.law() {
+            FrictionLaw::Bristle { .. } => return self.with_estimate(near.clone()),
+            FrictionLaw::Coulomb => self.sharper_normalised(near.clone()).ok(),
+            FrictionLaw::VectorEpp { .. } => self.vector_by_zones(asked, near.clone()).ok(),
+            _ => self.epp_by_bristles(asked, near),
+        };
+        if let Some(solved) = by_this_state {
             return Ok(solved);
         }
-        if let (FrictionLaw::VectorEpp { .. }, Law::Vector { .. }) = (law, near.problem.law())
-            && let Ok(solved) = self.vector_by_zones(asked, near.clone())
-        {
-            return Ok(solved);
-        }
-        if let FrictionLaw::Bristle { .. } = law {
-            return self.with_estimate(near.clone());
-        }
+        // Soft bristles carry less than Coulomb friction: just below the largest load they have no state.
         let softest = asked.problem(asked.softest(), 0.0);
-        let solved = match self.attempt(softest, &Carried(near), Effort::Start) {
+        match self.attempt(softest, &Carried(near), Effort::Start) {
             Ok(start) => self.sharper(asked, start),
             Err(cause) => Err(Stuck::after(near.clone(), cause)),
-        };
-        match near.problem.law() {
-            // Soft bristles carry less than Coulomb friction: just below the largest load they have no state.
-            Law::Normalised { .. } => solved.or_else(|_| self.sharper_normalised(near.clone())),
-            _ => solved,
         }
     }
 
