@@ -94,6 +94,9 @@ impl FurtherPlaces {
 /// Goes on from the last place in \[0, 1) to the next one.
 fn next(last: &mut f64) -> f64 {
     const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_8;
-    *last = (*last + INVERSE_GOLDEN_RATIO).fract();
+    *last += INVERSE_GOLDEN_RATIO;
+    if *last >= 1.0 {
+        *last -= 1.0;
+    }
     *last
 }

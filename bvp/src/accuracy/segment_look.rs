@@ -39,8 +39,9 @@ impl<'a> SegmentLook<'a> {
             let interval = self.interval(size, i);
             self.powers.expand(size, self.t, &interval);
             let mut unseen = self.is_unseen_near_nodes(size, i, &interval, slope, &mut at);
+            let allowed = self.allowed(i, &interval);
             for &theta in places {
-                if self.is_unseen_at(size, i, &interval, theta, &mut at) {
+                if self.is_unseen_at(size, &interval, allowed, theta, &mut at) {
                     unseen = true;
                     self.found.push((self.index, interval.place(theta)));
                 }
@@ -129,37 +130,44 @@ impl<'a> SegmentLook<'a> {
                 let theta = (s - self.nodes[i]) / interval.h;
                 let mut values = Few::zeros(3 * size[1]);
                 let at = &mut At::new(size[1], &mut values);
-                if self.is_unseen_at(size, i, &interval, theta, at) {
+                let allowed = self.allowed(i, &interval);
+                if self.is_unseen_at(size, &interval, allowed, theta, at) {
                     self.cut.push(i);
                 }
             }
         }
     }
 
-    /// Whether the defect at a place of interval i is neither that of the polynomials nor harmless. As much
+    /// The largest defect at one place of interval i that is either that of the polynomials or harmless. As much
     /// of the interval may have it as there is between the points at which it has been seen.
     ///
     /// That of the polynomials is larger than its root mean square over the interval by less than the factor
     /// of one sample: Legendre's of degree m ≤ 7 is √(2m + 1) < 4 times that at its ends, and the next ones
     /// are beside it.
     #[inline(always)]
+    fn allowed(&self, i: usize, interval: &Interval<'_>) -> f64 {
+        let width = self.t.widest_gap * interval.h;
+        let expected = self.t.widest_gap * ONE_SAMPLE * self.local[i];
+        expected.max(AIM * self.tolerance) / width
+    }
+
+    /// Whether the defect at a place of an interval is larger than is allowed there.
+    #[inline(always)]
     fn is_unseen_at(
         &mut self,
         size: [usize; 2],
-        i: usize,
         interval: &Interval<'_>,
+        allowed: f64,
         theta: f64,
         at: &mut At<'_>,
     ) -> bool {
-        let gap = self.t.widest_gap;
-        let expected = gap * ONE_SAMPLE * self.local[i];
         let defect = self.defect(size, interval, theta, at);
-        if !defect.is_finite() {
-            return !self.is_finite_beside(interval.place(theta), at);
+        if defect <= allowed {
+            return false;
         }
-        self.is_unseen(gap * interval.h * defect, expected) && {
-            let [defect, _] = self.unexplained(interval, theta);
-            self.is_unseen(gap * interval.h * defect, expected)
+        match defect.is_finite() {
+            true => self.unexplained(interval, theta)[0] > allowed,
+            false => !self.is_finite_beside(interval.place(theta), at),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::discretisation::mesh::Mesh;
 use crate::discretisation::tableau::Tableau;
-use crate::kernels::dense::{add_product, add_scaled, max_or_nan};
+use crate::kernels::dense::{add_scaled, combine, max_or_nan};
 use crate::kernels::specialise::specialise;
 use crate::problem::guess::Guess;
 use crate::problem::problem::Segment;
@@ -189,10 +189,9 @@ impl<'a> Interval<'a> {
     /// y = yᵢ + h Σ weightsₗ Kₗ.
     #[inline(always)]
     pub(crate) fn state(&self, weights: &[f64], y: &mut [f64]) {
-        y.copy_from_slice(self.y);
-        for (weight, slope) in weights.iter().zip(self.stages.chunks_exact(self.n)) {
-            add_scaled(y, self.h * weight, slope);
-        }
+        combine(y, weights, self.stages, |state, sum| {
+            self.y[state] + self.h * sum
+        });
     }
 
     /// The largest |Kⱼ| relative to 1 + |yᵢ| of all stages and states.
@@ -208,14 +207,14 @@ impl<'a> Interval<'a> {
     /// slope = Σ weightsₗ Kₗ.
     #[inline(always)]
     pub(crate) fn slope(&self, weights: &[f64], slope: &mut [f64]) {
-        slope.fill(0.0);
-        add_product(slope, weights, self.stages, weights.len(), self.n);
+        combine(slope, weights, self.stages, |_, sum| sum);
     }
 
     /// The point θ of the interval, which rounding does not move outside.
     #[inline(always)]
     pub(crate) fn place(&self, theta: f64) -> f64 {
-        (self.s + theta * self.h).min(self.end)
+        let place = self.s + theta * self.h;
+        if place < self.end { place } else { self.end }
     }
 
     /// The largest term of the continuity of a component: its states at both nodes, h times its slopes.

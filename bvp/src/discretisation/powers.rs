@@ -53,13 +53,21 @@ impl Powers {
     }
 }
 
-/// n polynomials at u from their coefficients, n per power, by Horner's rule.
+/// n polynomials at u from their coefficients, n per power, by Horner's rule. Two at a time fill the vector
+/// registers of every machine and stay in them.
 #[inline(always)]
 fn horner(coefficients: &[f64], n: usize, u: f64, values: &mut [f64]) {
-    values.fill(0.0);
-    for coefficients in coefficients.chunks_exact(n).rev() {
-        for (value, coefficient) in values.iter_mut().zip(coefficients) {
-            *value = *value * u + coefficient;
-        }
+    let powers = || coefficients.chunks_exact(n).rev();
+    let mut first = 0;
+    let mut pairs = values.chunks_exact_mut(2);
+    for pair in &mut pairs {
+        let sums = powers().fold([0.0; 2], |[a, b], power| {
+            [a * u + power[first], b * u + power[first + 1]]
+        });
+        pair.copy_from_slice(&sums);
+        first += 2;
+    }
+    for value in pairs.into_remainder() {
+        *value = powers().fold(0.0, |sum, power| sum * u + power[first]);
     }
 }

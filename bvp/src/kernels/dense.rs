@@ -36,6 +36,32 @@ fn add_combination(
     c.copy_from_slice(sums);
 }
 
+/// Sets every entry to what is made of its index and the sum of the rows times the factors. Two entries at a time
+/// fill the vector registers of every machine and stay in them.
+#[inline(always)]
+pub(crate) fn combine(
+    values: &mut [f64],
+    factors: &[f64],
+    rows: &[f64],
+    value: impl Fn(usize, f64) -> f64,
+) {
+    let columns = values.len();
+    let terms = || factors.iter().zip(rows.chunks_exact(columns));
+    let mut first = 0;
+    let mut pairs = values.chunks_exact_mut(2);
+    for pair in &mut pairs {
+        let [a, b] = terms().fold([0.0; 2], |[a, b], (factor, row)| {
+            [a + factor * row[first], b + factor * row[first + 1]]
+        });
+        pair.copy_from_slice(&[value(first, a), value(first + 1, b)]);
+        first += 2;
+    }
+    for last in pairs.into_remainder() {
+        let sum = terms().fold(0.0, |sum, (factor, row)| sum + factor * row[first]);
+        *last = value(first, sum);
+    }
+}
+
 /// The inner product of two vectors of the same length.
 #[inline]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {

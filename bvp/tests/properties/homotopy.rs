@@ -65,15 +65,25 @@ fn a_guess_far_above_every_solution() {
 
 #[test]
 fn several_segments_and_a_parameter() {
-    let guess = Constant {
-        states: vec![vec![100.0, 0.0]; 2],
-        parameters: vec![50.0],
-    };
-    let error = unaided(&Joined, &guess).unwrap_err();
-    assert!(matches!(error, Error::NoConvergence { .. }), "{error}");
-    let solution = solve(&Joined, &guess, &Options::default()).unwrap();
-    assert!((solution.parameters()[0] - 1.0).abs() < 1e-6);
-    assert!((solution.end(0)[1]).abs() < 1e-6);
+    // So far away the path of Newton's method depends on rounding: it reaches the solution from some of these
+    // guesses without help.
+    let mut unaided_failures = 0;
+    for y in [30.0, 40.0, 50.0, 200.0, 300.0, 500.0] {
+        for p in [20.0, 50.0, 100.0] {
+            let guess = Constant {
+                states: vec![vec![y, 0.0]; 2],
+                parameters: vec![p],
+            };
+            if let Err(error) = unaided(&Joined, &guess) {
+                assert!(matches!(error, Error::NoConvergence { .. }), "{error}");
+                unaided_failures += 1;
+            }
+            let solution = solve(&Joined, &guess, &Options::default()).unwrap();
+            assert!((solution.parameters()[0] - 1.0).abs() < 1e-6);
+            assert!((solution.end(0)[1]).abs() < 1e-6);
+        }
+    }
+    assert!(unaided_failures >= 6, "{unaided_failures} of 18");
 }
 
 #[test]
