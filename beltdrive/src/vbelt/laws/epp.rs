@@ -144,7 +144,7 @@ mod tests {
     #[test]
     fn a_belt_that_sticks_is_that_of_a_normalised_direction() {
         // Soft friction: the belt on the driver sticks behind its elastic zone.
-        let drive = kim(FrictionLaw::Epp { stiffness: 1e6 }, 0.25);
+        let drive = kim(FrictionLaw::Epp { stiffness: 1.2e6 }, 0.25);
         let drive = Drive::from(drive);
         let mut path = Path::new(&drive, 1e-6);
         let asked = AtLoad {
