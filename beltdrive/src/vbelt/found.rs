@@ -20,7 +20,7 @@ pub(super) fn find(drive: &Drive, tolerance: f64) -> (Path<'_>, Result<Found, St
 /// The state found, or the reason why the load is not carried or not reached.
 pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<Solved, SolveError> {
     let scales = path.scales();
-    let found = found.map_err(|Stuck { last, cause }| SolveError::NotConverged {
+    let found = found.map_err(|Stuck { last, cause, .. }| SolveError::NotConverged {
         tight: last.map(|last| last.tight_tension() * scales.units.force),
         cause: Arc::new(cause),
     })?;

@@ -2,6 +2,7 @@
 //! problems from a solved member to the one that is wanted. What the families are is in `laws`.
 
 use super::carried::Carried;
+use super::laws::Astray;
 use super::steps::Steps;
 use super::{BeltProblem, DRIVER, DriveProblem, Law};
 use crate::{Drive, FrictionLaw};
@@ -140,14 +141,30 @@ pub(super) struct Stuck<P = DriveProblem> {
     pub(super) last: Option<Box<Solved<P>>>,
     /// Why the next one was not.
     pub(super) cause: bvp::Error,
+    /// Where it went astray.
+    pub(super) astray: Astray,
 }
 
-impl<P> Stuck<P> {
-    /// Stuck on the way on from a solved problem.
+impl<P: BeltProblem> Stuck<P> {
+    /// Stuck on the way on from a solved problem to one with the same zones.
     pub(super) fn after(last: Solved<P>, cause: bvp::Error) -> Self {
+        let astray = Astray::of(&last.problem, &cause);
+        let last = Some(Box::new(last));
         Self {
-            last: Some(Box::new(last)),
+            last,
             cause,
+            astray,
+        }
+    }
+
+    /// Stuck on the way on from a solved problem to one with other zones.
+    pub(super) fn before(problem: &P, last: Solved<P>, cause: bvp::Error) -> Self {
+        let astray = Astray::of(problem, &cause);
+        let last = Some(Box::new(last));
+        Self {
+            last,
+            cause,
+            astray,
         }
     }
 }

@@ -110,7 +110,7 @@ impl Path<'_> {
         let unblended = epp.clone().with_epp_weight(0.0);
         let unblended = self
             .attempt(unblended, &Carried(start), Effort::Rough)
-            .map_err(|cause| Stuck::after(start.clone(), cause))?;
+            .map_err(|cause| Stuck::before(&epp, start.clone(), cause))?;
         let member = |_: &A::Problem, share| epp.clone().with_epp_weight(share);
         self.follow(unblended, [0.0, 1.0], 1.0, Effort::Rough, member)
     }
@@ -127,7 +127,7 @@ impl Path<'_> {
             .attempt(problem.clone(), cut, Effort::Rough)
             .map_err(|cause| Astray::of(&problem, &cause))?;
         let split = self.split_zones(entered, Effort::Rough);
-        let split = split.map_err(|stuck| stuck.astray())?;
+        let split = split.map_err(|stuck| stuck.astray)?;
         self.sharpen(split)
     }
 }

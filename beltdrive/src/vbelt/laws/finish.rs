@@ -32,10 +32,10 @@ impl Path<'_> {
                 break;
             }
             let problem = cut.apply(here.problem.clone());
-            here = match self.attempt(problem, &cut, effort) {
+            here = match self.attempt(problem.clone(), &cut, effort) {
                 Ok(solved) => solved,
                 Err(_) if effort.is_rough() || cut.is_nearly_kept() => break,
-                Err(cause) => return Err(Stuck::after(here, cause)),
+                Err(cause) => return Err(Stuck::before(&problem, here, cause)),
             };
         }
         Ok(here)

@@ -27,6 +27,7 @@ use super::{BeltProblem, DriveProblem, Guess, Scales};
 use crate::{Drive, FrictionLaw, TwoPulleys};
 use std::f64::consts::LN_10;
 
+pub(super) use astray::Astray;
 use finish::RESOLVED;
 pub(super) use obeyed::{ALLOWED, power_gained, wrong_friction};
 
@@ -134,9 +135,9 @@ impl Path<'_> {
         }
         // Soft bristles carry less than Coulomb friction: just below the largest load they have no state.
         let softest = asked.problem(asked.softest(), 0.0);
-        match self.attempt(softest, &Carried(near), Effort::Start) {
+        match self.attempt(softest.clone(), &Carried(near), Effort::Start) {
             Ok(start) => self.sharper(asked, start),
-            Err(cause) => Err(Stuck::after(near.clone(), cause)),
+            Err(cause) => Err(Stuck::before(&softest, near.clone(), cause)),
         }
     }
 
@@ -195,7 +196,11 @@ impl Path<'_> {
         let problem = asked.problem(law, 0.0);
         let guess = asked.guess(&problem);
         self.attempt(problem.clone(), &guess, effort)
-            .map_err(|cause| Stuck { last: None, cause })
+            .map_err(|cause| Stuck {
+                last: None,
+                astray: Astray::of(&problem, &cause),
+                cause,
+            })
     }
 
     /// Bristles of a stiffness in 1/m, from nothing or from softer ones.

@@ -95,7 +95,7 @@ impl Path<'_> {
                 outcome = self.attempt(problem(epsilon), &Carried(&start), Effort::Rough);
             }
         }
-        outcome.map_err(|cause| Stuck::after(start, cause))
+        outcome.map_err(|cause| Stuck::before(&problem(first), start, cause))
     }
 
     /// EPP friction entered at a large ε, its zones made segments there.

@@ -59,7 +59,7 @@ impl Path<'_> {
                 // A lead may help on from where it got stuck.
                 Err(stuck) => {
                     is_stuck = true;
-                    failure = stuck.astray();
+                    failure = stuck.astray;
                     *stuck.last.ok_or(failure)?
                 }
             };
@@ -72,7 +72,7 @@ impl Path<'_> {
                 return Err(failure);
             }
         };
-        let solved = self.finish(sharp).map_err(|stuck| stuck.astray())?;
+        let solved = self.finish(sharp).map_err(|stuck| stuck.astray)?;
         let gains = Gains::of(&solved);
         match gains.obey_friction(&solved, self.tolerance) {
             true => Ok(solved),
@@ -88,7 +88,7 @@ impl Path<'_> {
             .map_err(|cause| Unled::Failed(Astray::of(&led, &cause)))?;
         let sharp = self
             .smooth_less(led, RESOLVED, Effort::Rough)
-            .map_err(|stuck| Unled::Failed(stuck.astray()))?;
+            .map_err(|stuck| Unled::Failed(stuck.astray))?;
         let gains = Gains::of(&sharp);
         let gained = gains.share();
         if gained <= WRONG_WAY {

@@ -68,8 +68,8 @@ impl Path<'_> {
         let problem = asked.problem(asked.law(), FIRST_LEAD);
         let softer = stiffness(&problem).min(softer * START_STIFFNESS);
         let problem = with_stiffness(&problem, softer.ln());
-        self.attempt(problem, &Carried(bristles), Effort::Start)
-            .map_err(|cause| Stuck::after(bristles.clone(), cause))
+        self.attempt(problem.clone(), &Carried(bristles), Effort::Start)
+            .map_err(|cause| Stuck::before(&problem, bristles.clone(), cause))
     }
 
     /// Vector EPP friction from that whose plastic rate sets in gradually.
@@ -134,9 +134,10 @@ impl Path<'_> {
         seen: &Solved<P>,
         effort: Effort,
     ) -> Result<Solved<P>, Stuck<P>> {
+        let problem = cut.apply(seen.problem.clone());
         let zones = self
-            .attempt(cut.apply(seen.problem.clone()), cut, effort)
-            .map_err(|cause| Stuck::after(seen.clone(), cause))?;
+            .attempt(problem.clone(), cut, effort)
+            .map_err(|cause| Stuck::before(&problem, seen.clone(), cause))?;
         let zones = self.split_zones(zones, effort)?;
         let asked = self.tolerance;
         match self.finish(zones.clone()) {
