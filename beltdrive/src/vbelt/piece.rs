@@ -74,12 +74,17 @@ fn smoothing(problem: &DriveProblem) -> f64 {
 
 /// How the members of the family of a problem are discretised.
 pub(super) fn discretisation(tolerance: f64, problem: &DriveProblem) -> bvp::Options {
-    // Bristles make smooth profiles; the turn of sliding friction asks for a higher order.
-    let stages = if problem.smoothing() > 0.0 { 6 } else { 5 };
+    // Bristles make smooth profiles, whose error tells how fine a mesh must be: with the defect meshes are twice as
+    // fine. The turn of sliding friction asks for a higher order, and between two meshes that its error is content
+    // with limits were lost.
+    let (stages, control) = match problem.smoothing() > 0.0 {
+        true => (6, Control::Defect),
+        false => (5, Control::Error),
+    };
     bvp::Options {
         tolerance,
         scheme: Some(Scheme::Gauss { stages }),
-        control: Control::Defect,
+        control,
         max_intervals: MAX_INTERVALS,
         ..bvp::Options::default()
     }

@@ -17,7 +17,7 @@
 //! Dutt, L. Greengard & V. Rokhlin, "Spectral deferred correction methods for ordinary differential
 //! equations", BIT 40 (2000) 241-266.
 
-use crate::discretisation::iterate::{Interval, Iterate, Residual, SegmentIterate};
+use crate::discretisation::iterate::{Interval, Iterate, NonFinite, Residual, SegmentIterate};
 use crate::discretisation::tableau::middle;
 use crate::kernels::dense::{add_scaled, dot, max_or_nan};
 use crate::kernels::few::Few;
@@ -45,11 +45,71 @@ impl Collocation<'_> {
         residual: &mut Residual,
         w: &mut Iterate,
     ) -> Option<GlobalErrors> {
-        let m = self.tableau.stages;
+        self.correct_defects(x, samples, residual, w).ok()?;
+        self.measured(x, (samples, local), w)
+    }
+
+    /// The same of the point `x` of a curve of solutions: across the curve, without what leads along it, the null
+    /// vector of the linearisation, which is left in `t`. Leaves zeros in `residual`.
+    pub(crate) fn errors_across(
+        &mut self,
+        x: &Iterate,
+        (samples, local): (&Samples, &[Vec<f64>]),
+        residual: &mut Residual,
+        [w, t]: [&mut Iterate; 2],
+    ) -> Option<GlobalErrors> {
+        self.correct_defects(x, samples, residual, w).ok()?;
+        residual.clear();
+        self.null_vector(residual, t);
+        w.add(-self.product(x, w, t) / self.product(x, t, t), t);
+        self.measured(x, (samples, local), w)
+    }
+
+    /// The product of two corrections of `x`, the mean over every segment, relative to 1 + |x|.
+    fn product(&self, x: &Iterate, one: &Iterate, other: &Iterate) -> f64 {
+        let term = |x: &f64, one: &f64, other: &f64| one * other / (1.0 + x.abs()).powi(2);
+        let mut sum = 0.0;
+        for (index, nodes) in self.mesh.iter().enumerate() {
+            let last = nodes.len() - 1;
+            let length = nodes[last] - nodes[0];
+            let [x, one, other] = [x, one, other].map(|of| &of.segments[index].nodes);
+            let n = self.equations.segments()[index].states;
+            for i in 0..=last {
+                let around = nodes[(i + 1).min(last)] - nodes[i.saturating_sub(1)];
+                let share = 0.5 * around / length;
+                let states = i * n..(i + 1) * n;
+                sum += share * states.map(|j| term(&x[j], &one[j], &other[j])).sum::<f64>();
+            }
+        }
+        let parameters = x.p.iter().zip(&one.p).zip(&other.p);
+        sum + parameters
+            .map(|((x, one), other)| term(x, one, other))
+            .sum::<f64>()
+    }
+
+    /// Solves the equation of w.
+    fn correct_defects(
+        &mut self,
+        x: &Iterate,
+        samples: &Samples,
+        residual: &mut Residual,
+        w: &mut Iterate,
+    ) -> Result<(), NonFinite> {
         self.integrate_defects(samples, residual);
         self.add_jumps(x, residual);
-        self.conditions(x, &mut residual.conditions).ok()?;
+        self.conditions(x, &mut residual.conditions)?;
         self.correction(residual, w);
+        Ok(())
+    }
+
+    /// The largest errors by w; `None` if one is not finite.
+    fn measured(
+        &self,
+        x: &Iterate,
+        (samples, local): (&Samples, &[Vec<f64>]),
+        w: &Iterate,
+    ) -> Option<GlobalErrors> {
+        let m = self.tableau.stages;
         let each = samples.iter().zip(local).enumerate();
         let states = each.map(|(index, defects)| {
             let n = self.equations.segments()[index].states;

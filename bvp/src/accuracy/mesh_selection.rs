@@ -1,7 +1,8 @@
 //! Mesh selection: refine, coarsen and redistribute from the defects.
 
 use crate::discretisation::mesh::{Mesh, ceil, equidistribute, split};
-use crate::shares::{AIM, TWO_DIGITS};
+use crate::result::quality::Defects;
+use crate::shares::{AIM, TWO_DIGITS, UNNOTICED};
 
 /// With a larger relative defect than this an interval does not resolve the solution: no power law holds
 /// yet, and it is halved at least.
@@ -100,6 +101,30 @@ pub(crate) fn amplify_rough(
         }
     }
     any
+}
+
+/// The relative defects of a solution; where its error is to be within a tolerance, without those of intervals so
+/// short that their local defects do not show, as next to a jump of the right-hand side: these need not resolve
+/// it. All that are not resolved share what does not show: where a state decides on the jump, the right-hand side is
+/// that of its other side along many short intervals.
+pub(crate) fn relevant(
+    defects: &Defects,
+    tolerance: Option<f64>,
+) -> impl Iterator<Item = impl Iterator<Item = f64>> {
+    let Defects { relative, local } = defects;
+    let all = relative.iter().flatten();
+    let unresolved = all.filter(|&&relative| relative > UNRESOLVED).count();
+    let harmless = match tolerance {
+        Some(tolerance) => UNNOTICED * tolerance / unresolved.max(1) as f64,
+        None => f64::NEG_INFINITY,
+    };
+    relative.iter().zip(local).map(move |(relative, local)| {
+        let each = relative.iter().zip(local);
+        each.map(move |(&relative, &local)| match local <= harmless {
+            true => relative.min(AIM * UNRESOLVED),
+            false => relative,
+        })
+    })
 }
 
 /// Whether these defects, all within the tolerance, want fewer than half of the intervals.

@@ -123,6 +123,15 @@ impl Iterate {
         }
         set(&mut self.p, &x.p, &correction.p);
     }
+
+    /// self += factor · other.
+    pub(crate) fn add(&mut self, factor: f64, other: &Self) {
+        for (to, other) in self.segments.iter_mut().zip(&other.segments) {
+            add_scaled(&mut to.nodes, factor, &other.nodes);
+            add_scaled(&mut to.stages, factor, &other.stages);
+        }
+        add_scaled(&mut self.p, factor, &other.p);
+    }
 }
 
 /// The residual of the discretised problem.
@@ -132,6 +141,17 @@ pub(crate) struct Residual {
     pub(crate) equations: Vec<SegmentIterate>,
     /// Residuals of the conditions.
     pub(crate) conditions: Vec<f64>,
+}
+
+impl Residual {
+    /// Sets all residuals to zero.
+    pub(crate) fn clear(&mut self) {
+        for equations in &mut self.equations {
+            equations.nodes.fill(0.0);
+            equations.stages.fill(0.0);
+        }
+        self.conditions.fill(0.0);
+    }
 }
 
 /// A value of the right-hand side or of a condition that is not finite.

@@ -60,6 +60,8 @@ pub struct Family<'a> {
     pub(super) stats: Stats,
     /// Calls of [`adapted`](Self::adapted) since the mesh has changed.
     pub(super) settled: usize,
+    /// Whether there is a linearisation on this mesh.
+    pub(super) linearised: bool,
     /// A point or a vector, in work.
     pub(super) x: Iterate,
     pub(super) residual: Residual,
@@ -119,6 +121,7 @@ impl<'a> Family<'a> {
             options,
             stats,
             settled: 0,
+            linearised: false,
             x,
             zeros: residual.clone(),
             residual,
@@ -174,14 +177,14 @@ impl<'a> Family<'a> {
             stats,
             ..
         } = self;
-        collocation
-            .linearise(&self.x, residual, stats)
-            .map_err(|failure| {
-                let unknown = Quality::unknown(&self.collocation.mesh);
-                let best = self.wrap(self.x.clone(), unknown);
-                let error = numerical(Failure::from(failure), best, 0.0);
-                restored_error(&self.collocation.equations, error)
-            })
+        let outcome = collocation.linearise(&self.x, residual, stats);
+        self.linearised = outcome.is_ok();
+        outcome.map_err(|failure| {
+            let unknown = Quality::unknown(&self.collocation.mesh);
+            let best = self.wrap(self.x.clone(), unknown);
+            let error = numerical(Failure::from(failure), best, 0.0);
+            restored_error(&self.collocation.equations, error)
+        })
     }
 
     /// A vector `v` (n + 1 numbers) with J v = `r` (n numbers) for the last linearisation: of all
@@ -340,6 +343,7 @@ impl<'a> Family<'a> {
         check_statement(&problem, own.held_count() + 1)?;
         let mut family = self.clone();
         family.collocation.equations = own.exchanged(equations);
+        family.linearised = false;
         Ok(family)
     }
 

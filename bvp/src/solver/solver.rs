@@ -1,7 +1,7 @@
 //! The driver: Newton on a mesh, the error of the solution, a better mesh, until everything holds.
 
 use crate::accuracy::mesh_selection::{
-    GRADING, GRADING_BY_ERROR, UNRESOLVED, amplify_rough, next_mesh,
+    GRADING, GRADING_BY_ERROR, UNRESOLVED, amplify_rough, next_mesh, relevant,
 };
 use crate::discretisation::mesh::{Mesh, halved, thinned};
 use crate::kernels::dense::max_or_nan;
@@ -9,7 +9,6 @@ use crate::problem::equations::Equations;
 use crate::problem::guess::Guess;
 use crate::problem::held::Held;
 use crate::result::error::Error;
-use crate::result::quality::Defects;
 use crate::result::restored::restore;
 use crate::result::solution::Solution;
 use crate::shares::{AIM, UNNOTICED};
@@ -202,10 +201,12 @@ impl Run<'_> {
     fn judge(&mut self, solution: &mut Solution) -> Result<Option<Mesh>, Error> {
         let tolerance = self.problem.options.tolerance;
         let estimating = self.problem.estimates();
-        let relative = self.relevant_defects(solution);
-        let defect = relative.flatten().fold(0.0, max_or_nan);
+        let control = self.problem.options.control;
+        let beside = (control == Control::Error).then_some(tolerance);
+        let shown = relevant(&solution.quality.defects, beside);
+        let defect = shown.flatten().fold(0.0, max_or_nan);
         // Where nothing is resolved a defect is about one however fine the mesh is.
-        let (allowed, wanted, grading) = match self.problem.options.control {
+        let (allowed, wanted, grading) = match control {
             Control::Error => (UNRESOLVED, AIM * UNRESOLVED, GRADING_BY_ERROR),
             Control::Both | Control::Defect => (tolerance, tolerance, GRADING),
         };
@@ -218,11 +219,9 @@ impl Run<'_> {
                 self.acceptance.layers_sought = true;
                 return Ok(Some(mesh));
             }
-            let relative = self.relevant_defects(solution);
-            let (mut defects, m) = (
-                relative.map(Iterator::collect).collect(),
-                self.problem.stages(),
-            );
+            let shown = relevant(&solution.quality.defects, beside);
+            let mut defects = shown.map(Iterator::collect).collect();
+            let m = self.problem.stages();
             let found = (solution.mesh.clone(), Vec::clone(&defects));
             let before = self.unresolved.replace(found);
             if let Some(before) = before.filter(|_| self.meshes > LAYERS_SHOWN) {
@@ -265,30 +264,6 @@ impl Run<'_> {
         let wanted = AIM.powi(self.missed) * tolerance * defects.largest_local() / error;
         let next = next_mesh(&solution.mesh, &local, wanted, order, grading);
         Ok(Some(next))
-    }
-
-    /// The relative defects of a solution; where the error is controlled without those of intervals so short
-    /// that their local defects do not show, as next to a jump of the right-hand side: these need not resolve
-    /// it. All that are not resolved share what does not show: where a state decides on the jump, the
-    /// right-hand side is that of its other side along many short intervals.
-    fn relevant_defects<'s>(
-        &self,
-        solution: &'s Solution,
-    ) -> impl Iterator<Item = impl Iterator<Item = f64> + 's> + 's {
-        let Defects { relative, local } = &solution.quality.defects;
-        let all = relative.iter().flatten();
-        let unresolved = all.filter(|&&relative| relative > UNRESOLVED).count();
-        let harmless = match self.problem.options.control {
-            Control::Error => UNNOTICED * self.problem.options.tolerance / unresolved.max(1) as f64,
-            Control::Both | Control::Defect => f64::NEG_INFINITY,
-        };
-        relative.iter().zip(local).map(move |(relative, local)| {
-            let each = relative.iter().zip(local);
-            each.map(move |(&relative, &local)| match local <= harmless {
-                true => relative.min(AIM * UNRESOLVED),
-                false => relative,
-            })
-        })
     }
 
     /// The error for a solution whose next mesh is refused: what keeps it from the tolerance may be rounding.

@@ -1,7 +1,7 @@
 //! The mesh of a family follows the solution.
 
 use crate::family::{Bratu, correct, dot};
-use bvp::{Error, Family, Options, Table};
+use bvp::{Control, Error, Family, Options, Table};
 
 /// Walks along Bratu's curve by u'(0), which is unknown 1, up to a value; returns the changes of
 /// the mesh.
@@ -16,20 +16,60 @@ fn climb(family: &mut Family<'_>, z: &mut Vec<f64>, to: f64) -> Result<usize, Er
             *family = adapted;
             z.clone_from(&point[0]);
             let sizes = correct(family, z, 1);
-            assert!(sizes.len() <= 3 && sizes[0] < 1e-3, "{sizes:?}");
+            assert!(sizes.len() <= 3 && sizes[0] < 1e-2, "{sizes:?}");
             point[0].clone_from(z);
         }
-        assert!(family.solution(z).defect() <= family.tolerance());
     }
     Ok(changes)
+}
+
+/// λ of the member of Bratu's family with this u'(0): θ² / (2 cosh²(θ/4)) with θ tanh(θ/4) = u'(0).
+fn exact(slope: f64) -> f64 {
+    let (mut below, mut above) = (0.0, slope + 4.0);
+    for _ in 0..200 {
+        let theta: f64 = 0.5 * (below + above);
+        match theta * (0.25 * theta).tanh() < slope {
+            true => below = theta,
+            false => above = theta,
+        }
+    }
+    0.5 * (below / (0.25 * below).cosh()).powi(2)
+}
+
+#[test]
+fn a_mesh_for_the_error_keeps_it_on_fewer_intervals() {
+    for tolerance in [1e-5, 1e-7, 1e-9] {
+        let intervals = [Control::Error, Control::Defect, Control::Both].map(|control| {
+            let bratu = Bratu::new(&[0.0, 1.0]);
+            let options = Options {
+                control,
+                ..Options::to(tolerance)
+            };
+            let (mut family, mut z) = bratu.family(&options);
+            for to in [2.0, 5.0, 10.0, 15.0, 20.0] {
+                climb(&mut family, &mut z, to).unwrap();
+                let lambda = z[z.len() - 1];
+                let error = (lambda - exact(z[1])).abs() / (1.0 + lambda);
+                assert!(error <= tolerance, "{tolerance:e} {to}: {error:e}");
+                let defect = family.solution(&z).defect();
+                assert!(
+                    control == Control::Error || defect <= tolerance,
+                    "{defect:e}"
+                );
+            }
+            family.solution(&z).mesh(0).len() - 1
+        });
+        println!("{tolerance:e} {intervals:?}");
+        assert!(3 * intervals[0] <= 2 * intervals[1], "{intervals:?}");
+    }
 }
 
 #[test]
 fn a_mesh_is_refined_where_the_solution_asks_for_it_and_does_not_flip() {
     let bratu = Bratu::new(&[0.0, 1.0]);
     let options = Options {
-        tolerance: 1e-7,
-        ..Options::default()
+        control: Control::Defect,
+        ..Options::to(1e-7)
     };
     let (mut family, mut z) = bratu.family(&options);
     let before = family.unknowns();
@@ -53,7 +93,11 @@ fn a_mesh_far_too_fine_is_coarsened_with_all_vectors_and_once() {
         nodes: vec![nodes],
         parameters: vec![1.0],
     };
-    let (mut family, mut z) = Family::new(&bratu, 0, &[], &guess, &Options::default()).unwrap();
+    let options = Options {
+        control: Control::Defect,
+        ..Options::default()
+    };
+    let (mut family, mut z) = Family::new(&bratu, 0, &[], &guess, &options).unwrap();
     let fine = family.unknowns();
     correct(&mut family, &mut z, fine - 1);
     let mut t = vec![0.0; fine];
@@ -87,9 +131,9 @@ fn a_mesh_far_too_fine_is_coarsened_with_all_vectors_and_once() {
 fn the_mesh_limit_ends_the_walk() {
     let bratu = Bratu::new(&[0.0, 1.0]);
     let options = Options {
-        tolerance: 1e-7,
+        control: Control::Defect,
         max_intervals: 12,
-        ..Options::default()
+        ..Options::to(1e-7)
     };
     let (mut family, mut z) = bratu.family(&options);
     let error = climb(&mut family, &mut z, 40.0).unwrap_err();
