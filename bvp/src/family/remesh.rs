@@ -51,11 +51,12 @@ impl Need {
 
 impl Family<'_> {
     /// The same family on a mesh that suits its solution, the first of `vectors`: a better one if what
-    /// [`Options::control`](crate::Options::control) names exceeds the tolerance, or if the mesh has been kept for some calls and
-    /// fewer than half of its intervals would do. The error is that across the curve, by the last
-    /// linearisation, which is to be nearby; before there is one, and where the error is larger than the
-    /// tolerance but the defect is not, the defect decides. `vectors` (points or tangents, laid out like the first) are then
-    /// interpolated on the new mesh; the point among them is to be corrected there, and the direction of
+    /// [`Options::control`](crate::Options::control) names exceeds the tolerance, or if the mesh has been
+    /// kept for some calls and fewer than half of its intervals would do. The error is that across the curve,
+    /// by the last linearisation, which is to be nearby; before there is one, and where the error is larger
+    /// than the tolerance but the defect is not, the defect decides. `vectors` (points or tangents, laid out
+    /// like the first) are then interpolated on the new mesh; the point among them is to be corrected there,
+    /// and the direction of
     /// [`null_vector`](Self::null_vector) to be compared anew. `None`, with the vectors unchanged, where
     /// the present mesh serves. This family stays valid: to return to it is to keep it.
     ///
