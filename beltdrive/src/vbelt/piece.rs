@@ -74,17 +74,14 @@ fn smoothing(problem: &DriveProblem) -> f64 {
 
 /// How the members of the family of a problem are discretised.
 pub(super) fn discretisation(tolerance: f64, problem: &DriveProblem) -> bvp::Options {
-    // Bristles make smooth profiles, whose error tells how fine a mesh must be: with the defect meshes are twice as
-    // fine. The turn of sliding friction asks for a higher order, and between two meshes that its error is content
-    // with limits were lost.
-    let (stages, control) = match problem.smoothing() > 0.0 {
-        true => (6, Control::Defect),
-        false => (5, Control::Error),
-    };
+    // Bristles make smooth profiles; the turn of sliding friction asks for a higher order. On meshes for the error
+    // bristles take half of the time, but beside the ends of the contact the pressure is then negative by up to 3e-7 of
+    // the largest, and 6 of 120 random drives were left without their limit.
+    let stages = if problem.smoothing() > 0.0 { 6 } else { 5 };
     bvp::Options {
         tolerance,
         scheme: Some(Scheme::Gauss { stages }),
-        control,
+        control: Control::Defect,
         max_intervals: MAX_INTERVALS,
         ..bvp::Options::default()
     }
