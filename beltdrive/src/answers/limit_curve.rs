@@ -1,6 +1,6 @@
 //! The limit of one number of a loop over a second one.
 
-use super::limits::{LoopEnd, LoopLimit, limits};
+use super::limits::{LoopEnd, LoopLimit, largest};
 use super::members::{Refusal, Varied};
 use super::trace::INTERVALS;
 use crate::SolveOptions;
@@ -30,7 +30,7 @@ pub struct LoopLimitPoint {
 }
 
 /// The largest value of a number with which the loop has a steady state, at 41 values of the number `second`
-/// from `range[0]` to `range[1]` in SI units, each sought as by [`limits`].
+/// from `range[0]` to `range[1]` in SI units, each sought as by [`limits`](super::limits::limits).
 ///
 /// # Errors
 /// There is no state at the beginning of the range from which to search.
@@ -43,10 +43,10 @@ pub fn limit_curve(
     progress: &mut dyn FnMut(f64, &str),
 ) -> Result<LoopLimitCurve, Refusal> {
     let at = |value: f64| {
-        let limits = limits(&file.with(second, value), varied, options, &mut |_, _| {})?;
+        let limit = largest(&file.with(second, value), varied, options)?;
         Ok(LoopLimitPoint {
             second: value,
-            limit: limits.largest,
+            limit,
         })
     };
     let [from, to] = range;

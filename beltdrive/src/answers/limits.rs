@@ -98,12 +98,7 @@ pub fn limits(
     progress: &mut dyn FnMut(f64, &str),
 ) -> Result<LoopLimits, Refusal> {
     let members = Members::new(file, varied, options);
-    let given = members.given();
-    let start = match (members.at(given), varied) {
-        (Ok(_), _) => given,
-        (Err(_), Varied::LoadFactor) => 0.0,
-        (Err(refusal), Varied::Key(_)) => easier(&members, given).ok_or(refusal)?,
-    };
+    let start = start(&members, varied)?;
     let smallest = end(&members, varied, start, -1.0)?;
     progress(0.5, "smallest");
     let largest = end(&members, varied, start, 1.0)?;
@@ -112,6 +107,27 @@ pub fn limits(
         smallest,
         largest,
     })
+}
+
+/// As [`limits`], the upper end alone.
+pub(super) fn largest(
+    file: &DriveFile,
+    varied: &Varied,
+    options: &SolveOptions,
+) -> Result<LoopLimit, Refusal> {
+    let members = Members::new(file, varied, options);
+    let start = start(&members, varied)?;
+    end(&members, varied, start, 1.0)
+}
+
+/// A value that has a state: that of the file, or near it.
+fn start(members: &Members<'_>, varied: &Varied) -> Result<f64, Refusal> {
+    let given = members.given();
+    match (members.at(given), varied) {
+        (Ok(_), _) => Ok(given),
+        (Err(_), Varied::LoadFactor) => Ok(0.0),
+        (Err(refusal), Varied::Key(_)) => easier(members, given).ok_or(refusal),
+    }
 }
 
 /// The value nearest to one without a state that has one: of those that are smaller or larger by the factor
