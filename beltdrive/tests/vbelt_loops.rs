@@ -781,12 +781,25 @@ fn random_vector_epp_loop(random: &mut Random) -> Drive {
     random_loop_with(FrictionLaw::VectorEpp { stiffness }, random)
 }
 
+/// The loops of a survey with their numbers: those that the environment variable `LOOPS` names, as in `LOOPS=1,24`, or
+/// so many from the first.
+fn chosen(
+    count: usize,
+    draw: impl Fn(&mut Random) -> Drive,
+) -> impl Iterator<Item = (usize, Drive)> {
+    let named = std::env::var("LOOPS").ok();
+    let named = named.map(|named| named.split(',').map(|n| n.parse().unwrap()).collect());
+    let named: Vec<usize> = named.unwrap_or((0..count).collect());
+    let loops = of_survey(draw).take(count).enumerate();
+    loops.filter(move |(index, _)| named.contains(index))
+}
+
 /// Solves random loops, prints the score and returns how many were neither solved nor refused for a reason. A loop
 /// that is refused for its load is to carry a little less than is said, or to be refused for another reason: closed by
 /// the tension of a span, its belt at rest is pressed through a groove at some loads.
 fn survey(name: &str, count: usize, draw: impl Fn(&mut Random) -> Drive) -> usize {
     let (mut refused, mut failed, mut wrong, mut seconds) = (0, 0, 0, Vec::new());
-    for (index, drive) in of_survey(draw).take(count).enumerate() {
+    for (index, drive) in chosen(count, draw) {
         let start = std::time::Instant::now();
         let outcome = solve(&drive);
         let took = start.elapsed().as_secs_f64();
@@ -858,8 +871,9 @@ fn limit_of(drive: &Drive) -> Result<Option<f64>, SolveError> {
 /// Whether random loops have states below the limits that are said of them and none above; prints those that do not and
 /// returns how many.
 fn survey_of_limits(name: &str, count: usize, draw: impl Fn(&mut Random) -> Drive) -> usize {
-    let (mut limited, mut wrong) = (0, 0);
-    for (index, drive) in of_survey(draw).take(count).enumerate() {
+    let (mut loops, mut limited, mut wrong) = (0, 0, 0);
+    for (index, drive) in chosen(count, draw) {
+        loops += 1;
         let limit = match limit_of(&drive) {
             Ok(Some(limit)) => limit,
             other => {
@@ -894,7 +908,7 @@ fn survey_of_limits(name: &str, count: usize, draw: impl Fn(&mut Random) -> Driv
             println!("{index}: limit {limit}, {fault}");
         }
     }
-    println!("{name}: {limited} limits of {count} loops, {wrong} of them wrong");
+    println!("{name}: {limited} limits of {loops} loops, {wrong} of them wrong");
     wrong
 }
 
