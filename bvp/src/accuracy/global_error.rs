@@ -18,6 +18,7 @@
 //! equations", BIT 40 (2000) 241-266.
 
 use crate::discretisation::iterate::{Interval, Iterate, NonFinite, Residual, SegmentIterate};
+use crate::discretisation::mesh::shares;
 use crate::discretisation::tableau::middle;
 use crate::kernels::dense::{add_scaled, dot, max_or_nan};
 use crate::kernels::few::Few;
@@ -70,13 +71,9 @@ impl Collocation<'_> {
         let term = |x: &f64, one: &f64, other: &f64| one * other / (1.0 + x.abs()).powi(2);
         let mut sum = 0.0;
         for (index, nodes) in self.mesh.iter().enumerate() {
-            let last = nodes.len() - 1;
-            let length = nodes[last] - nodes[0];
             let [x, one, other] = [x, one, other].map(|of| &of.segments[index].nodes);
             let n = self.equations.segments()[index].states;
-            for i in 0..=last {
-                let around = nodes[(i + 1).min(last)] - nodes[i.saturating_sub(1)];
-                let share = 0.5 * around / length;
+            for (i, share) in shares(nodes).enumerate() {
                 let states = i * n..(i + 1) * n;
                 sum += share * states.map(|j| term(&x[j], &one[j], &other[j])).sum::<f64>();
             }

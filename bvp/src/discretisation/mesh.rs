@@ -102,6 +102,16 @@ pub(crate) fn ceil(x: f64) -> usize {
     x.ceil() as usize
 }
 
+/// The share of every node of a segment in the mean over it, by the trapezoidal rule.
+pub(crate) fn shares(nodes: &[f64]) -> impl Iterator<Item = f64> {
+    let last = nodes.len() - 1;
+    let length = nodes[last] - nodes[0];
+    (0..=last).map(move |i| {
+        let around = nodes[(i + 1).min(last)] - nodes[i.saturating_sub(1)];
+        0.5 * around / length
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

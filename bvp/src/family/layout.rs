@@ -1,7 +1,7 @@
 //! The flat vectors of a family.
 
 use crate::discretisation::iterate::{Iterate, Residual};
-use crate::discretisation::mesh::Mesh;
+use crate::discretisation::mesh::{Mesh, shares};
 use crate::problem::problem::Segment;
 
 /// Where the unknowns stand in a flat vector: for every segment the states at its nodes and its
@@ -92,9 +92,7 @@ impl Layout {
         for (segment, nodes) in segments.iter().zip(mesh) {
             let states = first..first + segment.states;
             let last = nodes.len() - 1;
-            for i in 0..=last {
-                let around = nodes[(i + 1).min(last)] - nodes[i.saturating_sub(1)];
-                let share = 0.5 * around / (segment.to - segment.from);
+            for share in shares(nodes) {
                 states.clone().for_each(|state| set((state, share)));
             }
             for _ in 0..last * stages {
