@@ -65,7 +65,6 @@ pub struct Family<'a> {
     /// A point or a vector, in work.
     pub(super) x: Iterate,
     pub(super) residual: Residual,
-    pub(super) zeros: Residual,
 }
 
 impl<'a> Family<'a> {
@@ -123,7 +122,6 @@ impl<'a> Family<'a> {
             settled: 0,
             linearised: false,
             x,
-            zeros: residual.clone(),
             residual,
         }
     }
@@ -208,7 +206,8 @@ impl<'a> Family<'a> {
     /// # Panics
     /// If `t` is too short.
     pub fn null_vector(&mut self, t: &mut [f64]) {
-        self.collocation.null_vector(&self.zeros, &mut self.x);
+        self.residual.clear();
+        self.collocation.null_vector(&self.residual, &mut self.x);
         self.write(t);
     }
 
