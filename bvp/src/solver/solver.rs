@@ -85,10 +85,13 @@ struct Run<'a> {
     /// How many solutions were resolved, but not within the tolerance.
     missed: i32,
     /// The mesh of the last solution that was not resolved, and its relative defects.
-    unresolved: Option<(Mesh, Vec<Vec<f64>>)>,
+    unresolved: Option<Seen>,
     /// The mesh of the last solution that missed the tolerance, and its local defects.
-    before: Option<(Mesh, Vec<Vec<f64>>)>,
+    before: Option<Seen>,
 }
+
+/// A mesh with the defects of its solution.
+type Seen = (Mesh, Vec<Vec<f64>>);
 
 impl Run<'_> {
     /// Solves from the guess on a first mesh, and on finer ones where Newton's method fails; at last from
@@ -220,11 +223,10 @@ impl Run<'_> {
                 return Ok(Some(mesh));
             }
             let shown = relevant(&solution.quality.defects, beside);
-            let mut defects = shown.map(Iterator::collect).collect();
+            let mut defects: Vec<Vec<f64>> = shown.map(Iterator::collect).collect();
             let m = self.problem.stages();
-            let found = (solution.mesh.clone(), Vec::clone(&defects));
-            let before = self.unresolved.replace(found);
-            if let Some(before) = before.filter(|_| self.meshes > LAYERS_SHOWN) {
+            if let Some(before) = last(&mut self.unresolved, self.meshes, &solution.mesh, &defects)
+            {
                 amplify_rough(&mut defects, &solution.mesh, &before, m, 1);
             }
             return Ok(Some(next_mesh(
@@ -256,9 +258,8 @@ impl Run<'_> {
         let order = self.problem.collocation.tableau.scheme.dense_order();
         let defects = &solution.quality.defects;
         let mut local = defects.local.clone();
-        let before = self.before.replace((solution.mesh.clone(), local.clone()));
+        let before = last(&mut self.before, self.meshes, &solution.mesh, &local);
         let rough = before
-            .filter(|_| self.meshes > LAYERS_SHOWN)
             .is_some_and(|before| amplify_rough(&mut local, &solution.mesh, &before, order, 2));
         self.missed = if rough { 1 } else { self.missed + 1 };
         let wanted = AIM.powi(self.missed) * tolerance * defects.largest_local() / error;
@@ -294,4 +295,14 @@ impl Run<'_> {
         let may = error.is_of_newton() || elsewhere;
         may && self.problem.options.retries > 0 && !self.acceptance.refused
     }
+}
+
+/// Keeps the defects on one of so many meshes; returns those kept before, where layers have been found. A mesh may
+/// be halved before the next one is judged.
+fn last(kept: &mut Option<Seen>, meshes: usize, mesh: &Mesh, defects: &[Vec<f64>]) -> Option<Seen> {
+    if meshes + 2 <= LAYERS_SHOWN {
+        return None;
+    }
+    let before = kept.replace((mesh.clone(), defects.to_vec()));
+    before.filter(|_| meshes > LAYERS_SHOWN)
 }
