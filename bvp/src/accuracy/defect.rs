@@ -6,6 +6,7 @@ use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::max_or_nan;
 use crate::kernels::few::Few;
 use crate::kernels::parallel::for_each_run;
+use crate::kernels::room::make_room;
 use crate::kernels::specialise::specialise;
 use crate::problem::equations::Equations;
 use crate::problem::held::Held;
@@ -46,7 +47,7 @@ pub(crate) fn defects(
             x,
         };
         let [mut relative, mut local] = [(); 2].map(|()| vec![0.0; intervals]);
-        samples.resize(intervals * (m + 1) * n, 0.0);
+        make_room(samples, intervals * (m + 1) * n);
         for_each_run(
             0..intervals,
             (m + 1) * n * (2 * m + n),

@@ -3,6 +3,7 @@
 use crate::discretisation::mesh::Mesh;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::{add_scaled, combine, max_or_nan};
+use crate::kernels::room::make_room;
 use crate::kernels::specialise::specialise;
 use crate::problem::guess::Guess;
 use crate::problem::problem::Segment;
@@ -24,7 +25,7 @@ pub(crate) struct SegmentIterate {
     pub(crate) stages: Vec<f64>,
 }
 
-/// Makes room for the given segments, mesh and stages. New numbers are zero; old ones are not changed.
+/// Makes room for the given segments, mesh and stages. What was empty is zero then.
 pub(crate) fn resize(
     all: &mut Vec<SegmentIterate>,
     segments: &[Segment],
@@ -34,8 +35,8 @@ pub(crate) fn resize(
     all.resize_with(segments.len(), Default::default);
     for ((segment, nodes), x) in segments.iter().zip(mesh).zip(all) {
         let (n, intervals) = (segment.states, nodes.len() - 1);
-        x.nodes.resize((intervals + 1) * n, 0.0);
-        x.stages.resize(intervals * stages * n, 0.0);
+        make_room(&mut x.nodes, (intervals + 1) * n);
+        make_room(&mut x.stages, intervals * stages * n);
     }
 }
 

@@ -9,4 +9,5 @@ pub(crate) mod lu;
 pub(crate) mod parallel;
 pub(crate) mod random;
 pub(crate) mod reflections;
+pub(crate) mod room;
 pub(crate) mod specialise;

@@ -39,6 +39,7 @@ use crate::kernels::blocked;
 use crate::kernels::dense::{self, dot};
 use crate::kernels::lu::lu;
 use crate::kernels::parallel::{Buffers, for_each_run};
+use crate::kernels::room::make_room;
 use crate::kernels::specialise::specialise;
 use crate::newton_matrix::derivative_states::{ObservedRows, OrderReduction};
 use crate::newton_matrix::stage_system::StageSystem;
@@ -100,8 +101,8 @@ impl Condensation {
     /// Makes room for a number of intervals.
     pub(crate) fn resize(&mut self, intervals: usize) {
         let Self { n, k, size, .. } = *self;
-        self.adjoint.resize(intervals * n * size, 0.0);
-        self.jacobians.resize(intervals * size * (n + k), 0.0);
+        make_room(&mut self.adjoint, intervals * n * size);
+        make_room(&mut self.jacobians, intervals * size * (n + k));
         self.resize_free();
     }
 
@@ -109,8 +110,8 @@ impl Condensation {
     fn resize_free(&mut self) {
         let intervals = self.adjoint.len() / (self.n * self.size);
         let free_size = self.free_size;
-        self.lu.resize(intervals * free_size * free_size, 0.0);
-        self.pivots.resize(intervals * free_size, 0);
+        make_room(&mut self.lu, intervals * free_size * free_size);
+        make_room(&mut self.pivots, intervals * free_size);
     }
 
     /// The Jacobians at the stages of all intervals, to be filled before

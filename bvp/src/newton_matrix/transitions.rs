@@ -4,6 +4,7 @@
 
 use crate::kernels::dense::{add_scaled, dot};
 use crate::kernels::reflections::{Blocks, MANY, eliminate};
+use crate::kernels::room::make_room;
 use crate::kernels::specialise::specialise;
 use crate::newton_matrix::balance::balance;
 
@@ -57,10 +58,10 @@ impl Transitions {
     /// Makes room for a number of intervals.
     pub(super) fn resize(&mut self, intervals: usize) {
         let (n, k, interior) = (self.n, self.k, intervals - 1);
-        self.blocks.resize(intervals * n * (n + k), 0.0);
-        self.panels.resize(interior * 2 * n * n, 0.0);
-        self.tau.resize(interior * n, 0.0);
-        self.couplings.resize(interior * n * (2 * n + k), 0.0);
+        make_room(&mut self.blocks, intervals * n * (n + k));
+        make_room(&mut self.panels, interior * 2 * n * n);
+        make_room(&mut self.tau, interior * n);
+        make_room(&mut self.couplings, interior * n * (2 * n + k));
     }
 
     /// The blocks \[Γ P\] of all intervals, to be filled before [`AlmostBlockDiagonal::factor`].
