@@ -17,20 +17,12 @@
 use crate::discretisation::iterate::{Iterate, Residual, SegmentIterate};
 use crate::kernels::dense::max_or_nan;
 use crate::newton::collocation::Collocation;
-use crate::newton::failure::Failure;
 use crate::problem::equations::Equations;
-use crate::problem::held::Held;
 use crate::problem::problem::Segment;
 use crate::result::error::Error;
-use crate::result::quality::Quality;
-use crate::result::restored::{divided, restored_error};
 use crate::result::solution::Solution;
-use crate::result::stats::Stats;
 use crate::shares::PLACES;
-use crate::solver::failure::numerical;
-use crate::solver::options::Options;
-use crate::solver::statement::{check_statement, first_mesh, in_units};
-use std::sync::Arc;
+use crate::solver::at_solution::{AtSolution, at_solution};
 
 /// How sensitive a problem is at a solution. All norms are maximum norms over states and parameters,
 /// absolute and in the units of the problem or, if the solution was found with
@@ -89,37 +81,9 @@ pub(crate) fn conditioning(
     equations: &dyn Equations,
     solution: &Solution,
 ) -> Result<Conditioning, Error> {
-    let equations = Held::none(equations);
-    check_statement(&equations, 0)?;
-    let any_size = Options {
-        max_intervals: usize::MAX,
-        absolute: solution.absolute.clone(),
-        ..Options::default()
-    };
-    let mesh = first_mesh(&equations, solution, &any_size)?;
-    let equations = in_units(&equations, &any_size)?;
-    let x = divided(&equations, solution);
-    let tableau = Arc::clone(&solution.tableau);
-    let mut collocation = Collocation::new(equations, tableau, mesh);
-    let mut residual = collocation.residual_buffer();
-    collocation
-        .linearise(&x, &mut residual, &mut Stats::default())
-        .map_err(|error| {
-            let of_pieces = Solution {
-                segments: collocation.equations.segments().to_vec(),
-                mesh: collocation.mesh.clone(),
-                x: x.clone(),
-                quality: Quality::unknown(&collocation.mesh),
-                ..solution.clone()
-            };
-            let error = numerical(Failure::from(error), of_pieces, 0.0);
-            let mut error = restored_error(&collocation.equations, error);
-            if let Some(best) = error.best_mut() {
-                *best = solution.clone();
-            }
-            error
-        })?;
-
+    let AtSolution {
+        mut collocation, x, ..
+    } = at_solution(equations, solution)?;
     let responses = condition_responses(&mut collocation);
     let by_conditions = norms(&collocation, &responses);
     let responses = forcing_responses(&mut collocation);

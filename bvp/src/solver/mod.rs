@@ -1,6 +1,7 @@
 //! The driver: from a statement and a guess to a solution or an error.
 
 pub(crate) mod acceptance;
+pub(crate) mod at_solution;
 pub(crate) mod conditioning;
 pub(crate) mod discretised;
 pub(crate) mod embedding;
