@@ -43,7 +43,8 @@ impl Collocation<'_> {
         z.set_sum(&z.clone(), 1.0 / a, v);
         let mut is_regular = |collocation: &mut Self, z: &Iterate, residual: &mut Residual| {
             let samples = collocation.linear_defects(x, z, (samples, w), stats);
-            collocation.integrate_defects(&samples, residual);
+            let to_stage = &collocation.tableau.defect_to_stage;
+            collocation.integrate_defects(&samples, to_stage, residual);
             residual.conditions.fill(0.0);
             let mut change = collocation.zeros();
             collocation.correction(residual, &mut change);

@@ -16,6 +16,11 @@
 //! principle and discretization methods", Numer. Math. 29 (1978) 425-443; with integrals of the defect, A.
 //! Dutt, L. Greengard & V. Rokhlin, "Spectral deferred correction methods for ordinary differential
 //! equations", BIT 40 (2000) 241-266.
+//!
+//! At the nodes e is known to its order only: the values at the stages of D, of degree m + 1, are too few for its
+//! products with J. On Gauss points e there is (2m + 1)/(m + 1) times too large. Values at the stages whose weighted sums
+//! with polynomials of degree m − 1 are the integrals of D with these give e at the nodes to two orders more, but not in
+//! between, where e follows D: [`Solution::corrected`](crate::Solution::corrected) uses these.
 
 use crate::discretisation::iterate::{Interval, Iterate, NonFinite, Residual, SegmentIterate};
 use crate::discretisation::mesh::shares;
@@ -26,6 +31,7 @@ use crate::kernels::specialise::specialise;
 use crate::newton::collocation::Collocation;
 use crate::result::quality::{GlobalErrors, Samples};
 use crate::shares::SPACINGS;
+use std::sync::Arc;
 
 /// The error found times this is reported. On a mesh too coarse for the neglected terms of higher order
 /// the error found is too small: over 12 000 random problems the error of some state exceeds ten
@@ -46,7 +52,9 @@ impl Collocation<'_> {
         residual: &mut Residual,
         w: &mut Iterate,
     ) -> Option<GlobalErrors> {
-        self.correct_defects(x, samples, residual, w).ok()?;
+        let to_stage = &Arc::clone(&self.tableau).defect_to_stage;
+        self.correct_defects(x, samples, to_stage, residual, w)
+            .ok()?;
         self.measured(x, (samples, local), w)
     }
 
@@ -59,7 +67,9 @@ impl Collocation<'_> {
         residual: &mut Residual,
         [w, t]: [&mut Iterate; 2],
     ) -> Option<GlobalErrors> {
-        self.correct_defects(x, samples, residual, w).ok()?;
+        let to_stage = &Arc::clone(&self.tableau).defect_to_stage;
+        self.correct_defects(x, samples, to_stage, residual, w)
+            .ok()?;
         residual.clear();
         self.null_vector(residual, t);
         w.add(-self.product(x, w, t) / self.product(x, t, t), t);
@@ -84,15 +94,16 @@ impl Collocation<'_> {
             .sum::<f64>()
     }
 
-    /// Solves the equation of w.
-    fn correct_defects(
+    /// Solves the equation of w with these coefficients of D at the stages.
+    pub(crate) fn correct_defects(
         &mut self,
         x: &Iterate,
         samples: &Samples,
+        to_stage: &[f64],
         residual: &mut Residual,
         w: &mut Iterate,
     ) -> Result<(), NonFinite> {
-        self.integrate_defects(samples, residual);
+        self.integrate_defects(samples, to_stage, residual);
         self.add_jumps(x, residual);
         self.conditions(x, &mut residual.conditions)?;
         self.correction(residual, w);
@@ -121,14 +132,20 @@ impl Collocation<'_> {
         errors.largest().is_finite().then_some(errors)
     }
 
-    /// The residuals of the equation of w that defects make, but for those of the conditions.
-    pub(crate) fn integrate_defects(&self, samples: &Samples, residual: &mut Residual) {
+    /// The residuals of the equation of w that defects make, but for those of the conditions. `to_stage` are the
+    /// coefficients of D at the stages, m × (m + 1).
+    pub(crate) fn integrate_defects(
+        &self,
+        samples: &Samples,
+        to_stage: &[f64],
+        residual: &mut Residual,
+    ) {
         let (m, k) = (self.tableau.stages, self.equations.parameters());
         for (index, samples) in samples.iter().enumerate() {
             let n = self.equations.segments()[index].states;
             let to = &mut residual.equations[index];
             specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] => specialise!(k in [0] =>
-                self.integrate([m, n, k], index, samples, to))));
+                self.integrate([m, n, k], index, samples, to_stage, to))));
         }
     }
 
@@ -160,6 +177,7 @@ impl Collocation<'_> {
         [m, n, k]: [usize; 3],
         index: usize,
         samples: &[f64],
+        to_stage: &[f64],
         to: &mut SegmentIterate,
     ) {
         let (t, columns) = (&*self.tableau, n + k);
@@ -178,7 +196,7 @@ impl Collocation<'_> {
             let stages = r
                 .chunks_exact_mut(n)
                 .zip(jacobians.chunks_exact(n * columns))
-                .zip(t.defect_to_stage.chunks_exact(m + 1));
+                .zip(to_stage[..m * (m + 1)].chunks_exact(m + 1));
             for ((r, jacobian), weights) in stages {
                 integral.fill(0.0);
                 subtract_sum(integral, -h, weights, samples);

@@ -3,7 +3,7 @@
 use crate::discretisation::lagrange::{Basis, lagrange_slopes};
 use crate::discretisation::quadrature::{Quadrature, gauss, lobatto_points};
 use crate::discretisation::scheme::{MAX_STAGES, Scheme};
-use crate::kernels::dense::add_product;
+use crate::kernels::dense::{add_product, add_scaled};
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -43,6 +43,9 @@ pub(crate) struct Tableau {
     /// m × (m + 1), and to the defect points, (m + 1) × (m + 1).
     pub(crate) defect_to_stage: Vec<f64>,
     pub(crate) defect_to_defect: Vec<f64>,
+    /// The values D̃ⱼ at the collocation points, m × (m + 1), whose products with polynomials of degree m − 1 the weights
+    /// b integrate as those of the integral D are integrated: D̃ⱼ = ∫₀¹ βⱼ' D dθ / bⱼ.
+    pub(crate) defect_to_weighted: Vec<f64>,
     /// βₗ' at the collocation points of the left and of the right half of an interval, 2m × m.
     pub(crate) half_slopes: Vec<f64>,
     /// βₗ(½).
@@ -100,6 +103,19 @@ impl Tableau {
             let next = product(&weights[(power - 1) * stages..], &a, stages);
             weights.extend(next);
         }
+        let defect_slope = basis.table(&defect_rule.points, Basis::slopes);
+        let defect_to_defect = of_defect.table(&defect_rule.points, Basis::values);
+        let mut defect_to_weighted = vec![0.0; stages * (stages + 1)];
+        for (j, row) in defect_to_weighted.chunks_exact_mut(stages + 1).enumerate() {
+            let each = defect_rule
+                .weights
+                .iter()
+                .zip(defect_slope.chunks_exact(stages));
+            for ((weight, slopes), integral) in each.zip(defect_to_defect.chunks_exact(stages + 1))
+            {
+                add_scaled(row, weight * slopes[j] / b[j], integral);
+            }
+        }
         Self {
             scheme,
             stages,
@@ -115,9 +131,10 @@ impl Tableau {
             weights,
             widest_gap: widest_gap([&c[..], &defect_rule.points].concat()),
             defect_value: values(&defect_rule.points),
-            defect_slope: basis.table(&defect_rule.points, Basis::slopes),
+            defect_slope,
             defect_to_stage: of_defect.table(&c, Basis::values),
-            defect_to_defect: of_defect.table(&defect_rule.points, Basis::values),
+            defect_to_defect,
+            defect_to_weighted,
             half_slopes: basis.table(&halves, Basis::slopes),
             half_value: values(&[0.5]),
             powers_of_slope: basis.powers(),

@@ -63,6 +63,30 @@
 //! that would take intervals as short as the spacing of numbers the error is
 //! [`Unresolved`](Error::Unresolved).
 //!
+//! # The error of what is computed from a solution
+//!
+//! The estimates are those of states and parameters. The error of anything else, such as an integral or a small
+//! difference of large states, is seen by computing it from the [`corrected`](Solution::corrected) solution, too:
+//!
+//! ```
+//! use bvp::{Constant, Options, Real, Solution, TwoPoint, solve};
+//!
+//! let bratu = TwoPoint::new(
+//!     [2, 0],
+//!     [0.0, 1.0],
+//!     |_s, y, _p, dy| dy.copy_from_slice(&[y[1], -y[0].exp()]),
+//!     |start, end, _p, r| r.copy_from_slice(&[start[0], end[0] - 1.0]),
+//! );
+//! let solution = solve(&bratu, &Constant::new([0.0, 0.0]), &Options::to(1e-3))?;
+//!
+//! // The energy ½ y'² + eʸ does not change.
+//! let energy = |y: &[f64]| 0.5 * y[1] * y[1] + y[0].exp();
+//! let change = |of: &Solution| energy(of.end(0)) - energy(of.start(0));
+//! let estimated = change(&solution) - change(&solution.corrected(&bratu)?);
+//! assert!((estimated / change(&solution) - 1.0).abs() < 0.1);
+//! # Ok::<(), bvp::Error>(())
+//! ```
+//!
 //! # What can still go wrong
 //!
 //! * The solution need not be the only one, or the one that was wanted: only solutions near it are excluded.

@@ -3,6 +3,7 @@
 pub(crate) mod acceptance;
 pub(crate) mod at_solution;
 pub(crate) mod conditioning;
+pub(crate) mod corrected;
 pub(crate) mod discretised;
 pub(crate) mod embedding;
 pub(crate) mod failure;

@@ -5,6 +5,7 @@ mod closures;
 mod complex;
 mod conditioning;
 mod control;
+mod corrected;
 mod derivative_states;
 mod diagnostics;
 mod embedding;
