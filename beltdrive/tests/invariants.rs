@@ -55,6 +55,32 @@ fn every_check_holds_with_room_to_spare() {
 }
 
 #[test]
+fn zones_and_penetrations_do_not_depend_on_the_mesh() {
+    for drive in drives() {
+        let FrictionLaw::Bristle { .. } = drive.law else {
+            continue;
+        };
+        let [usual, strict] = [1e-6, 1e-9].map(|tolerance| {
+            let options = SolveOptions { tolerance };
+            solve(&Drive::from(drive), &options).unwrap()
+        });
+        for (one, other) in [(usual.driver, strict.driver), (usual.driven, strict.driven)] {
+            let [deepest, expected] = [&one, &other].map(|pulley| pulley.max_penetration);
+            assert!(
+                (deepest / expected - 1.0).abs() < 1e-7,
+                "{deepest:e} {expected:e}"
+            );
+            assert_eq!(one.zones.len(), other.zones.len());
+            for (zone, expected) in one.zones.iter().zip(&other.zones) {
+                assert_eq!(zone.kind, expected.kind);
+                let off = (zone.to - expected.to).abs();
+                assert!(off < 1e-5, "{zone:?} {expected:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn torques_are_tension_differences_and_powers_balance() {
     for drive in drives() {
         let state = solved(&drive);

@@ -169,19 +169,12 @@ impl OnPulley<'_> {
     /// The belt along the contact in SI units.
     pub(super) fn profile(&self) -> Profile {
         let (units, radius) = (self.units, self.radius);
-        let meshes = self
-            .stretches
-            .iter()
-            .map(|stretch| self.solution.mesh(stretch.segment));
-        let intervals: usize = meshes.map(|mesh| mesh.len() - 1).sum();
-        let parts = PROFILE_POINTS.div_ceil(intervals);
         let mut profile = Profile::default();
         let (mut before, mut stretched) = (0.0, 0.0);
         // Entry tension, at which the belt of a law without elastic displacement has none.
         let mut reference = None;
         let mut last: Option<(f64, f64)> = None;
         for stretch in &self.stretches {
-            let mesh = self.solution.mesh(stretch.segment);
             let mut y = [0.0; MAX_STATES];
             let y = &mut y[..self.solution.segments()[stretch.segment].states];
             let mut add = |s: f64, y: &mut [f64]| {
@@ -219,15 +212,9 @@ impl OnPulley<'_> {
                     .friction_force
                     .push(contact.friction() * units.line_load(radius));
             };
-            for pair in mesh.windows(2) {
-                for part in 0..parts {
-                    add(
-                        pair[0] + (pair[1] - pair[0]) * part as f64 / parts as f64,
-                        y,
-                    );
-                }
+            for place in self.places(stretch.segment) {
+                add(place, y);
             }
-            add(1.0, y);
             before += stretch.length;
         }
         profile
@@ -322,7 +309,7 @@ impl OnPulley<'_> {
         zones
     }
 
-    /// Adds the zones of a segment that are told apart at samples.
+    /// Adds the zones of a segment that are told apart at the places of the profile, and where they end.
     fn sampled_zones(
         &self,
         segment: usize,
@@ -331,20 +318,107 @@ impl OnPulley<'_> {
     ) {
         let mut y = [0.0; MAX_STATES];
         let y = &mut y[..self.solution.segments()[segment].states];
-        let mut from = self.solution.start(segment)[ANGLE];
-        for pair in self.solution.mesh(segment).windows(2) {
-            for part in 1..=4 {
-                let s = pair[0] + (pair[1] - pair[0]) * f64::from(part) / 4.0;
-                self.solution.state(segment, s, y);
-                let kind = match is_elastic(y) {
-                    true => ZoneKind::Elastic,
-                    false => ZoneKind::Slip,
-                };
-                extend(zones, kind, from, y[ANGLE]);
-                from = y[ANGLE];
+        let mut kind_at = |s: f64| {
+            self.solution.state(segment, s, y);
+            let kind = match is_elastic(y) {
+                true => ZoneKind::Elastic,
+                false => ZoneKind::Slip,
+            };
+            (kind, y[ANGLE])
+        };
+        let places = self.places(segment);
+        let mut last = places[0];
+        let (mut kind, mut from) = kind_at(last);
+        for &place in &places[1..] {
+            let (next, angle) = kind_at(place);
+            if next != kind {
+                let end = halved([last, place], |s| kind_at(s).0 == kind);
+                let between = kind_at(end).1;
+                extend(zones, kind, from, between);
+                (kind, from) = (next, between);
             }
+            extend(zones, kind, from, angle);
+            (last, from) = (place, angle);
         }
     }
+
+    /// Places on a segment, at least [`PROFILE_POINTS`] on the pulley and as many on each interval of its meshes.
+    fn places(&self, segment: usize) -> Vec<f64> {
+        let parts = self.parts();
+        let mut places = Vec::new();
+        for pair in self.solution.mesh(segment).windows(2) {
+            let place = |part| pair[0] + (pair[1] - pair[0]) * part as f64 / parts as f64;
+            places.extend((0..parts).map(place));
+        }
+        places.push(1.0);
+        places
+    }
+
+    /// The number of parts of every mesh interval between the places of the profile.
+    fn parts(&self) -> usize {
+        let meshes = self
+            .stretches
+            .iter()
+            .map(|stretch| self.solution.mesh(stretch.segment));
+        let intervals: usize = meshes.map(|mesh| mesh.len() - 1).sum();
+        PROFILE_POINTS.div_ceil(intervals)
+    }
+
+    /// The largest penetration, m: the highest of the places of the profile, and then the summit beside it.
+    pub(super) fn max_penetration(&self) -> f64 {
+        let segments = self.stretches.iter().map(|stretch| stretch.segment);
+        let deepest = segments.map(|segment| {
+            let mut y = [0.0; MAX_STATES];
+            let y = &mut y[..self.solution.segments()[segment].states];
+            let mut depth = |s: f64| {
+                self.solution.state(segment, s, y);
+                y[PENETRATION]
+            };
+            let places = self.places(segment);
+            let depths: Vec<f64> = places.iter().map(|&s| depth(s)).collect();
+            let highest = (0..places.len()).max_by(|&i, &j| depths[i].total_cmp(&depths[j]));
+            let highest = highest.expect("a segment has ends");
+            let beside = [
+                places[highest.saturating_sub(1)],
+                places[(highest + 1).min(places.len() - 1)],
+            ];
+            depths[highest].max(summit(beside, depth))
+        });
+        deepest.fold(0.0, f64::max) * self.radius
+    }
+}
+
+/// The place between two at which something ends that is so at the first and not at the second, down to rounding.
+fn halved([mut from, mut to]: [f64; 2], mut is_so: impl FnMut(f64) -> bool) -> f64 {
+    while to - from > f64::EPSILON {
+        let middle = 0.5 * (from + to);
+        match is_so(middle) {
+            true => from = middle,
+            false => to = middle,
+        }
+    }
+    to
+}
+
+/// The largest value between two places with one summit between them, by golden sections. Near it the value changes by
+/// the square of the distance, so that a millionth of the way is enough.
+fn summit([mut from, mut to]: [f64; 2], mut value: impl FnMut(f64) -> f64) -> f64 {
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let enough = 1e-6 * (to - from);
+    let mut inner = [to - golden * (to - from), from + golden * (to - from)];
+    let mut values = inner.map(&mut value);
+    while to - from > enough {
+        if values[0] > values[1] {
+            to = inner[1];
+            inner = [to - golden * (to - from), inner[0]];
+            values = [value(inner[0]), values[0]];
+        } else {
+            from = inner[0];
+            inner = [inner[1], from + golden * (to - from)];
+            values = [values[1], value(inner[1])];
+        }
+    }
+    values[0].max(values[1])
 }
 
 /// Calls `visit(s, weight, y)` at the points of a rule that integrates over s on a segment.

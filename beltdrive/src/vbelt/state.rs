@@ -35,11 +35,13 @@ pub(super) fn describe(path: &Path<'_>, solved: &Solved) -> SteadyState {
         |length: f64, tractive: f64| length / (1.0 + strand.strain(strand.tension(tractive, flow)));
     let contact_length = |pulley: usize| integrals[pulley].unstretched * scales.radius[pulley];
 
-    let powers = [DRIVEN, DRIVER].map(|pulley| integrals[pulley].torque * problem.omega(pulley, p));
+    // The moment of the tensions is as accurate as the nodes, the integral of friction as the mesh between them.
+    let torques = on.each_ref().map(OnPulley::change_of_moment);
+    let powers = [DRIVEN, DRIVER].map(|pulley| torques[pulley] * problem.omega(pulley, p));
     let [taken, given] = [powers[DRIVEN], -powers[DRIVER]];
     let friction = integrals[DRIVEN].friction + integrals[DRIVER].friction;
 
-    let state = |pulley: usize| pulley_state(solved, pulley, integrals[pulley]);
+    let state = |pulley: usize| pulley_state(solved, pulley, torques[pulley]);
     let (driven, driver) = (state(DRIVEN), state(DRIVER));
     let force = |scaled: f64| scaled * scales.units.force;
     let stored = integrals[DRIVEN].stored + integrals[DRIVER].stored;
@@ -143,21 +145,20 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
     checks
 }
 
-/// One pulley in SI units.
-fn pulley_state(solved: &Solved, pulley: usize, integrals: Integrals) -> PulleyState {
+/// One pulley in SI units, from the scaled torque of the belt on it.
+fn pulley_state(solved: &Solved, pulley: usize, torque: f64) -> PulleyState {
     let problem = &solved.problem;
     let (scales, p) = (problem.scales(), solved.solution.parameters());
     let radius = scales.radius[pulley];
     let on = solved.on_pulley(pulley);
     let EndAngles { entry, exit } = on.ends();
     let profile = on.profile();
-    let deepest = profile.penetration.iter().copied().fold(0.0, f64::max);
     PulleyState {
         angular_speed: problem.omega(pulley, p) * scales.units.angular_speed(radius),
-        torque: problem.sense(pulley) * integrals.torque * scales.units.torque(radius),
+        torque: problem.sense(pulley) * torque * scales.units.torque(radius),
         wrap_angle: solved.exit(pulley)[super::ANGLE],
         geometric_wrap_angle: problem.layout().wraps([EndAngles::default(); 2])[pulley],
-        max_penetration: deepest,
+        max_penetration: on.max_penetration(),
         inclination: [entry, exit],
         zones: friction_zones(solved, pulley),
         entry: None,

@@ -14,16 +14,16 @@ fn the_state_of_a_v_belt_as_a_table() {
     power                                          15.6120                     15.0247  kW
     wrap angle                                     197.441                     194.542  °
     of the pitch circles                           180.000                     180.000  °
-    largest penetration                            3.78330                     5.07968  mm
+    largest penetration                            3.78333                     5.07974  mm
     inclination at entry                          −7.06106                    −2.88493  °
     inclination at exit                            10.4022                     11.6344  °
-    slip arc                                       44.1561                     138.196  °
+    slip arc                                       44.8461                     136.288  °
     smallest slip, of V                            0.00030                      0.0038
     arc below 1e-7 of V                                  0                           0  °
-    zones                              elastic 0 – 2.23165         elastic 0 – 48.9806  °
-      then                          slip 2.23165 – 41.8858      slip 48.9806 – 180.836  °
-      then                       elastic 41.8858 – 192.939   elastic 180.836 – 188.201  °
-      then                          slip 192.939 – 197.441      slip 188.201 – 194.542  °
+    zones                              elastic 0 – 2.32917         elastic 0 – 51.1143  °
+      then                          slip 2.32917 – 42.7735      slip 51.1143 – 181.070  °
+      then                       elastic 42.7735 – 193.039   elastic 181.070 – 188.210  °
+      then                          slip 193.039 – 197.441      slip 188.210 – 194.542  °
 
                                                     driver                      driven
     hub load                                       800.000                     800.000  N

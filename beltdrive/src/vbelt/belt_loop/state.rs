@@ -158,14 +158,9 @@ impl<'a> Seen<'a> {
             return None;
         };
         let EndAngles { entry, exit } = self.ends[pulley];
-        let deepest = self
-            .profile(pulley)
-            .penetration
-            .into_iter()
-            .fold(0.0, f64::max);
         Some(GrooveState {
             inclination: [entry, exit],
-            max_penetration: deepest,
+            max_penetration: on.max_penetration(),
             transverse_loss: self.integrals[pulley].stored * on.units.power(),
         })
     }
