@@ -179,6 +179,33 @@ fn the_bristle_branch_has_its_own_limit() {
 }
 
 #[test]
+fn a_limit_is_found_beyond_a_state_that_its_mesh_shows_pulling() {
+    // Where the belt leaves the driven pulley its normal force is -8e-8 of the largest on a mesh for the error.
+    let example = examples::find("kim2009-bristle").unwrap();
+    let changes = [
+        ("belt.axial_stiffness", "88314 N"),
+        ("belt.radial_stiffness", "5.5622e6 N/m^2"),
+        ("belt.mass_per_length", "0.241514 kg/m"),
+        ("groove.half_angle", "12.8068 deg"),
+        ("friction.coefficient", "0.26056"),
+        ("friction.bristle_stiffness", "2488.03 1/m"),
+        ("pulleys.driver.radius", "0.188332 m"),
+        ("pulleys.driven.radius", "0.0954581 m"),
+        ("layout.centre_distance", "0.384438 m"),
+    ];
+    let changes = changes.map(|(key, value)| match value.contains(' ') {
+        true => format!("{key}='{value}'"),
+        false => format!("{key}={value}"),
+    });
+    let drive = input::parse(example.name, example.text, &changes).unwrap();
+    let key = key(&drive, TIGHT);
+    let found = limits(&drive, &key, &SolveOptions::default(), &mut |_, _| {}).unwrap();
+    let reason = RangeEnd::Limit(LimitReason::DrivenSlips);
+    assert_eq!(found.largest.reason, reason);
+    close(found.largest.value, 2464.58777036, 1e-9);
+}
+
+#[test]
 fn the_kind_of_limit_changes_with_friction() {
     for (coefficient, limit, reason) in [
         (0.2, 777.164_87, LimitReason::DrivenSlips),

@@ -19,7 +19,7 @@ use super::state::describe;
 use super::zones::Cut;
 use super::{BeltProblem, DRIVER, DriveProblem, INCLINATION};
 use crate::{LimitCurvePoint, LimitReason, StateSummary};
-use bvp::{Family, Solution};
+use bvp::{Control, Family, Solution};
 use continuation::{Branch, Direction, Kind, LimitPointCurve, Point, Stop, System, TwoParameter};
 use std::f64::consts::FRAC_PI_2;
 
@@ -174,7 +174,11 @@ impl<'a> Walk<'a, '_, '_> {
             solution: Carried(self.solved),
             values,
         };
-        let options = discretisation(self.chart.tolerance, &self.solved.problem);
+        // Every point must show a state that passes its checks.
+        let options = bvp::Options {
+            control: Control::Defect,
+            ..discretisation(self.chart.tolerance, &self.solved.problem)
+        };
         let (family, z) = Family::new(self.family, parameter, &[second], &guess, &options)?;
         let finer = (self.solved.problem.smoothing() > 0.0).then_some(self.finer);
         let curve = Curve { family, finer };
