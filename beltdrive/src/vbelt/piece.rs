@@ -197,13 +197,16 @@ impl Tracer<'_> {
                 // What happens in between is not what is seen: once more, in shorter steps.
                 self.convergence.count(&last);
                 self.refinements += 1;
-                self.before += passed.arclength;
-                return PieceEnd::Next {
-                    solved: Box::new(solved.clone()),
-                    value: self.value(passed.lambda()),
-                    direction: onward(passed),
-                };
+                return self.goes_on(passed, solved.clone());
             }
+            // Behind the lowest speed steps are as long as ever again: a branch with bristles, whose zones never change,
+            // would end after so many short ones.
+            let rises = |point: &Point| driven_speed(point)[1] > 0.0;
+            let is_past = self.refinements > 0
+                && !here.problem.has_junctions()
+                && point.kind == Kind::Regular
+                && rises(&point)
+                && before.as_ref().is_some_and(|(passed, _)| rises(passed));
             let effect = branch.system().smoothing_effect(&point.z);
             let precise = || precise(&family, branch.system(), &point, (&options, &steps));
             let outcome = self.take(&point, &here, &precise, effect, ahead);
@@ -211,6 +214,11 @@ impl Tracer<'_> {
             if let Some(end) = outcome {
                 self.convergence.count(&last);
                 return end;
+            }
+            if is_past {
+                self.convergence.count(&last);
+                self.refinements = 0;
+                return self.goes_on(&point, here);
             }
             before = Some((point, here));
         }
@@ -273,6 +281,16 @@ impl Tracer<'_> {
         match end {
             Some(end) => Some(PieceEnd::Branch(end)),
             None => restart.then(|| self.next_piece(point, here, &drive, ahead)),
+        }
+    }
+
+    /// The next piece, with other steps from a point as it is.
+    fn goes_on(&mut self, point: &Point, solved: Solved) -> PieceEnd {
+        self.before += point.arclength;
+        PieceEnd::Next {
+            solved: Box::new(solved),
+            value: self.value(point.lambda()),
+            direction: onward(point),
         }
     }
 
