@@ -96,6 +96,7 @@ fn survey(law: FrictionLaw, count: usize, seed: u64) -> usize {
     let mut random = Random(seed);
     let (mut refused, mut failed) = (0, Vec::new());
     let mut seconds = Vec::new();
+    let mut work = Vec::new();
     for index in 0..count {
         let drive = Drive::from(drive(&mut random, law));
         match solve(&drive, &SolveOptions::default()) {
@@ -103,6 +104,7 @@ fn survey(law: FrictionLaw, count: usize, seed: u64) -> usize {
                 assert!(state.driven.angular_speed > 0.0);
                 assert_possible(&state);
                 seconds.push(state.convergence.seconds);
+                work.push(state.convergence.factorisations);
             }
             Err(SolveError::NoSteadyState { asked, limit, .. }) => {
                 refused += 1;
@@ -112,16 +114,21 @@ fn survey(law: FrictionLaw, count: usize, seed: u64) -> usize {
         }
     }
     seconds.sort_by(f64::total_cmp);
+    work.sort_unstable();
     let milliseconds = |share: usize| 1e3 * seconds[(seconds.len() - 1) * share / 100];
     println!(
         "{}: {} solved, {refused} refused with a reason, {} failed; \
-         median {:.1} ms, 90 % {:.1} ms, slowest {:.1} ms",
+         median {:.1} ms, 90 % {:.1} ms, slowest {:.1} ms; \
+         factorisations: median {}, 90 % {}, most {}",
         law.name(),
         seconds.len(),
         failed.len(),
         milliseconds(50),
         milliseconds(90),
         milliseconds(100),
+        work[(work.len() - 1) / 2],
+        work[(work.len() - 1) * 9 / 10],
+        work[work.len() - 1],
     );
     for failure in &failed {
         println!("{failure}");

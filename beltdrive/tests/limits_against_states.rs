@@ -1,0 +1,177 @@
+//! The limits of random V-belt drives, held against the states that are found for themselves: every load below a
+//! limit has a state, every load beyond it is refused with the same limit, whatever the friction law.
+
+#[path = "support/random.rs"]
+mod random;
+
+use beltdrive::{
+    Belt, BeltKind, Drive, FrictionLaw, Load, RangeEnd, SolveError, SolveOptions, SpanTension,
+    TwoPulleys, VBelt, input::Key, limits, solve,
+};
+use random::Random;
+use std::f64::consts::PI;
+use std::time::Instant;
+
+/// Shares of the range of the tight tension, from no load to the limit, that are solved for themselves ...
+const BELOW: [f64; 3] = [0.5, 0.9, 0.99];
+/// ... and beyond it.
+const BEYOND: [f64; 3] = [1.003, 1.05, 1.5];
+
+/// Uniform in the logarithm.
+fn scale(random: &mut Random, low: f64, high: f64) -> f64 {
+    random.between(low.ln(), high.ln()).exp()
+}
+
+/// A law by its number: Coulomb, scalar and vector EPP friction, bristles.
+fn law(number: usize, random: &mut Random) -> FrictionLaw {
+    let stiffness = scale(random, 1e6, 1e9);
+    let bristles = scale(random, 300.0, 2e4);
+    match number {
+        0 => FrictionLaw::Coulomb,
+        1 => FrictionLaw::Epp { stiffness },
+        2 => FrictionLaw::VectorEpp { stiffness },
+        _ => FrictionLaw::Bristle {
+            stiffness: bristles,
+        },
+    }
+}
+
+/// A drive of a wide family: soft and stiff belts and grooves, ratios from 1:4 to 4:1, near and far pulleys.
+fn drive(random: &mut Random, number: usize) -> TwoPulleys {
+    loop {
+        let driver_radius = scale(random, 0.02, 0.4);
+        let driven_radius = driver_radius * scale(random, 0.25, 4.0);
+        let slack = scale(random, 20.0, 800.0);
+        let ratio = scale(random, 1.01, 6.0);
+        let radial_stiffness = scale(random, 3e5, 3e7);
+        let half_angle = random.between(11.0, 21.0).to_radians();
+        let smallest = driver_radius.min(driven_radius);
+        // A belt that sinks through a tenth of the smaller pulley is of no use.
+        let depth = slack * ratio / (radial_stiffness * smallest * half_angle.tan());
+        let drive = TwoPulleys {
+            belt: Belt {
+                ribs: 1,
+                mass_per_length: scale(random, 0.03, 0.6),
+                axial_stiffness: scale(random, 1e4, 5e5),
+                kind: BeltKind::V(VBelt {
+                    radial_stiffness,
+                    half_angle,
+                    height: None,
+                }),
+            },
+            friction_coefficient: random.between(0.15, 0.8),
+            law: law(number, random),
+            driver_radius,
+            driver_speed: scale(random, 100.0, 6000.0) * PI / 30.0,
+            driven_radius,
+            centre_distance: (driver_radius + driven_radius) * random.between(1.05, 4.0),
+            load: Load {
+                slack: SpanTension::Tractive(slack),
+                tight: SpanTension::Tractive(slack * ratio),
+            },
+        };
+        let speed = drive.driver_speed * driver_radius;
+        let waves = drive.belt.axial_stiffness / drive.belt.mass_per_length;
+        if speed < 60.0 && speed * speed < 0.1 * waves && depth < 0.1 * smallest {
+            return drive;
+        }
+    }
+}
+
+/// What is wrong with a drive: its limit is not found, or no state below it, or one beyond it.
+fn faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
+    let options = SolveOptions::default();
+    let start = Instant::now();
+    let whole = Drive::from(drive.clone());
+    let found = limits(&whole, &Key::load(&whole), &options, &mut |_, _| {});
+    let seconds = start.elapsed().as_secs_f64();
+    let slack = drive.load.slack.value();
+    let at = |tight: f64| {
+        let load = Load {
+            tight: SpanTension::Tractive(tight),
+            ..drive.load
+        };
+        let drive = TwoPulleys {
+            load,
+            ..drive.clone()
+        };
+        solve(&Drive::from(drive), &options)
+    };
+    let found = match found {
+        Ok(found) => found,
+        Err(error) => return (seconds, vec![format!("limits: {error}")]),
+    };
+    let largest = &found.largest;
+    let limit = largest.value;
+    let mut faults = Vec::new();
+    if !matches!(largest.reason, RangeEnd::Limit(_)) {
+        faults.push(format!("no limit: {:?} at {limit}", largest.reason));
+        return (seconds, faults);
+    }
+    for share in BELOW {
+        let tight = slack + share * (limit - slack);
+        if let Err(error) = at(tight) {
+            faults.push(format!("{share} of {limit}: {error}"));
+        }
+    }
+    for share in BEYOND {
+        match at(slack + share * (limit - slack)) {
+            Ok(state) => faults.push(format!(
+                "{share} of {limit}: a state, driven speed {}",
+                state.driven.angular_speed
+            )),
+            Err(SolveError::NoSteadyState {
+                limit: refused,
+                reason,
+                ..
+            }) => {
+                if (refused / limit - 1.0).abs() > 1e-4 {
+                    faults.push(format!(
+                        "{share} of {limit}: refused at {refused}, {reason}"
+                    ));
+                }
+            }
+            Err(error) => faults.push(format!("{share} of {limit}: {error}")),
+        }
+    }
+    (seconds, faults)
+}
+
+/// Prints the score of `count` drives with a law, and returns how many have a fault.
+fn survey(number: usize, count: usize, seed: u64) -> usize {
+    let mut random = Random(seed);
+    let (mut wrong, mut times) = (0, Vec::new());
+    for index in 0..count {
+        let drive = drive(&mut random, number);
+        let start = Instant::now();
+        let (seconds, faults) = faults(&drive);
+        times.push(seconds);
+        let whole = start.elapsed().as_secs_f64();
+        println!("{index}: limits in {seconds:.2} s, with the states in {whole:.2} s");
+        if !faults.is_empty() {
+            wrong += 1;
+            println!("  {}\n  {drive:?}", faults.join("\n  "));
+        }
+    }
+    times.sort_by(f64::total_cmp);
+    let time = |share: usize| times[(times.len() - 1) * share / 100];
+    println!(
+        "law {number}: {count} drives, {wrong} with a fault; limits in {:.2} s (median), {:.2} s (90 %), {:.2} s (most)",
+        time(50),
+        time(90),
+        time(100)
+    );
+    wrong
+}
+
+/// Prints the score of as many drives as `DRIVES` says, 60 by default, with the law of the number `LAW`, or all.
+#[test]
+#[ignore = "minutes: the score, run by hand for benches/RESULTS.md"]
+fn many_drives() {
+    let number = |name: &str| std::env::var(name).ok()?.parse().ok();
+    let count = number("DRIVES").unwrap_or(60);
+    let seed = number("SEED").unwrap_or(20_261_123) as u64;
+    for law in (0..4).filter(|&law| number("LAW").is_none_or(|asked| asked == law)) {
+        survey(law, count, seed + law as u64);
+    }
+}
