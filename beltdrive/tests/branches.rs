@@ -61,7 +61,7 @@ fn steps_are_long_again_behind_a_driven_pulley_that_almost_stands() {
     let options = SolveOptions::default();
     let found = limits(&drive, &key(&drive, TIGHT), &options, &mut |_, _| {}).unwrap();
     assert_eq!(found.largest.reason, RangeEnd::Limit(LimitReason::Overhang));
-    close(found.largest.value, 8556.462_5, 1e-8);
+    close(found.largest.value, 8_556.462_5, 1e-8);
     let steps = found.branch.convergence.continuation_steps;
     println!("{steps} steps");
     assert!(steps < 150);

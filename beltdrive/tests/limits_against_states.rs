@@ -17,6 +17,9 @@ const BELOW: [f64; 3] = [0.5, 0.9, 0.99];
 /// ... and beyond it.
 const BEYOND: [f64; 3] = [1.003, 1.05, 1.5];
 
+/// Of the drives.
+const SEED: u64 = 20_261_123;
+
 /// Uniform in the logarithm.
 fn scale(random: &mut Random, low: f64, high: f64) -> f64 {
     random.between(low.ln(), high.ln()).exp()
@@ -82,7 +85,7 @@ fn drive(random: &mut Random, number: usize) -> TwoPulleys {
 fn faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
     let options = SolveOptions::default();
     let start = Instant::now();
-    let whole = Drive::from(drive.clone());
+    let whole = Drive::from(*drive);
     let found = limits(&whole, &Key::load(&whole), &options, &mut |_, _| {});
     let seconds = start.elapsed().as_secs_f64();
     let slack = drive.load.slack.value();
@@ -91,10 +94,7 @@ fn faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
             tight: SpanTension::Tractive(tight),
             ..drive.load
         };
-        let drive = TwoPulleys {
-            load,
-            ..drive.clone()
-        };
+        let drive = TwoPulleys { load, ..*drive };
         solve(&Drive::from(drive), &options)
     };
     let found = match found {
@@ -138,11 +138,14 @@ fn faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
 }
 
 /// Prints the score of `count` drives with a law, and returns how many have a fault.
-fn survey(number: usize, count: usize, seed: u64) -> usize {
+fn survey(number: usize, count: usize, seed: u64, only: Option<usize>) -> usize {
     let mut random = Random(seed);
     let (mut wrong, mut times) = (0, Vec::new());
     for index in 0..count {
         let drive = drive(&mut random, number);
+        if only.is_some_and(|only| only != index) {
+            continue;
+        }
         let start = Instant::now();
         let (seconds, faults) = faults(&drive);
         times.push(seconds);
@@ -164,14 +167,25 @@ fn survey(number: usize, count: usize, seed: u64) -> usize {
     wrong
 }
 
-/// Prints the score of as many drives as `DRIVES` says, 60 by default, with the law of the number `LAW`, or all.
+#[test]
+fn limits_with_bristles_agree_with_states() {
+    assert_eq!(survey(3, 5, SEED + 3, None), 0);
+}
+
+#[test]
+fn limits_with_coulomb_friction_agree_with_states() {
+    assert_eq!(survey(0, 2, SEED, None), 0);
+}
+
+/// Prints the score of as many drives as `DRIVES` says, 60 by default, with the law of the number `LAW`, or all; or of
+/// that of the index `ONLY`.
 #[test]
 #[ignore = "minutes: the score, run by hand for benches/RESULTS.md"]
 fn many_drives() {
     let number = |name: &str| std::env::var(name).ok()?.parse().ok();
     let count = number("DRIVES").unwrap_or(60);
-    let seed = number("SEED").unwrap_or(20_261_123) as u64;
+    let seed = number("SEED").map_or(SEED, |seed| seed as u64);
     for law in (0..4).filter(|&law| number("LAW").is_none_or(|asked| asked == law)) {
-        survey(law, count, seed + law as u64);
+        survey(law, count, seed + law as u64, number("ONLY"));
     }
 }

@@ -8,7 +8,7 @@ use super::limits::upwards;
 use super::path::{Path, Solved};
 use super::tracer::{Tracer, Until};
 use crate::input::Key;
-use crate::{BranchEnd, Drive, RangeEnd, SolveError, SteadyState};
+use crate::{BranchEnd, Drive, FrictionLaw, RangeEnd, SolveError, SteadyState};
 use continuation::Direction;
 use web_time::Instant;
 
@@ -37,7 +37,10 @@ pub(super) fn by_branch(
         let mut near = drive.clone();
         key.set(&mut near, slack * ratio);
         let mut path = Path::new(&near, tolerance);
-        let solved = path.with_direction()?;
+        let solved = match drive.law {
+            FrictionLaw::Bristle { .. } => path.start()?,
+            _ => path.with_direction()?,
+        };
         match path.is_below_limit(&solved) {
             true => from_state(drive, (&near, solved), tolerance, start),
             false => None,

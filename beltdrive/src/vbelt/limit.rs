@@ -14,8 +14,7 @@
 
 use super::carried::Carried;
 use super::path::{Effort, Path, Solved, Stuck};
-use super::zones::Cut;
-use super::{BeltProblem, DRIVER, DriveProblem, INCLINATION, Instead};
+use super::{DRIVER, DriveProblem, INCLINATION, Instead};
 use crate::{FrictionLaw, LimitReason};
 
 /// Smaller loads from which the load is approached: shares of the way from slack to tight tension,
@@ -47,18 +46,6 @@ pub(super) struct Limit {
     pub(super) reason: LimitReason,
     /// The state at the end.
     pub(super) state: Solved,
-}
-
-impl Limit {
-    /// Whether it is the limit that a rising load meets on its way to `target`: that of a smaller load, in a state with
-    /// the friction zones that it was found with.
-    pub(super) fn is_on_branch(&self, target: f64) -> bool {
-        let Solved { problem, .. } = &self.state;
-        let keeps_zones = !problem.has_junctions() || Cut::of(&self.state).is_kept();
-        // States that overhang may lie beyond the load at which the driven pulley slips.
-        let overhangs = self.reason == LimitReason::Overhang;
-        keeps_zones && !overhangs && self.state.tight_tension() < target
-    }
 }
 
 /// What is prescribed in place of the tension, and rises along the branch.

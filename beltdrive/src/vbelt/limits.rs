@@ -159,20 +159,21 @@ pub(super) fn upwards<'d>(
     progress: &mut dyn FnMut(f64, &str),
 ) -> Traced<'d> {
     let value = key.get(drive);
-    let mut top = value;
-    let mut stretches = 0;
-    loop {
-        (top, stretches) = ((top * STRETCH).min(high), stretches + 1);
-        let mut tracer = Tracer::new(drive, *key, [value, top], tolerance, Until::LimitPoint);
-        if is_slack(key) {
-            tracer.no_load = Some(high);
-        }
-        let end = tracer.run(solved.clone(), value, Direction::Increasing, progress);
-        let reached = tracer.points.last().is_some_and(|point| point.value == top);
-        if !reached || top == high || stretches == STRETCHES {
-            return Traced { tracer, end };
+    let range = [value, (value * STRETCH).min(high)];
+    let mut tracer = Tracer::new(drive, *key, range, tolerance, Until::LimitPoint);
+    if is_slack(key) {
+        tracer.no_load = Some(high);
+    }
+    let (mut from, mut solved) = (value, solved);
+    for _ in 1..STRETCHES {
+        let end = tracer.run(solved, from, Direction::Increasing, progress);
+        match tracer.with_upper_end((tracer.range[1] * STRETCH).min(high)) {
+            Some(next) => (from, solved) = next,
+            None => return Traced { tracer, end },
         }
     }
+    let end = tracer.run(solved, from, Direction::Increasing, progress);
+    Traced { tracer, end }
 }
 
 impl Traced<'_> {

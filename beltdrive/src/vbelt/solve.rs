@@ -8,25 +8,24 @@ use crate::{Drive, SolveError, SolveOptions, SteadyState};
 use std::mem::discriminant;
 use web_time::Instant;
 
-/// The steady state of a V-belt drive, from nothing but the drive.
+/// The steady state of a V-belt drive, from nothing but the drive: at its own load if it is found there, else along the
+/// branch that leads there or to the limit of the load. Where there is no such branch, from states near the load.
 pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
-    let (path, found) = find(drive, options.tolerance);
-    let is_certain = match &found {
-        Ok(Found::State(_)) => true,
-        Ok(Found::Beyond(limit)) => limit.is_on_branch(path.target()),
-        Err(_) => false,
+    let tolerance = options.tolerance;
+    let mut path = Path::new(drive, tolerance);
+    let violated = match path.at_load(path.target()) {
+        Ok(solved) if path.is_below_limit(&solved) => match checked(&path, solved, start) {
+            Err(SolveError::Violated(check)) => Some(Err(SolveError::Violated(check))),
+            answer => return answer,
+        },
+        _ => None,
     };
-    let along = || by_branch(drive, options.tolerance, start);
-    if !is_certain && let Some(answer) = along() {
+    if let Some(answer) = by_branch(drive, tolerance, start).or(violated) {
         return answer;
     }
-    match conclude(&path, found, start) {
-        Err(SolveError::Violated(violated)) if is_certain => {
-            along().unwrap_or(Err(SolveError::Violated(violated)))
-        }
-        answer => answer,
-    }
+    let (path, found) = find(drive, tolerance);
+    conclude(&path, found, start)
 }
 
 /// The steady state of a V-belt drive that differs little from one that is solved.

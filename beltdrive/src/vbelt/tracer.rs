@@ -163,6 +163,22 @@ impl<'d> Tracer<'d> {
         end
     }
 
+    /// The state at the upper end of the range and the value there, if the branch has ended there, from which it goes on
+    /// to a larger upper end.
+    pub(super) fn with_upper_end(&mut self, end: f64) -> Option<(f64, Solved)> {
+        let (value, solved) = self.near.clone()?;
+        let last = self.points.last()?;
+        let has_ended_there = last.value == self.range[1] && value == last.value && value < end;
+        if !has_ended_there {
+            return None;
+        }
+        self.range[1] = end;
+        self.before = last.arclength;
+        self.refinements = 0;
+        self.events.pop_if(|event| event.kind == EventKind::End);
+        Some((value, solved))
+    }
+
     /// Records a point and what happens there, with the relative effect of ℓ or ε on it; returns its
     /// value. Labelled points know their error better.
     pub(super) fn record(
