@@ -1,10 +1,10 @@
 //! `beltdrive solve`: the steady state of a drive.
 
 use super::{common::Common, failure::Failure, origin::Origin};
-use beltdrive::belt_loop;
+use beltdrive::belt_loop::{self, LoopState};
 use beltdrive::input::DriveFile;
-use beltdrive::quantity::{Group, two_pulleys};
-use beltdrive::{SteadyState, plot, quantity};
+use beltdrive::quantity::two_pulleys;
+use beltdrive::{Drive, SteadyState, plot, quantity};
 use clap::Args;
 use std::path::Path;
 
@@ -32,14 +32,14 @@ impl Solve {
         let options = self.common.options();
         if drive.two_pulleys().is_some() {
             let state = beltdrive::solve(&drive, &options)?;
-            return self.write_drive(&state, two_pulleys::groups(&state), origin);
+            return self.write_drive(&state, None, origin);
         }
         let state = belt_loop::solve_with_margins(&drive, &options)?;
         // A drive with two pulleys is shown as one.
         if let Some(as_drive) = two_pulleys::as_drive(&drive, &state) {
-            let groups = two_pulleys::of_loop(&drive, &state);
+            let as_loop = Some((&drive, &state));
             let state = beltdrive::solve(&as_drive, &options)?;
-            return self.write_drive(&state, groups, origin);
+            return self.write_drive(&state, as_loop, origin);
         }
         let answer = &quantity::belt_loop::answer(&drive, &state);
         let draw = |directory: &Path, metadata: &str| {
@@ -48,11 +48,12 @@ impl Solve {
         self.common.output.write(answer, &draw, origin)
     }
 
-    /// Writes the steady state of a drive with two pulleys, and what there is to tell of it as a loop.
+    /// Writes the steady state of a drive with two pulleys, and what there is to tell of it as the loop as which it was
+    /// solved.
     fn write_drive(
         &self,
         state: &SteadyState,
-        as_loop: [Group; 3],
+        as_loop: Option<(&Drive, &LoopState)>,
         origin: &Origin,
     ) -> Result<(), Failure> {
         let answer = &two_pulleys::answer(state, as_loop);

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// The groups `pulleys`, `spans` and `loop` of a steady state. That of a flat belt is solved again as a loop,
 /// which also tells of the belt at rest and of margins.
-pub fn groups(state: &SteadyState) -> [Group; 3] {
+pub(super) fn groups(state: &SteadyState) -> [Group; 3] {
     let as_loop = state.as_loop();
     let solved = match state.drive.belt.kind {
         BeltKind::Flat { .. } => loops::solve(&as_loop).ok(),
@@ -23,7 +23,7 @@ pub fn groups(state: &SteadyState) -> [Group; 3] {
 }
 
 /// The groups `pulleys`, `spans` and `loop` of a drive with two pulleys that was solved as a loop.
-pub fn of_loop(drive: &Drive, state: &loops::LoopState) -> [Group; 3] {
+pub(super) fn of_loop(drive: &Drive, state: &loops::LoopState) -> [Group; 3] {
     let mut groups = belt_loop::groups(drive, state);
     let names = ["slack span", "tight span"];
     let first = drive.driver();

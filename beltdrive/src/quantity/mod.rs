@@ -7,6 +7,7 @@
 mod as_loop;
 pub mod belt_loop;
 pub mod branch;
+mod errors;
 pub(crate) mod events;
 pub mod limit_curve;
 pub mod limits;

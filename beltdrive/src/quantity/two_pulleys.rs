@@ -1,38 +1,29 @@
 //! What there is to tell of the steady state of a drive with two pulleys.
 
 pub(crate) use super::as_loop::heading;
-pub use super::as_loop::{as_drive, drawn, groups, of_loop};
+pub use super::as_loop::{as_drive, drawn};
+use super::as_loop::{groups, of_loop};
 use super::scalars::Scalars;
-use super::{Answer, Group, Layout, Measure, Quantity, Subject, belt_loop, warning, words};
+use super::{
+    Answer, Group, Layout, Measure, Quantity, Subject, Value, belt_loop, errors, warning, words,
+};
+use crate::belt_loop::LoopState;
 use crate::{BeltKind, Convergence, Drive, PulleyState, StateSummary, SteadyState};
 use std::borrow::Cow;
 
-/// The steady state, with `as_loop`: the pulleys, the spans and the loop, as of any loop of pulleys.
-pub fn answer(state: &SteadyState, as_loop: [Group; 3]) -> Answer {
-    let summary = StateSummary::from(state);
-    let scalars = Scalars::of(&state.drive, &summary, 0.0, None);
-    let [mut driver, mut driven] = scalars.pulleys();
-    let zones = [&state.driver.zones, &state.driven.zones];
-    let longest = zones.map(Vec::len).into_iter().max().unwrap_or(0);
-    for (pulley, zones) in [&mut driver, &mut driven].into_iter().zip(zones) {
-        pulley.extend((0..longest).map(|place| scalars.extent(place, zones.get(place))));
+/// The steady state of a drive with two pulleys, and what there is to tell of it as a loop: as `as_loop` where it was
+/// solved as that.
+pub fn answer(state: &SteadyState, as_loop: Option<(&Drive, &LoopState)>) -> Answer {
+    let mut told = Told::of(state, as_loop);
+    let mut errors = vec![];
+    if let Some(sharper) = state.sharper() {
+        errors.push(told.known_by_difference(&Told::of(&sharper, as_loop)));
     }
-    let pulleys = Group::new(
-        "",
-        Layout::Named,
-        vec![
-            Subject::new("driver", driver),
-            Subject::new("driven", driven),
-        ],
-    );
-    // Those of the spans are shown with the spans.
-    let of_spans = ["slack_span", "tight_span", "tension", "tractive_tension"];
-    let whole = scalars.whole().into_iter().chain(scalars.tensions());
-    let whole = whole.map(|quantity| match of_spans.contains(&&*quantity.key) {
-        true => quantity.unlabelled(),
-        false => quantity,
-    });
-    let whole = Group::single("", whole.collect());
+    let Told {
+        pulleys,
+        whole,
+        as_loop,
+    } = told;
     let [mut of_pulleys, of_spans, mut of_loop] = as_loop;
     hide(&mut of_pulleys, &pulleys);
     hide(&mut of_loop, &whole);
@@ -40,22 +31,91 @@ pub fn answer(state: &SteadyState, as_loop: [Group; 3]) -> Answer {
     let convergence = convergence(&state.drive, &state.convergence);
     let (_, of_speed) = words::speed_loss(state.drive.belt.kind);
     let checked = state.checks.iter().map(words::check);
+    let mut groups = vec![
+        Group::single("", statement(&state.drive)),
+        pulleys,
+        of_pulleys,
+        of_spans,
+        whole,
+        of_loop,
+    ];
+    groups.extend(errors);
+    groups.extend([
+        Group::new("profiles", Layout::Named, profiles(state)),
+        warning::group(&state.warnings),
+        Group::new("checks", Layout::Columns, checks),
+        Group::single("convergence", convergence),
+    ]);
     Answer {
         heading: words::title(&state.drive, &[]),
         remarks: warning::messages(&state.warnings),
-        groups: vec![
-            Group::single("", statement(&state.drive)),
-            pulleys,
-            of_pulleys,
-            of_spans,
-            whole,
-            of_loop,
-            Group::new("profiles", Layout::Named, profiles(state)),
-            warning::group(&state.warnings),
-            Group::new("checks", Layout::Columns, checks),
-            Group::single("convergence", convergence),
-        ],
+        groups,
         notes: of_speed.into_iter().chain(checked).collect(),
+    }
+}
+
+/// The numbers of a state.
+struct Told {
+    /// Of the driver and of the driven pulley.
+    pulleys: Group,
+    /// Of the drive.
+    whole: Group,
+    /// As of any loop of pulleys.
+    as_loop: [Group; 3],
+}
+
+impl Told {
+    fn of(state: &SteadyState, as_loop: Option<(&Drive, &LoopState)>) -> Self {
+        let summary = StateSummary::from(state);
+        let scalars = Scalars::of(&state.drive, &summary, 0.0, None);
+        let [mut driver, mut driven] = scalars.pulleys();
+        let zones = [&state.driver.zones, &state.driven.zones];
+        let longest = zones.map(Vec::len).into_iter().max().unwrap_or(0);
+        for (pulley, zones) in [&mut driver, &mut driven].into_iter().zip(zones) {
+            pulley.extend((0..longest).map(|place| scalars.extent(place, zones.get(place))));
+        }
+        // Those of the spans are shown with the spans.
+        let of_spans = ["slack_span", "tight_span", "tension", "tractive_tension"];
+        let whole = scalars.whole().into_iter().chain(scalars.tensions());
+        let whole = whole.map(|quantity| match of_spans.contains(&&*quantity.key) {
+            true => quantity.unlabelled(),
+            false => quantity,
+        });
+        let pulleys = vec![
+            Subject::new("driver", driver),
+            Subject::new("driven", driven),
+        ];
+        Self {
+            pulleys: Group::new("", Layout::Named, pulleys),
+            whole: Group::single("", whole.collect()),
+            as_loop: match as_loop {
+                Some((drive, state)) => of_loop(drive, state),
+                None => groups(state),
+            },
+        }
+    }
+
+    /// Gives each number its difference from that of the sharper state as its error; returns the errors for programs.
+    fn known_by_difference(&mut self, sharper: &Self) -> Group {
+        let of = |group: &Group, sharper: &Group, subject: usize| {
+            let [of, sharper] = [group, sharper].map(|group| &group.subjects[subject]);
+            errors::errors(&of.quantities, &sharper.quantities)
+        };
+        let mut all = of(&self.whole, &sharper.whole, 0);
+        for (subject, name) in ["driver", "driven"].into_iter().enumerate() {
+            let pulley = of(&self.pulleys, &sharper.pulleys, subject);
+            all.push(Quantity::data(
+                name,
+                Measure::Number,
+                Value::Object(Some(pulley)),
+            ));
+        }
+        errors::by_difference(
+            [&mut self.pulleys, &mut self.whole],
+            [&sharper.pulleys, &sharper.whole],
+        );
+        errors::by_difference(&mut self.as_loop, &sharper.as_loop);
+        Group::single("errors", all)
     }
 }
 

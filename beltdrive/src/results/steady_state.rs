@@ -2,7 +2,7 @@
 
 use crate::results::possible;
 use crate::results::warning::Warning;
-use crate::vbelt::Solved;
+use crate::vbelt::{Solved, sharper};
 use crate::{Closure, Drive, Duty, SolveError};
 use serde::Serialize;
 use std::sync::Arc;
@@ -62,6 +62,17 @@ impl SteadyState {
             tension: self.slack_tractive_tension,
         };
         drive
+    }
+
+    /// The state of a V-belt once more, to a tenth of its estimated error and with a quarter of the smoothing of friction:
+    /// the error of any number that is computed from a state is estimated by its difference from that of the sharper
+    /// state, whatever cancels in it. At most a third of the difference is left behind it, since both errors vanish at
+    /// least in proportion.
+    ///
+    /// `None` of a flat belt, which is solved in closed form, and where no sharper state is found, as near rounding.
+    #[must_use]
+    pub fn sharper(&self) -> Option<Self> {
+        sharper(self, self.restart.as_deref()?)
     }
 
     /// The state if it passes all of its checks, first those of what no drive does.

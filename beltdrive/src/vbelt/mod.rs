@@ -53,6 +53,7 @@ pub(crate) use groove::{Groove, Law, Regime};
 pub(crate) use guess::Guess;
 pub(crate) use path::Solved;
 pub(crate) use scaling::{Scales, Strand, Units};
+pub(crate) use state::sharper;
 
 use groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 

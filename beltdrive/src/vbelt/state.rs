@@ -1,8 +1,9 @@
 //! From a solution to the steady state in SI units, with its checks.
 
+use super::carried::Carried;
 use super::laws::{ALLOWED, power_gained, wrong_friction};
 use super::on_pulley::{Integrals, OnPulley, extend};
-use super::path::{Path, Solved};
+use super::path::{Effort, Path, Solved};
 use super::{BeltProblem, DRIVEN, DRIVER, EndAngles, Regime};
 use crate::results::possible;
 use crate::results::steady_state::{Check, Convergence, PulleyState, SteadyState, Zone, ZoneKind};
@@ -16,6 +17,31 @@ pub(super) fn steady_state(path: &Path<'_>, solved: Solved, start: Instant) -> S
     state.convergence.seconds = start.elapsed().as_secs_f64();
     state.restart = Some(Arc::new(solved));
     state
+}
+
+/// A sharper state aims at this share of the estimated error, ...
+const OF_ERROR: f64 = 0.1;
+/// ... with this share of ℓ or ε: a smaller one takes more than twice the time, and tells no more.
+const OF_SMOOTHING: f64 = 0.25;
+/// Rounding hides what a smaller tolerance would tell.
+const SMALLEST_TOLERANCE: f64 = 1e-12;
+
+/// A steady state once more, from the solution behind it.
+pub(crate) fn sharper(state: &SteadyState, solved: &Solved) -> Option<SteadyState> {
+    let Convergence {
+        tolerance,
+        error_estimate,
+        ..
+    } = state.convergence;
+    let tolerance = (OF_ERROR * error_estimate.min(tolerance)).max(SMALLEST_TOLERANCE);
+    let mut path = Path::new(&state.drive, tolerance);
+    let smoothing = OF_SMOOTHING * solved.problem.smoothing();
+    let problem = solved.problem.clone().with_smoothing(smoothing);
+    let sharper = path
+        .attempt(problem, &Carried(solved), Effort::Final)
+        .ok()?;
+    let sharper = path.keep_zones(sharper, Effort::Final).ok()?;
+    Some(describe(&path, &sharper))
 }
 
 /// The numbers of a steady state.

@@ -1,6 +1,7 @@
 //! What the answers for drives with two pulleys say, as tables, JSON and CSV.
 
 mod branches;
+mod errors;
 mod figures;
 mod ranges;
 mod reports;
@@ -27,7 +28,7 @@ fn state(example: &str, overrides: &[&str]) -> SteadyState {
 }
 
 fn of_state(state: &SteadyState) -> Answer {
-    two_pulleys::answer(state, two_pulleys::groups(state))
+    two_pulleys::answer(state, None)
 }
 
 fn of_limits(drive: &Drive) -> Answer {

@@ -41,7 +41,7 @@ fn the_state_of_a_v_belt_as_a_table() {
     speed loss, pitch circles                      2.02214  %
     efficiency                                     96.2380  %
     friction loss                                  587.288  W
-    compression of the belt                          0.041  W
+    compression of the belt                       0.040819  W
 
     power in                                       15.6120  kW
     power out                                      15.0247  kW
