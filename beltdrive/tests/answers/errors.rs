@@ -7,11 +7,7 @@ use serde_json::Value;
 
 /// An answer as JSON.
 fn solved(drive: &Drive, tolerance: f64) -> Value {
-    let options = SolveOptions {
-        tolerance,
-        ..SolveOptions::default()
-    };
-    let state = solve(drive, &options).unwrap();
+    let state = solve(drive, &SolveOptions { tolerance }).unwrap();
     serde_json::from_str(&json(&two_pulleys::answer(&state, None))).unwrap()
 }
 
