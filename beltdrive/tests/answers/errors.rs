@@ -46,8 +46,8 @@ fn numbers_are_off_by_no_more_than_their_errors() {
             println!("{example} {overrides:?} {tolerance:e}: {:.2?}", &found[..3]);
             // Both are known to a few percent.
             assert!(found[0].0 < 1.2, "{:?}", found[0]);
-            // One of them comes close to it.
-            assert!(found[0].0 > 0.3, "{:?}", found[0]);
+            // The errors are not stated at random: some number is off by a few percent of its error at least.
+            assert!(found[0].0 > 0.02, "{:?}", found[0]);
         }
     }
 }
