@@ -12,7 +12,7 @@ pub struct Example {
 }
 
 /// Every shipped drive file.
-pub const EXAMPLES: [Example; 12] = [
+pub const EXAMPLES: [Example; 13] = [
     Example {
         name: "kim2009",
         text: include_str!("../examples/kim2009.toml"),
@@ -58,6 +58,10 @@ pub const EXAMPLES: [Example; 12] = [
         text: include_str!("../examples/v-power.toml"),
     },
     Example {
+        name: "spb-fan",
+        text: include_str!("../examples/spb-fan.toml"),
+    },
+    Example {
         name: "conveyor",
         text: include_str!("../examples/conveyor.toml"),
     },
@@ -81,7 +85,7 @@ impl Example {
 
 /// A name that no shipped drive file has.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no example `{name}`\nexpected: one of {}{}", names(), hint(*.nearest))]
+#[error("there is no example `{name}`\nexpected: one of {}{}", names(), spelling::hint(*.nearest))]
 pub struct UnknownExample {
     name: String,
     nearest: Option<&'static str>,
@@ -104,12 +108,6 @@ fn names() -> String {
     EXAMPLES
         .map(|example| format!("`{}`", example.name))
         .join(", ")
-}
-
-fn hint(nearest: Option<&str>) -> String {
-    nearest.map_or_else(String::new, |name| {
-        format!("\nhelp: did you mean `{name}`?")
-    })
 }
 
 #[cfg(test)]

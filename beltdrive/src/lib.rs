@@ -112,6 +112,7 @@ pub mod plot;
 pub mod quantity;
 pub mod report;
 mod results;
+pub mod sections;
 mod vbelt;
 
 pub use answers::drive::{limit_curve, limits, solve, solve_from, stability, trace};

@@ -75,6 +75,7 @@ fn help_carries_examples() {
         &["stability", "--help"],
         &["verify", "--help"],
         &["examples", "--help"],
+        &["sections", "--help"],
     ] {
         let output = run(args);
         succeeds(&output);
@@ -300,4 +301,58 @@ fn a_closed_standard_output_is_no_failure() {
     let output = child.wait_with_output().unwrap();
     succeeds(&output);
     assert_eq!(stderr(&output), "");
+}
+
+#[test]
+fn sections_are_listed_and_shown() {
+    let json = |arguments: &[&str]| -> serde_json::Value {
+        let output = run(&[&["sections"], arguments, &["--json", "-"]].concat());
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let all = beltdrive::sections::SECTIONS.len();
+    let list = json(&[]);
+    assert_eq!(list["sections"].as_array().unwrap().len(), all);
+    let one = json(&["5V"]);
+    let section = &one["sections"][0];
+    assert_eq!([&section["name"], &section["also"]], ["5V", "15N"]);
+    assert_eq!(section["mass"]["value_kg_per_m"], 0.195);
+    assert_eq!(section["axial_stiffness"]["kind"], "estimate");
+    assert_eq!(section["grooves"][0]["steps"][1]["up_to_diameter_m"], 0.4);
+    assert!(section["pitch_line_depth"].is_null());
+    let csv = run(&["sections", "--csv", "-"]).stdout;
+    let csv = String::from_utf8(csv).unwrap();
+    assert_eq!(csv.lines().count(), all + 1);
+    assert!(csv.starts_with("name,also,family,"), "{csv}");
+    fails(&run(&["sections", "spb"]), 2, "did you mean `SPB`?");
+}
+
+#[test]
+fn results_say_what_is_filled_in_from_a_section() {
+    let file = format!("{}/examples/spb-fan.toml", env!("CARGO_MANIFEST_DIR"));
+    let output = run(&["solve", &file, "--set", "belt.height=12 mm", "--json", "-"]);
+    let state: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let section = &state["section"];
+    assert_eq!(
+        [&section["name"], &section["family"]],
+        ["SPB", "narrow DIN/ISO"]
+    );
+    let entries = section["filled_in"].as_array().unwrap();
+    assert_eq!(
+        entries[0],
+        serde_json::json!({ "key": "belt.type", "value": "v" })
+    );
+    let mass = &entries[1];
+    assert_eq!(
+        [&mass["key"], &mass["unit"]],
+        ["belt.mass_per_length", "kg/m"]
+    );
+    assert_eq!([&mass["value"], &mass["high"]], [0.195, 0.2]);
+    assert!(mass["sources"][0].as_str().unwrap().starts_with("Optibelt"));
+    assert!(entries.iter().all(|entry| entry["key"] != "belt.height"));
+    let table = String::from_utf8(run(&["solve", &file]).stdout).unwrap();
+    assert!(table.contains("filled in from section"), "{table}");
+    assert!(
+        table.lines().all(|line| line.chars().count() <= 100),
+        "{table}"
+    );
 }

@@ -76,7 +76,7 @@ fn unknown_tables_and_keys() {
       |
     9 | half_angle = 0.3
       | ^^^^^^^^^^
-    expected: one of `type`, `mass_per_length`, `axial_stiffness`, `radial_stiffness`, `height`, `ribs`
+    expected: one of `type`, `section`, `width`, `mass_per_length`, `axial_stiffness`, `radial_stiffness`, `height`, `ribs`
     help: did you mean `groove.half_angle`?
     "#);
     assert_snapshot!(error("[groove]", "colour = 3\n[groove]"), @r#"
@@ -85,7 +85,7 @@ fn unknown_tables_and_keys() {
       |
     9 | colour = 3
       | ^^^^^^
-    expected: one of `type`, `mass_per_length`, `axial_stiffness`, `radial_stiffness`, `height`, `ribs`
+    expected: one of `type`, `section`, `width`, `mass_per_length`, `axial_stiffness`, `radial_stiffness`, `height`, `ribs`
     "#);
 }
 
@@ -199,7 +199,7 @@ fn refused_entries() {
        |
     24 | speed = "990 rpm"
        | ^^^^^
-    expected: one of `radius`, `diameter`
+    expected: one of `radius`, `diameter`, `half_angle`
     "#);
     assert_snapshot!(override_error(&["load.setup_tension=400 N"]), @r"
     error: overdetermined: two quantities close a drive, 3 are given: `load.slack_tractive_tension`, `load.tight_tractive_tension`, `load.setup_tension`

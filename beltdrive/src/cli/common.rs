@@ -31,7 +31,8 @@ impl Common {
         self.output.check(&self.file)?;
         let (name, text) = read(&self.file)?;
         let file = DriveFile::read(&name, &text, &self.overrides).map_err(Failure::usage)?;
-        Ok((file, Origin::of_drive(name, text)))
+        let origin = Origin::of_drive(&file, name, text);
+        Ok((file, origin))
     }
 
     /// How steady states are sought.
@@ -43,7 +44,7 @@ impl Common {
 
     /// Does long work that shows its progress.
     pub(super) fn with_progress<T>(&self, work: impl FnOnce(&mut dyn FnMut(f64, &str)) -> T) -> T {
-        with_bar(self.output.quiet, work)
+        with_bar(self.output.is_quiet(), work)
     }
 }
 

@@ -10,6 +10,7 @@ mod output;
 mod parameter;
 mod progress;
 mod read;
+mod sections;
 mod solve;
 mod stability;
 mod trace;
@@ -48,6 +49,8 @@ enum Command {
     Stability(stability::Command),
     /// Recompute the published results that the program stands on
     Verify(verify::Verify),
+    /// List belt sections, or show one with the sources of its numbers
+    Sections(sections::Sections),
     /// List the drive files that come with the program, or print one
     Examples(examples::Examples),
 }
@@ -60,6 +63,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Limits(command) => command.run(),
         Command::Stability(command) => command.run(),
         Command::Verify(command) => command.run(),
+        Command::Sections(command) => command.run(),
         Command::Examples(command) => command.run(),
     };
     match outcome {

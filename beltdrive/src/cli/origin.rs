@@ -1,6 +1,9 @@
 //! Where a file of results comes from, so that it can be traced to its drive.
 
+use beltdrive::input::{DriveFile, FilledIn};
+use beltdrive::quantity::{Answer, section};
 use serde::Serialize;
+use std::borrow::Cow;
 use std::env;
 use std::path::{Path, PathBuf};
 
@@ -13,11 +16,14 @@ pub(super) struct Origin {
     command_line: Vec<String>,
     /// The drive file as it was read, without the overrides.
     #[serde(skip_serializing_if = "Option::is_none")]
-    drive_file: Option<DriveFile>,
+    drive_file: Option<Read>,
+    /// What the drive file takes from a belt section.
+    #[serde(skip)]
+    filled_in: Option<FilledIn>,
 }
 
 #[derive(Serialize)]
-struct DriveFile {
+struct Read {
     name: String,
     text: String,
 }
@@ -33,14 +39,24 @@ impl Origin {
             version: env!("CARGO_PKG_VERSION"),
             command_line: [program.to_owned()].into_iter().chain(arguments).collect(),
             drive_file: None,
+            filled_in: None,
         }
     }
 
-    /// The origin of the files of this run, which has read a drive file.
-    pub(super) fn of_drive(name: String, text: String) -> Self {
+    /// The origin of the files of this run, which has read a drive file from a text.
+    pub(super) fn of_drive(file: &DriveFile, name: String, text: String) -> Self {
         Self {
-            drive_file: Some(DriveFile { name, text }),
+            drive_file: Some(Read { name, text }),
+            filled_in: file.filled_in().cloned(),
             ..Self::new()
+        }
+    }
+
+    /// An answer that tells what its drive file takes from a belt section, if it does.
+    pub(super) fn told_in<'a>(&self, answer: &'a Answer) -> Cow<'a, Answer> {
+        match &self.filled_in {
+            Some(filled_in) => Cow::Owned(section::told_in(answer.clone(), filled_in)),
+            None => Cow::Borrowed(answer),
         }
     }
 

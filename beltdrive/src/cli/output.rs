@@ -12,29 +12,36 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Where the results go.
+/// Where the results of a drive go.
 #[derive(Args)]
 pub(super) struct Output {
-    /// Write everything as JSON; - for standard output, in place of the table
-    #[arg(long, value_name = "FILE")]
-    json: Option<PathBuf>,
-    /// Write rows as CSV; - for standard output, in place of the table
-    #[arg(long, value_name = "FILE")]
-    csv: Option<PathBuf>,
+    #[command(flatten)]
+    texts: Texts,
     /// Draw figures into a directory
     #[arg(long, value_name = "DIR")]
     plot: Option<PathBuf>,
     /// Units of the table
     #[arg(long, value_name = "SYSTEM", default_value = "engineering")]
     units: Units,
+}
+
+/// Where results go as text.
+#[derive(Args)]
+pub(super) struct Texts {
+    /// Write everything as JSON; - for standard output, in place of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write rows as CSV; - for standard output, in place of the table
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
     /// Print neither the table nor the names of written files
     #[arg(long)]
-    pub(super) quiet: bool,
+    quiet: bool,
 }
 
 /// A system of units by its name.
 #[derive(Clone, Copy, ValueEnum)]
-enum Units {
+pub(super) enum Units {
     /// m, N, W, rad/s
     Si,
     /// mm, N, kW, rpm
@@ -62,8 +69,44 @@ impl Output {
         self.plot.is_some()
     }
 
+    /// Whether only results are to be written.
+    pub(super) fn is_quiet(&self) -> bool {
+        self.texts.quiet
+    }
+
     /// Refuses outputs that would overwrite each other or the drive file.
     pub(super) fn check(&self, drive_file: &Path) -> Result<(), Failure> {
+        self.texts
+            .check_beside(self.plot.as_deref(), Some(drive_file))
+    }
+
+    /// Prints and writes an answer in the forms asked for, with what its drive file takes from a belt section.
+    pub(super) fn write(
+        &self,
+        answer: &Answer,
+        draw: Draw<'_>,
+        origin: &Origin,
+    ) -> Result<(), Failure> {
+        let answer = &origin.told_in(answer);
+        self.texts.write(answer, self.units, origin)?;
+        let Some(directory) = &self.plot else {
+            return Ok(());
+        };
+        let action = format!("draw figures into {}", directory.display());
+        let figures = draw(directory, &origin.json());
+        let figures = figures.map_err(|error| Failure::io(&action, &error))?;
+        self.texts.note(&figures);
+        Ok(())
+    }
+}
+
+impl Texts {
+    /// Refuses outputs that would overwrite each other or a file that is read.
+    pub(super) fn check(&self, read: Option<&Path>) -> Result<(), Failure> {
+        self.check_beside(None, read)
+    }
+
+    fn check_beside(&self, figures: Option<&Path>, read: Option<&Path>) -> Result<(), Failure> {
         let csv = self.csv.as_deref().filter(|path| !is_stream(path));
         let origin = csv.map(Origin::beside);
         Destinations {
@@ -72,8 +115,8 @@ impl Output {
                 ("--csv", self.csv.as_deref()),
                 ("the origin of --csv", origin.as_deref()),
             ],
-            figures: self.plot.as_deref(),
-            drive_file: Some(drive_file),
+            figures,
+            drive_file: read,
         }
         .check()
     }
@@ -82,28 +125,13 @@ impl Output {
     pub(super) fn write(
         &self,
         answer: &Answer,
-        draw: Draw<'_>,
+        units: Units,
         origin: &Origin,
     ) -> Result<(), Failure> {
         let outputs = [self.json.as_deref(), self.csv.as_deref()];
         if !self.quiet && !outputs.into_iter().any(is_stdout) {
-            print(&report::table(answer, self.units.into()))?;
+            print(&report::table(answer, units.into()))?;
         }
-        for path in self.write_files(answer, draw, origin)? {
-            if !self.quiet {
-                note(&format!("wrote {}", path.display()));
-            }
-        }
-        Ok(())
-    }
-
-    /// Writes the outputs asked for and lists the files among them.
-    fn write_files(
-        &self,
-        answer: &Answer,
-        draw: Draw<'_>,
-        origin: &Origin,
-    ) -> Result<Vec<PathBuf>, Failure> {
         let mut written = Vec::new();
         if let Some(path) = &self.json {
             written.extend(write_text(path, &origin.in_json(&report::json(answer)))?);
@@ -111,12 +139,17 @@ impl Output {
         if let Some(path) = &self.csv {
             written.extend(write_csv(path, &report::csv(answer), origin)?);
         }
-        if let Some(directory) = &self.plot {
-            let action = format!("draw figures into {}", directory.display());
-            let figures = draw(directory, &origin.json());
-            written.extend(figures.map_err(|error| Failure::io(&action, &error))?);
+        self.note(&written);
+        Ok(())
+    }
+
+    /// Names the files that were written.
+    fn note(&self, written: &[PathBuf]) {
+        if !self.quiet {
+            for path in written {
+                note(&format!("wrote {}", path.display()));
+            }
         }
-        Ok(written)
     }
 }
 

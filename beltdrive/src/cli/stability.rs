@@ -2,7 +2,8 @@
 
 use super::output::Output;
 use super::{failure::Failure, origin::Origin, progress::with_bar, read::read};
-use beltdrive::{input, plot, quantity};
+use beltdrive::input::DriveFile;
+use beltdrive::{plot, quantity};
 use clap::{Args, value_parser};
 use std::path::{Path, PathBuf};
 
@@ -33,9 +34,10 @@ impl Command {
     pub(super) fn run(&self) -> Result<(), Failure> {
         self.output.check(&self.file)?;
         let (name, text) = read(&self.file)?;
-        let drive = input::parse(&name, &text, &self.overrides).map_err(Failure::usage)?;
-        let origin = Origin::of_drive(name, text);
-        let stability = with_bar(self.output.quiet, |progress| {
+        let file = DriveFile::read(&name, &text, &self.overrides).map_err(Failure::usage)?;
+        let drive = file.drive().map_err(Failure::usage)?;
+        let origin = Origin::of_drive(&file, name, text);
+        let stability = with_bar(self.output.is_quiet(), |progress| {
             beltdrive::stability(&drive, self.modes.into(), progress)
         })?;
         let answer = &quantity::stability::answer(&stability);

@@ -1,10 +1,13 @@
 //! From checked values to a drive: what must be there, and relations between the values.
 
-use super::{belt, belt_loop, diagnostic::Finding, friction, load, schema, values::Values};
+use super::{
+    belt, belt_loop, diagnostic::Finding, friction, load, schema, section, values::Values,
+};
 use crate::{Closure, Drive, Duty, Load, Pulley, Sense, SpanTension, TwoPulleys};
 
 /// The drive that the values state.
 pub(super) fn drive(values: &Values<'_>) -> Result<Drive, Finding> {
+    section::check(values)?;
     if values.has(schema::PULLEY) {
         return belt_loop::of_list(values);
     }
@@ -18,13 +21,11 @@ pub(super) fn drive(values: &Values<'_>) -> Result<Drive, Finding> {
     let friction_coefficient = values.required_number("friction.coefficient")?;
     let pulley = |name: &str, x: f64, duty: Duty| {
         let radius = radius(values, &format!("pulleys.{name}"))?;
-        Ok(Pulley::new(
-            name,
-            [x, 0.0],
-            radius,
-            friction_coefficient,
-            duty,
-        ))
+        let half_angle = values.number(&format!("pulleys.{name}.half_angle"));
+        Ok(Pulley {
+            half_angle,
+            ..Pulley::new(name, [x, 0.0], radius, friction_coefficient, duty)
+        })
     };
     let speed = values.required_number("pulleys.driver.speed")?;
     let driver = pulley("driver", 0.0, Duty::Driver(speed))?;
@@ -34,6 +35,7 @@ pub(super) fn drive(values: &Values<'_>) -> Result<Drive, Finding> {
     if let Some(found) = found.or_else(|| backwards(closure)) {
         return Err(found.finding(values));
     }
+    one_groove(values, closure)?;
     Ok(Drive {
         title: values.text("title").map(str::to_owned),
         belt,
@@ -43,6 +45,24 @@ pub(super) fn drive(values: &Values<'_>) -> Result<Drive, Finding> {
         pulleys: vec![driver, driven],
         closure,
     })
+}
+
+/// The finding for a pulley with a groove of its own in a drive that is closed by the tensions of both spans.
+fn one_groove(values: &Values<'_>, closure: Closure) -> Result<(), Finding> {
+    let own = ["pulleys.driver.half_angle", "pulleys.driven.half_angle"];
+    let path = own.into_iter().find(|path| values.has(path));
+    match (closure, path) {
+        (Closure::BothSpans(_), Some(path)) => {
+            let message = format!(
+                "`{path}` differs from the groove of the belt, and two tensions close a drive with one \
+                 groove angle"
+            );
+            Err(Finding::new(values.key_place(path), message).expected(
+                "one `groove.half_angle`, or a torque or power in [load] with what closes the drive",
+            ))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What a drive with two pulleys needs and the file does not have, but for its load.

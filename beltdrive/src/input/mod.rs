@@ -31,6 +31,7 @@ mod load;
 mod overrides;
 mod quantity;
 mod schema;
+mod section;
 mod source;
 pub(crate) mod spelling;
 mod tensioner;
@@ -42,6 +43,7 @@ pub use argument::Argument;
 pub use diagnostic::Diagnostic;
 pub use file_key::FileKey;
 pub use key::Key;
+pub use section::{FilledEntry, FilledIn, FilledValue};
 
 use crate::Drive;
 use diagnostic::Finding;
@@ -75,6 +77,7 @@ pub fn parse(name: &str, text: &str, overrides: &[String]) -> Result<Drive, Diag
 pub struct DriveFile {
     source: Source,
     document: Document,
+    filled_in: Option<FilledIn>,
 }
 
 impl DriveFile {
@@ -85,9 +88,21 @@ impl DriveFile {
     pub fn read(name: &str, text: &str, overrides: &[String]) -> Result<Self, Diagnostic> {
         let source = Source::new(name, text, overrides);
         match document(&source, text, overrides) {
-            Ok(document) => Ok(Self { source, document }),
+            Ok(mut document) => {
+                let filled_in = section::fill(&mut document, &source);
+                Ok(Self {
+                    source,
+                    document,
+                    filled_in,
+                })
+            }
             Err(finding) => Err(Diagnostic::new(finding, &source)),
         }
+    }
+
+    /// The entries that the file leaves out and takes from the belt section that it names.
+    pub fn filled_in(&self) -> Option<&FilledIn> {
+        self.filled_in.as_ref()
     }
 
     /// The drive that the file states.

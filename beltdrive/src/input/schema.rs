@@ -311,7 +311,10 @@ mod tests {
         assert!(is_table("pulleys") && is_table("pulleys.driver") && is_table(""));
         assert!(!is_table("belt.type") && !is_table("puls"));
         assert_eq!(names("pulleys"), ["driver", "driven"]);
-        assert_eq!(names("pulleys.driven"), ["radius", "diameter"]);
+        assert_eq!(
+            names("pulleys.driven"),
+            ["radius", "diameter", "half_angle"]
+        );
         assert_eq!(names("pulley.fan.centre"), ["x", "y"]);
         assert!(
             is_table("pulley.fan") && is_table("pulley.A/C 2") && !is_table("pulley.fan.torque")

@@ -50,6 +50,13 @@ where
     nearest_path(path, candidates()).or_else(by_name)
 }
 
+/// The line of a message that proposes a spelling, after those before it; empty without one.
+pub(crate) fn hint(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |name| {
+        format!("\nhelp: did you mean `{name}`?")
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::{nearest, nearest_path};

@@ -39,6 +39,8 @@ pub enum Measure {
     MassFlow,
     /// A mass per length.
     MassPerLength,
+    /// A mass per area.
+    MassPerArea,
     /// A force per area.
     ForcePerArea,
     /// An inverse length.
@@ -103,6 +105,7 @@ impl Measure {
             Self::Frequency => ("_Hz", 1.0),
             Self::MassFlow => ("_kg_per_s", 1.0),
             Self::MassPerLength => ("_kg_per_m", 1.0),
+            Self::MassPerArea => ("_kg_per_m2", 1.0),
             Self::ForcePerArea => ("_N_per_m2", 1.0),
             Self::InverseLength => ("_per_m", 1.0),
             Self::AngularStiffness => ("_N_m_per_rad", 1.0),
@@ -152,6 +155,11 @@ impl Measure {
                 unit("kg/m", 1.0),
                 unit("kg/m", 1.0),
                 unit("lb/ft", FOOT / POUND_MASS),
+            ],
+            Self::MassPerArea => [
+                unit("kg/m²", 1.0),
+                unit("kg/m²", 1.0),
+                unit("lb/ft²", FOOT * FOOT / POUND_MASS),
             ],
             Self::ForcePerArea => [
                 unit("N/m²", 1.0),

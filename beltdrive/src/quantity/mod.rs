@@ -17,6 +17,7 @@ mod parameter;
 pub(crate) mod precision;
 mod scalars;
 mod scale;
+pub mod section;
 pub mod stability;
 pub mod two_pulleys;
 pub(crate) mod value;

@@ -3,6 +3,7 @@
 use super::{Kind, NORMAL_FORCE, Range, Rule, TORQUE};
 use crate::friction::ROWS;
 use crate::input::dimension::Dimension;
+use crate::sections;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::LazyLock;
 
@@ -106,6 +107,8 @@ pub(super) static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
 const UP_TO_FRICTION: &[Rule] = &[
     text("title", "\"Test drive\""),
     word("belt.type", "\"v\"", "belt type", &["v", "flat"]),
+    word("belt.section", "\"SPB\"", "belt section", &sections::NAMES),
+    quantity("belt.width", "\"25 mm\"", Dimension::LENGTH),
     quantity(
         "belt.mass_per_length",
         "\"0.108 kg/m\"",
@@ -138,8 +141,20 @@ const FROM_PULLEYS: &[Rule] = &[
         "\"1000 rpm\"",
         Dimension::ANGULAR_SPEED,
     ),
+    ranged(
+        "pulleys.driver.half_angle",
+        "\"18 deg\"",
+        Dimension::ANGLE,
+        HALF_ANGLE,
+    ),
     quantity("pulleys.driven.radius", "\"0.25 m\"", Dimension::LENGTH),
     quantity("pulleys.driven.diameter", "\"0.5 m\"", Dimension::LENGTH),
+    ranged(
+        "pulleys.driven.half_angle",
+        "\"18 deg\"",
+        Dimension::ANGLE,
+        HALF_ANGLE,
+    ),
     refused(
         "pulleys.driven.speed",
         "\"1000 rpm\"",
