@@ -76,6 +76,8 @@ fn help_carries_examples() {
         &["verify", "--help"],
         &["examples", "--help"],
         &["sections", "--help"],
+        &["completions", "--help"],
+        &["man", "--help"],
     ] {
         let output = run(args);
         succeeds(&output);
@@ -355,4 +357,40 @@ fn results_say_what_is_filled_in_from_a_section() {
         table.lines().all(|line| line.chars().count() <= 100),
         "{table}"
     );
+}
+
+#[test]
+fn shells_complete_every_command() {
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let output = run(&["completions", shell]);
+        succeeds(&output);
+        let script = stdout(&output);
+        for word in ["limits", "sections", "--tolerance", "completions"] {
+            let word = word.trim_start_matches("--");
+            assert!(script.contains(word), "{shell} lacks {word}");
+        }
+    }
+    fails(&run(&["completions", "dash"]), 2, "invalid value 'dash'");
+}
+
+#[test]
+fn manual_pages_describe_the_program_and_each_command() {
+    let page = |arguments: &[&str]| {
+        let output = run(&[&["man"], arguments].concat());
+        succeeds(&output);
+        stdout(&output)
+    };
+    let program = page(&[]);
+    assert!(program.contains(".TH beltdrive 1"), "{program}");
+    assert!(
+        program.contains("sections") && program.contains("Exit status"),
+        "{program}"
+    );
+    let solve = page(&["solve"]);
+    assert!(
+        solve.contains(".TH beltdrive\\-solve 1") || solve.contains(".TH beltdrive-solve 1"),
+        "{solve}"
+    );
+    assert!(solve.contains("tolerance"), "{solve}");
+    fails(&run(&["man", "sovle"]), 2, "there is no command `sovle`");
 }

@@ -1,10 +1,12 @@
 //! The commands: what they read, what they write, and their exit status.
 
 mod common;
+mod completions;
 mod destinations;
 mod examples;
 mod failure;
 mod limits;
+mod man;
 mod origin;
 mod output;
 mod parameter;
@@ -53,6 +55,10 @@ enum Command {
     Sections(sections::Sections),
     /// List the drive files that come with the program, or print one
     Examples(examples::Examples),
+    /// Print what a shell needs to complete commands and options
+    Completions(completions::Completions),
+    /// Print the manual page of the program or of a command
+    Man(man::Manual),
 }
 
 /// Runs the command that the command line asks for.
@@ -65,6 +71,8 @@ pub(crate) fn run() -> ExitCode {
         Command::Verify(command) => command.run(),
         Command::Sections(command) => command.run(),
         Command::Examples(command) => command.run(),
+        Command::Completions(command) => command.run(),
+        Command::Man(command) => command.run(),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -184,11 +184,13 @@ fn is_stdout(output: Option<&Path>) -> bool {
 
 /// Writes to standard output. Whoever closes it has read enough: that is no failure.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
+    print_bytes(text.as_bytes())
+}
+
+/// As [`print()`], of a text that another crate writes.
+pub(super) fn print_bytes(text: &[u8]) -> Result<(), Failure> {
     let mut output = io::stdout().lock();
-    match output
-        .write_all(text.as_bytes())
-        .and_then(|()| output.flush())
-    {
+    match output.write_all(text).and_then(|()| output.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::io("write to standard output", &error))
         }
