@@ -6,18 +6,15 @@
 use super::found::{checked, not_carried};
 use super::limits::upwards;
 use super::path::{Path, Solved};
+use super::starts::start_loads;
 use super::tracer::{Tracer, Until};
 use crate::input::Key;
 use crate::{BranchEnd, Drive, FrictionLaw, RangeEnd, SolveError, SteadyState};
 use continuation::Direction;
 use web_time::Instant;
 
-/// Loads from which the branch is followed, in the order in which they are tried: as powers of the ratio of the tensions,
-/// from which the way is the shorter the nearer they are, but not all of whose states are found, ...
-const LIGHTER: [f64; 4] = [0.8, 0.5, 0.25, 0.1];
-/// ... or, where that ratio is less than the first of these, as multiples of the slack tension: nearer to no load the
-/// belt hardly slips, and states are hard to find.
-const HEAVIER: [f64; 2] = [2.0, 3.0];
+/// The most branches that are followed.
+const BRANCHES: usize = 4;
 
 /// The steady state of a drive, or the limit of its load if that is lower, in a search that began at `start`; `None` if
 /// no branch leads there.
@@ -26,35 +23,54 @@ pub(super) fn by_branch(
     tolerance: f64,
     start: Instant,
 ) -> Option<Result<SteadyState, SolveError>> {
-    let key = Key::load(drive);
-    let slack = drive.pair().load.slack.value();
-    let ratio = key.get(drive) / slack;
-    let ratios = match ratio < HEAVIER[0] {
-        true => HEAVIER.to_vec(),
-        false => LIGHTER.map(|power| ratio.powf(power)).to_vec(),
-    };
-    ratios.into_iter().find_map(|ratio| {
-        let mut near = drive.clone();
-        key.set(&mut near, slack * ratio);
-        let mut path = Path::new(&near, tolerance);
-        let solved = match drive.law {
-            FrictionLaw::Bristle { .. } => path.start()?,
-            _ => path.with_direction()?,
-        };
-        match path.is_below_limit(&solved) {
-            true => from_state(drive, (&near, solved), tolerance, start),
-            false => None,
+    // With scalar elastic friction a branch may end where the kinds of its zones change and others do not, so that its
+    // end is the limit only if no state is found beyond it.
+    let may_go_on = matches!(drive.law, FrictionLaw::Epp { .. });
+    let mut refusal: Option<(f64, SolveError)> = None;
+    let mut branches = 0;
+    for load in start_loads(drive, false) {
+        if refusal
+            .as_ref()
+            .is_some_and(|&(limit, _)| load.value <= limit)
+        {
+            continue;
         }
-    })
+        let Some((near, solved)) = load.state(drive, tolerance) else {
+            continue;
+        };
+        match from_state(drive, (&near, solved), tolerance, start) {
+            Some(Led::There(state)) => return Some(Ok(*state)),
+            Some(Led::ToLimit(limit, refused)) if may_go_on && refusal.is_none() => {
+                refusal = Some((limit, refused));
+            }
+            Some(Led::ToLimit(_, refused)) => return Some(Err(refused)),
+            // There are states beyond the limit, which lead nowhere.
+            None if refusal.is_some() => return None,
+            None => {}
+        }
+        branches += 1;
+        if branches == BRANCHES {
+            break;
+        }
+    }
+    refusal.map(|(_, refused)| Err(refused))
 }
 
-/// As [`by_branch`], from a state of the drive at another load.
+/// Where a branch has led.
+enum Led {
+    /// To the load that is asked for.
+    There(Box<SteadyState>),
+    /// To the limit of the load, SI, which is smaller.
+    ToLimit(f64, SolveError),
+}
+
+/// Where the branch of the load leads from a state of the drive under another load, if anywhere.
 fn from_state(
     drive: &Drive,
     (near, solved): (&Drive, Solved),
     tolerance: f64,
     start: Instant,
-) -> Option<Result<SteadyState, SolveError>> {
+) -> Option<Led> {
     let key = Key::load(drive);
     let [value, asked] = [near, drive].map(|drive| key.get(drive));
     let near = match asked > value {
@@ -65,7 +81,8 @@ fn from_state(
             {
                 let state = &limit.state;
                 let [speed, exit] = [state.driven.angular_speed, state.driver.inclination[1]];
-                return Some(Err(not_carried(drive, limit.value, reason, [speed, exit])));
+                let refused = not_carried(drive, limit.value, reason, [speed, exit]);
+                return Some(Led::ToLimit(limit.value, refused));
             }
             (up.end == BranchEnd::Target).then_some(up.tracer.near)
         }
@@ -82,5 +99,6 @@ fn from_state(
     }
     let mut path = Path::new(drive, tolerance);
     let solved = path.finish(solved).ok()?;
-    checked(&path, solved, start).ok().map(Ok)
+    let state = checked(&path, solved, start).ok()?;
+    Some(Led::There(Box::new(state)))
 }

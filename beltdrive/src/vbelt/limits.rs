@@ -2,6 +2,7 @@
 
 use super::found::{carried, find, forwards, is_crossed};
 use super::path::{Path, Solved};
+use super::starts::start_loads;
 use super::state::describe;
 use super::tracer::{Tracer, Until};
 use crate::input::Key;
@@ -15,12 +16,6 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use web_time::Instant;
 
-/// How far a load is lowered, in logarithms of its ratio to the slack tension, where the drive does
-/// not carry it.
-const EASIER: [f64; 6] = [0.8, 0.6, 0.4, 0.25, 0.15, 0.08];
-/// Multiples of the slack tension at which a branch may begin in place of the load of the drive, and first does if that
-/// is less than the last of them: nearer to no load the belt hardly slips, and states are hard to find and to follow.
-const HEAVIER: [f64; 4] = [2.0, 3.0, 1.5, 1.2];
 /// Below this multiple of the slack tension a branch is left to the state without load.
 const LIGHT: f64 = 3.0;
 /// An upper end is sought up to this multiple of the value in the drive, and from there again.
@@ -112,36 +107,13 @@ pub(super) fn first_state(
     key: &Key,
     tolerance: f64,
 ) -> Result<(Drive, Solved), SolveError> {
-    let load = Key::load(drive);
-    if *key == load {
-        let ratio = load.get(drive) / drive.pair().load.slack.value();
-        let own = [ratio]
-            .into_iter()
-            .chain(EASIER.map(|share| ratio.powf(share)));
-        let ratios: Vec<f64> = match (1.0..HEAVIER[3]).contains(&ratio) {
-            true => HEAVIER.into_iter().chain(own).collect(),
-            false => own.chain(HEAVIER).collect(),
+    let mut loads = start_loads(drive, true).filter(|_| *key == Key::load(drive));
+    if let Some((first, solved)) = loads.find_map(|load| load.state(drive, tolerance)) {
+        // No load makes the belt slower.
+        return match possible::fault(&describe(&Path::new(&first, tolerance), &solved)) {
+            Some(fault) => Err(SolveError::Impossible(fault)),
+            None => Ok((first, solved)),
         };
-        // A normalised direction is harder to follow.
-        let searches = [true, false]
-            .map(|has_direction| ratios.iter().map(move |&ratio| (has_direction, ratio)));
-        for (has_direction, ratio) in searches.into_iter().flatten() {
-            let mut first = drive.clone();
-            load.set(&mut first, drive.pair().load.slack.value() * ratio);
-            let mut path = Path::new(&first, tolerance);
-            let found = match has_direction {
-                true => path.with_direction(),
-                false => path.start(),
-            };
-            let Some(solved) = found.filter(|solved| path.is_below_limit(solved)) else {
-                continue;
-            };
-            // No load makes the belt slower.
-            return match possible::fault(&describe(&path, &solved)) {
-                Some(fault) => Err(SolveError::Impossible(fault)),
-                None => Ok((first.clone(), solved)),
-            };
-        }
     }
     let (path, found) = find(drive, tolerance);
     let solved = carried(&path, found)?;

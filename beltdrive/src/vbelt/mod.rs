@@ -37,6 +37,7 @@ mod path;
 mod piece;
 mod scaling;
 mod solve;
+mod starts;
 mod state;
 mod steps;
 mod trace;

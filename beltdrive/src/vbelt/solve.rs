@@ -14,14 +14,14 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
     let start = Instant::now();
     let tolerance = options.tolerance;
     let mut path = Path::new(drive, tolerance);
-    let violated = match path.at_load(path.target()) {
+    let at_fault = match path.at_load(path.target()) {
         Ok(solved) if path.is_below_limit(&solved) => match checked(&path, solved, start) {
-            Err(SolveError::Violated(check)) => Some(Err(SolveError::Violated(check))),
+            Err(fault @ (SolveError::Violated(_) | SolveError::Impossible(_))) => Some(Err(fault)),
             answer => return answer,
         },
         _ => None,
     };
-    if let Some(answer) = by_branch(drive, tolerance, start).or(violated) {
+    if let Some(answer) = by_branch(drive, tolerance, start).or(at_fault) {
         return answer;
     }
     let (path, found) = find(drive, tolerance);

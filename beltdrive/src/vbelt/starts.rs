@@ -1,0 +1,58 @@
+//! States of a drive under other loads, from which the branch of its load is followed.
+
+use super::path::{Path, Solved};
+use crate::Drive;
+use crate::input::Key;
+
+/// How far a load is lowered, as powers of its ratio to the slack tension: the nearer, the shorter the way, but not all
+/// states are found. The last are for soft elastic friction on a stiff belt, which carries 3 % more than no load where
+/// Coulomb friction carries eight times as much.
+const LIGHTER: [f64; 8] = [0.8, 0.6, 0.4, 0.25, 0.15, 0.08, 0.03, 0.01];
+/// Multiples of the slack tension at which a branch may begin in place of the load of the drive, and first does if that
+/// is less than the last of them: nearer to no load the belt hardly slips, and states are hard to find and to follow.
+const HEAVIER: [f64; 4] = [2.0, 3.0, 1.5, 1.2];
+
+/// A load from which a branch may begin.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StartLoad {
+    /// The tight tension or tractive tension, SI.
+    pub(super) value: f64,
+    /// Whether friction is to have its direction as a state: a normalised direction is harder to follow.
+    has_direction: bool,
+}
+
+/// Loads from which the branch of the load of a drive may begin, the best first; its own load among them if that is
+/// asked for.
+pub(super) fn start_loads(drive: &Drive, with_own: bool) -> impl Iterator<Item = StartLoad> {
+    let slack = drive.pair().load.slack.value();
+    let ratio = Key::load(drive).get(drive) / slack;
+    let own = with_own.then_some(ratio);
+    let lighter = own
+        .into_iter()
+        .chain(LIGHTER.map(|power| ratio.powf(power)));
+    let ratios: Vec<f64> = match (1.0..HEAVIER[3]).contains(&ratio) {
+        true => HEAVIER.into_iter().chain(lighter).collect(),
+        false => lighter.chain(HEAVIER).collect(),
+    };
+    [true, false].into_iter().flat_map(move |has_direction| {
+        ratios.clone().into_iter().map(move |ratio| StartLoad {
+            value: slack * ratio,
+            has_direction,
+        })
+    })
+}
+
+impl StartLoad {
+    /// The drive under this load and its state, if that is found below the limits of the load.
+    pub(super) fn state(self, drive: &Drive, tolerance: f64) -> Option<(Drive, Solved)> {
+        let mut near = drive.clone();
+        Key::load(drive).set(&mut near, self.value);
+        let mut path = Path::new(&near, tolerance);
+        let found = match self.has_direction {
+            true => path.with_direction(),
+            false => path.start(),
+        };
+        let solved = found.filter(|solved| path.is_below_limit(solved))?;
+        Some((near, solved))
+    }
+}
