@@ -12,7 +12,7 @@ pub struct Example {
 }
 
 /// Every shipped drive file.
-pub const EXAMPLES: [Example; 13] = [
+pub const EXAMPLES: [Example; 14] = [
     Example {
         name: "kim2009",
         text: include_str!("../examples/kim2009.toml"),
@@ -62,10 +62,17 @@ pub const EXAMPLES: [Example; 13] = [
         text: include_str!("../examples/spb-fan.toml"),
     },
     Example {
+        name: "flat-bench",
+        text: include_str!("../examples/flat-bench.toml"),
+    },
+    Example {
         name: "conveyor",
         text: include_str!("../examples/conveyor.toml"),
     },
 ];
+
+/// The measured rows that belong to the example `flat-bench`, printed as `flat-bench.csv`.
+pub const FLAT_BENCH: &str = include_str!("../examples/flat-bench.csv");
 
 impl Example {
     /// The title the file states; its name if it states none.

@@ -115,6 +115,7 @@ mod results;
 pub mod sections;
 mod vbelt;
 
+pub use answers::calibrate::{self, Calibration, calibrate};
 pub use answers::drive::{limit_curve, limits, solve, solve_from, stability, trace};
 pub use answers::verify::{self, Verification, verify};
 pub use belt::{Belt, BeltKind, NormalForce, VBelt};
@@ -131,6 +132,7 @@ pub use results::error::{LoadedState, SolveError, SolveOptions};
 pub use results::impossible::Impossible;
 pub use results::limit_curve::{LimitCurve, LimitCurvePoint};
 pub use results::limits::{Limit, LimitReason, Limits, RangeEnd};
+pub use results::measured::Measured;
 pub use results::stability::{
     AxialMode, FormStability, LinearisedForm, Onset, PulleyStability, ShapePoint, Stability,
 };

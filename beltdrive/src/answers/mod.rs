@@ -2,6 +2,7 @@
 //! published.
 
 mod belt_loop;
+pub mod calibrate;
 pub(crate) mod drive;
 mod limit_curve;
 mod limits;

@@ -1,4 +1,4 @@
-//! Where a command writes, checked before it computes: no output overwrites another or the drive file.
+//! Where a command writes, checked before it computes: no output overwrites another or a file that is read.
 
 use super::failure::Failure;
 use super::output::is_stream;
@@ -12,8 +12,8 @@ pub(super) struct Destinations<'a> {
     pub(super) texts: &'a [(&'static str, Option<&'a Path>)],
     /// The directory of the figures.
     pub(super) figures: Option<&'a Path>,
-    /// The drive file that is read.
-    pub(super) drive_file: Option<&'a Path>,
+    /// What messages call the file that is read, and where it is.
+    pub(super) read: Option<(&'static str, &'a Path)>,
 }
 
 impl Destinations<'_> {
@@ -31,7 +31,9 @@ impl Destinations<'_> {
                 "error: only one of {others} and {last} can go to standard output"
             )));
         }
-        let drive_file = self.drive_file.and_then(place);
+        let (what, read) = self.read.unzip();
+        let what = what.unwrap_or_default();
+        let read = read.and_then(place);
         let figures = self.figures.and_then(place);
         let mut files: Vec<(&str, PathBuf)> = Vec::new();
         for (option, path) in given {
@@ -39,9 +41,9 @@ impl Destinations<'_> {
                 continue;
             };
             let shown = path.display();
-            if drive_file.as_ref() == Some(&place) {
+            if read.as_ref() == Some(&place) {
                 return Err(Failure::usage(format!(
-                    "error: {option} {shown} would overwrite the drive file"
+                    "error: {option} {shown} would overwrite {what}"
                 )));
             }
             if let Some((other, _)) = files.iter().find(|(_, file)| *file == place) {
@@ -59,11 +61,11 @@ impl Destinations<'_> {
             }
             files.push((option, place));
         }
-        match drive_file {
+        match read {
             Some(file) if figures.is_some_and(|figures| takes(&figures, &file)) => {
-                Err(Failure::usage(
-                    "error: --plot may overwrite the drive file: choose another directory for the figures",
-                ))
+                Err(Failure::usage(format!(
+                    "error: --plot may overwrite {what}: choose another directory for the figures"
+                )))
             }
             _ => Ok(()),
         }

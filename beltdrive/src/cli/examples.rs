@@ -17,6 +17,9 @@ pub(super) struct Examples {
 
 impl Examples {
     pub(super) fn run(&self) -> Result<(), Failure> {
+        if self.name.as_deref() == Some("flat-bench.csv") {
+            return print(examples::FLAT_BENCH);
+        }
         if let Some(name) = &self.name {
             let unknown = |error| Failure::Usage(format!("error: {error}"));
             return print(examples::find(name).map_err(unknown)?.text);

@@ -1,5 +1,6 @@
 //! The commands: what they read, what they write, and their exit status.
 
+mod calibrate;
 mod common;
 mod completions;
 mod destinations;
@@ -49,6 +50,8 @@ enum Command {
     Limits(limits::Limits),
     /// Find out whether small axial motions of a flat belt grow, and from which load on
     Stability(stability::Command),
+    /// Find numbers of the drive file, such as friction and stiffness, from measured rows
+    Calibrate(calibrate::Calibrate),
     /// Recompute the published results that the program stands on
     Verify(verify::Verify),
     /// List belt sections, or show one with the sources of its numbers
@@ -68,6 +71,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Trace(command) => command.run(),
         Command::Limits(command) => command.run(),
         Command::Stability(command) => command.run(),
+        Command::Calibrate(command) => command.run(),
         Command::Verify(command) => command.run(),
         Command::Sections(command) => command.run(),
         Command::Examples(command) => command.run(),

@@ -74,10 +74,16 @@ impl Output {
         self.texts.quiet
     }
 
+    /// Refuses outputs that would overwrite a file that is read beside the drive file.
+    pub(super) fn check_data(&self, data: &Path) -> Result<(), Failure> {
+        let plot = self.plot.as_deref();
+        self.texts.check_beside(plot, Some(("the data", data)))
+    }
+
     /// Refuses outputs that would overwrite each other or the drive file.
     pub(super) fn check(&self, drive_file: &Path) -> Result<(), Failure> {
         self.texts
-            .check_beside(self.plot.as_deref(), Some(drive_file))
+            .check_beside(self.plot.as_deref(), Some(("the drive file", drive_file)))
     }
 
     /// Prints and writes an answer in the forms asked for, with what its drive file takes from a belt section.
@@ -101,12 +107,16 @@ impl Output {
 }
 
 impl Texts {
-    /// Refuses outputs that would overwrite each other or a file that is read.
-    pub(super) fn check(&self, read: Option<&Path>) -> Result<(), Failure> {
-        self.check_beside(None, read)
+    /// Refuses outputs that would overwrite each other.
+    pub(super) fn check(&self) -> Result<(), Failure> {
+        self.check_beside(None, None)
     }
 
-    fn check_beside(&self, figures: Option<&Path>, read: Option<&Path>) -> Result<(), Failure> {
+    fn check_beside(
+        &self,
+        figures: Option<&Path>,
+        read: Option<(&'static str, &Path)>,
+    ) -> Result<(), Failure> {
         let csv = self.csv.as_deref().filter(|path| !is_stream(path));
         let origin = csv.map(Origin::beside);
         Destinations {
@@ -116,7 +126,7 @@ impl Texts {
                 ("the origin of --csv", origin.as_deref()),
             ],
             figures,
-            drive_file: read,
+            read,
         }
         .check()
     }

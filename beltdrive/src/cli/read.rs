@@ -1,4 +1,4 @@
-//! Drive files as the command line names them.
+//! Drive files and data as the command line names them.
 
 use super::failure::Failure;
 use super::output::is_stream;
@@ -17,6 +17,11 @@ const LARGEST: u64 = 1;
 
 /// The name and the text of a drive file or of standard input.
 pub(super) fn read(file: &Path) -> Result<(String, String), Failure> {
+    text(file, "a drive file")
+}
+
+/// The name and the text of a file or of standard input; messages call it `what`.
+pub(super) fn text(file: &Path, what: &str) -> Result<(String, String), Failure> {
     let (name, bytes) = if is_stream(file) {
         ("standard input".to_owned(), bounded(io::stdin().lock()))
     } else {
@@ -27,7 +32,7 @@ pub(super) fn read(file: &Path) -> Result<(String, String), Failure> {
             .and_then(|metadata| unreadable(metadata.file_type()))
         {
             return Err(Failure::Usage(format!(
-                "error: {name} is {kind}, not a drive file"
+                "error: {name} is {kind}, not {what}"
             )));
         }
         (name, File::open(file).and_then(bounded))
@@ -41,7 +46,7 @@ pub(super) fn read(file: &Path) -> Result<(String, String), Failure> {
     if bytes.len() as u64 > LARGEST << 20 {
         return Err(Failure::Usage(format!(
             "error: {name} is larger than {LARGEST} MiB, a thousand times what a drive file takes: \
-             not a drive file"
+             not {what}"
         )));
     }
     let text = String::from_utf8(bytes).map_err(|error| {

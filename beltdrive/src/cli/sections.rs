@@ -27,7 +27,7 @@ pub(super) struct Sections {
 
 impl Sections {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        self.texts.check(None)?;
+        self.texts.check()?;
         let unknown = |error| Failure::Usage(format!("error: {error}"));
         let answer = match &self.name {
             Some(name) => section::one(sections::find(name).map_err(unknown)?),

@@ -53,7 +53,7 @@ impl Verify {
                 ("the origin of --csv", beside.as_deref()),
             ],
             figures: None,
-            drive_file: None,
+            read: None,
         }
         .check()?;
         let outputs = [&self.json, &self.markdown, &self.csv];

@@ -55,6 +55,14 @@ pub(super) fn text<'e>(path: &str, rule: &Rule, entry: &'e Entry) -> Result<&'e 
     }
 }
 
+/// Checks an array of keys. Whether the file has them is asked where they are used.
+pub(super) fn keys(path: &str, rule: &Rule, entry: &Entry) -> Result<(), Finding> {
+    match &entry.content {
+        Content::Texts(texts) if !texts.is_empty() => Ok(()),
+        _ => Err(wrong_type(path, "an array of keys", entry).expected(rule.line())),
+    }
+}
+
 /// Checks that a text is one of `words`.
 pub(super) fn word<'e>(
     path: &str,

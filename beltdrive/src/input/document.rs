@@ -35,6 +35,8 @@ pub(super) enum Content {
     Text(String),
     /// An integer or a float.
     Number(f64),
+    /// An array of strings, each with its place.
+    Texts(Vec<(String, Range<usize>)>),
     /// Anything else, which is wrong everywhere: the name of its type.
     Other(&'static str),
 }
@@ -46,6 +48,7 @@ impl Content {
             Self::Table => "a table",
             Self::Text(_) => "a text",
             Self::Number(_) => "a number",
+            Self::Texts(_) => "an array",
             Self::Other(name) => name,
         }
     }
@@ -164,7 +167,14 @@ fn content(value: &DeValue<'_>) -> Content {
         DeValue::Float(float) => Content::Number(float.as_str().parse().unwrap_or(f64::NAN)),
         DeValue::Boolean(_) => Content::Other("a boolean"),
         DeValue::Datetime(_) => Content::Other("a date"),
-        DeValue::Array(_) => Content::Other("an array"),
+        DeValue::Array(array) => {
+            let text = |value: &toml::Spanned<DeValue<'_>>| match value.get_ref() {
+                DeValue::String(text) => Some((text.clone().into_owned(), value.span())),
+                _ => None,
+            };
+            let texts: Option<Vec<_>> = array.iter().map(text).collect();
+            texts.map_or(Content::Other("an array"), Content::Texts)
+        }
     }
 }
 

@@ -28,6 +28,17 @@ impl FileKey {
         self.measure
     }
 
+    /// Whether a value in SI units lies in its range.
+    pub(super) fn allows(&self, value: f64) -> bool {
+        match self.range {
+            schema::Range::Positive => value > 0.0,
+            schema::Range::NotNegative => value >= 0.0,
+            schema::Range::Any => true,
+            schema::Range::Whole => false,
+            schema::Range::Below(limit, _) => value > 0.0 && value < limit,
+        }
+    }
+
     /// Whether it cannot be negative.
     pub(crate) fn ends_at_zero(&self) -> bool {
         matches!(self.range, schema::Range::NotNegative)

@@ -35,6 +35,8 @@ pub(super) enum Kind {
         /// Its range.
         range: Range,
     },
+    /// Dotted paths of numbers of the file.
+    Keys,
     /// Nothing: the entry may not be given.
     Refused {
         /// Why.
@@ -89,6 +91,8 @@ const ALTERNATIVES: [&[&str]; 10] = [
 
 /// The torque of the driven pulley, in place of the tension of a span.
 pub(super) const TORQUE: &str = "load.driven_torque";
+/// The numbers that a calibration finds.
+pub(super) const CALIBRATED: &str = "calibration.free";
 /// The list of pulleys.
 pub(super) const PULLEY: &str = "pulley";
 /// How the normal force follows from the tension of a flat belt.
@@ -337,6 +341,7 @@ mod tests {
             "layout",
             "load",
             "model",
+            "calibration",
         ];
         assert_eq!(names(""), top);
     }

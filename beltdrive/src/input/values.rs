@@ -156,6 +156,7 @@ impl<'d> Values<'d> {
             Kind::Text => {
                 self.texts.insert(path, check::text(path, rule, entry)?);
             }
+            Kind::Keys => check::keys(path, rule, entry)?,
             Kind::Refused { reason, instead } => {
                 let message = format!("`{path}` {reason}");
                 let expected = check::one_of(&schema::names(schema::split(path).0));

@@ -8,6 +8,7 @@ mod numbers;
 mod occupied;
 mod panel;
 mod profiles;
+mod residuals;
 mod rows;
 mod sheet;
 mod stability;
@@ -15,9 +16,9 @@ mod stability;
 mod tests;
 mod zones;
 
-use crate::Stability;
 use crate::quantity::Answer;
 use crate::report::write_file;
+use crate::{Calibration, Stability};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -92,6 +93,25 @@ pub fn write_stability(
 ) -> Result<Vec<PathBuf>, Error> {
     write(
         stability::figures(stability).into_iter(),
+        directory,
+        metadata,
+    )
+}
+
+/// Writes `residuals.svg`, the readings of a calibration against its model, into a directory, as [`write_state`]
+/// does.
+///
+/// # Errors
+/// As [`write_state`].
+pub fn write_calibration(
+    heading: &str,
+    calibration: &Calibration,
+    directory: &Path,
+    metadata: Option<&str>,
+) -> Result<Vec<PathBuf>, Error> {
+    let figure = residuals::figure(heading, calibration);
+    write(
+        std::iter::once(("residuals.svg", figure)),
         directory,
         metadata,
     )

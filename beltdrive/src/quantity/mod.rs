@@ -7,6 +7,7 @@
 mod as_loop;
 pub mod belt_loop;
 pub mod branch;
+pub mod calibration;
 mod errors;
 pub(crate) mod events;
 pub mod limit_curve;
@@ -27,7 +28,13 @@ pub(crate) mod words;
 
 pub use measure::{Measure, UnitSystem};
 
+use crate::Drive;
 use std::borrow::Cow;
+
+/// The title of a drive on one line, or what it is when it has no title.
+pub fn title(drive: &Drive) -> String {
+    words::heading(drive)
+}
 
 /// A whole answer, in the order in which it is shown.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -7,6 +7,7 @@ pub(crate) mod impossible;
 pub(crate) mod limit_curve;
 pub(crate) mod limits;
 pub(crate) mod loop_state;
+pub(crate) mod measured;
 pub(crate) mod possible;
 #[cfg(test)]
 pub(crate) mod samples;

@@ -1,6 +1,6 @@
 //! Every entry of a drive file.
 
-use super::{Kind, NORMAL_FORCE, Range, Rule, TORQUE};
+use super::{CALIBRATED, Kind, NORMAL_FORCE, Range, Rule, TORQUE};
 use crate::friction::ROWS;
 use crate::input::dimension::Dimension;
 use crate::sections;
@@ -252,4 +252,9 @@ const FROM_PULLEYS: &[Rule] = &[
         "normal force",
         &["inertia", "thesis", "exact"],
     ),
+    Rule {
+        path: CALIBRATED,
+        example: "[\"friction.coefficient\"]",
+        kind: Kind::Keys,
+    },
 ];

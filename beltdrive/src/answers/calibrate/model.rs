@@ -1,0 +1,210 @@
+//! What the steady states of measured rows have, and how it changes with the free numbers.
+
+use crate::SolveOptions;
+use crate::belt_loop::{LoopState, solve_to};
+use crate::input::{FileKey, MeasuredRow, Measurements, Reading};
+use std::num::NonZero;
+use std::thread;
+
+/// Relative error of states in closed form, and least one of others: what their differences are made from.
+const ROUNDING: f64 = 1e-13;
+
+/// A row without an answer.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowFailure {
+    /// Its line in the file.
+    pub line: usize,
+    /// Why there is none.
+    pub reason: String,
+}
+
+/// The rows as functions of the free numbers.
+///
+/// A place has a coordinate for each of them: the logarithm of one that is positive, over its start; of another one
+/// its distance from the start, in units of its magnitude.
+pub(super) struct Model<'d> {
+    keys: &'d [FileKey],
+    starts: Vec<f64>,
+    data: &'d Measurements,
+    options: &'d SolveOptions,
+}
+
+/// The model at a place: for each row what it has for each reading.
+pub(super) type Predictions = Vec<Vec<Option<f64>>>;
+
+impl<'d> Model<'d> {
+    pub(super) fn new(
+        keys: &'d [FileKey],
+        data: &'d Measurements,
+        options: &'d SolveOptions,
+    ) -> Self {
+        let start = |key| data.rows.first().and_then(|row| row.file.value(key));
+        Self {
+            starts: keys
+                .iter()
+                .map(|key| start(key).unwrap_or_default())
+                .collect(),
+            keys,
+            data,
+            options,
+        }
+    }
+
+    pub(super) fn keys(&self) -> &'d [FileKey] {
+        self.keys
+    }
+
+    /// The number of readings.
+    pub(super) fn readings(&self) -> usize {
+        let rows = self.data.rows.iter();
+        rows.map(|row| row.readings.iter().flatten().count()).sum()
+    }
+
+    /// The number of rows.
+    pub(super) fn row_count(&self) -> usize {
+        self.data.rows.len()
+    }
+
+    /// The value from which a number is sought, SI.
+    pub(super) fn start(&self, index: usize) -> f64 {
+        self.starts[index]
+    }
+
+    /// The numbers at a place, SI.
+    pub(super) fn values(&self, place: &[f64]) -> Vec<f64> {
+        let coordinates = place.iter().enumerate();
+        coordinates
+            .map(
+                |(index, &coordinate)| match self.keys[index].is_positive() {
+                    true => self.starts[index] * coordinate.exp(),
+                    false => self.starts[index] + coordinate * self.magnitude(index),
+                },
+            )
+            .collect()
+    }
+
+    /// What a number changes by with its coordinate at a place, SI.
+    pub(super) fn scale(&self, index: usize, place: &[f64]) -> f64 {
+        match self.keys[index].is_positive() {
+            true => self.values(place)[index],
+            false => self.magnitude(index),
+        }
+    }
+
+    fn magnitude(&self, index: usize) -> f64 {
+        match self.starts[index] {
+            0.0 => 1.0,
+            start => start.abs(),
+        }
+    }
+
+    /// The model at several places, and how accurate it is; the first failure for a place without an answer.
+    ///
+    /// Rows and places are shared among threads.
+    pub(super) fn at(&self, places: &[Vec<f64>]) -> Vec<Result<(Predictions, f64), RowFailure>> {
+        let tasks: Vec<_> = places
+            .iter()
+            .flat_map(|place| {
+                let values = self.values(place);
+                self.data.rows.iter().map(move |row| (row, values.clone()))
+            })
+            .collect();
+        let threads = thread::available_parallelism().map_or(1, NonZero::get);
+        let share = tasks.len().div_ceil(threads).max(1);
+        let solve = |tasks: &[(&MeasuredRow, Vec<f64>)]| -> Vec<_> {
+            tasks
+                .iter()
+                .map(|(row, values)| self.row(row, values))
+                .collect()
+        };
+        let solved: Vec<_> = match tasks.len() <= share {
+            true => solve(&tasks),
+            false => thread::scope(|scope| {
+                let parts = tasks.chunks(share);
+                let running: Vec<_> = parts.map(|part| scope.spawn(|| solve(part))).collect();
+                let done = running.into_iter();
+                done.flat_map(|part| part.join().expect("a state does not panic"))
+                    .collect()
+            }),
+        };
+        let mut solved = solved.into_iter();
+        let rows = self.data.rows.len();
+        places
+            .iter()
+            .map(|_| {
+                let of_place: Vec<_> = solved.by_ref().take(rows).collect();
+                let mut error: f64 = ROUNDING;
+                let mut predictions = Vec::with_capacity(rows);
+                for row in of_place {
+                    let (values, row_error) = row?;
+                    error = error.max(row_error);
+                    predictions.push(values);
+                }
+                Ok((predictions, error))
+            })
+            .collect()
+    }
+
+    /// What a row has with values of the free numbers, and its relative error.
+    fn row(
+        &self,
+        row: &MeasuredRow,
+        values: &[f64],
+    ) -> Result<(Vec<Option<f64>>, f64), RowFailure> {
+        let failure = |reason: String| RowFailure {
+            line: row.line,
+            reason,
+        };
+        let mut file = row.file.clone();
+        for (key, value) in self.keys.iter().zip(values) {
+            file = file.with(key, *value);
+        }
+        let drive = file
+            .drive()
+            .map_err(|error| failure(error.message().to_owned()))?;
+        let state = solve_to(&drive, self.options).map_err(|error| failure(error.to_string()))?;
+        let read = |(index, reading): (usize, &Option<Reading>)| {
+            reading.as_ref()?;
+            self.data.measured[index].of(&state)
+        };
+        let found: Vec<_> = row.readings.iter().enumerate().map(read).collect();
+        let lacks = found.iter().zip(&row.readings).zip(&self.data.measured);
+        let lacking = lacks
+            .into_iter()
+            .find(|((found, reading), _)| reading.is_some() && !found.is_some_and(f64::is_finite));
+        match lacking {
+            Some((_, measured)) => Err(failure(format!("the state has no `{}`", measured.name()))),
+            None => Ok((found, error(&state))),
+        }
+    }
+
+    /// The readings with their lines, the indices of what was measured, and what the model has.
+    pub(super) fn told<'a>(
+        &'a self,
+        predictions: &'a Predictions,
+    ) -> impl Iterator<Item = (usize, usize, Reading, f64)> + 'a {
+        let rows = self.data.rows.iter().zip(predictions);
+        rows.flat_map(|(row, predicted)| {
+            let readings = row.readings.iter().zip(predicted).enumerate();
+            readings.filter_map(|(index, (reading, model))| {
+                Some((row.line, index, (*reading)?, (*model)?))
+            })
+        })
+    }
+
+    /// (y − f)/σ of all readings, with σ = 1 where none is stated.
+    pub(super) fn residuals(&self, predictions: &Predictions) -> Vec<f64> {
+        let told = self.told(predictions);
+        told.map(|(_, _, reading, model)| {
+            (reading.value - model) / reading.deviation.unwrap_or(1.0)
+        })
+        .collect()
+    }
+}
+
+/// Relative error of a state.
+fn error(state: &LoopState) -> f64 {
+    state.convergence.as_ref().map_or(ROUNDING, |convergence| {
+        convergence.error_estimate.max(ROUNDING)
+    })
+}
