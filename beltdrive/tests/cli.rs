@@ -3,7 +3,7 @@
 use std::{
     fs,
     io::Write,
-    path::PathBuf,
+    path::{Path, PathBuf},
     process::{Command, Output, Stdio},
 };
 
@@ -77,6 +77,7 @@ fn help_carries_examples() {
         &["examples", "--help"],
         &["sections", "--help"],
         &["completions", "--help"],
+        &["calibrate", "--help"],
         &["man", "--help"],
     ] {
         let output = run(args);
@@ -393,4 +394,51 @@ fn manual_pages_describe_the_program_and_each_command() {
     );
     assert!(solve.contains("tolerance"), "{solve}");
     fails(&run(&["man", "sovle"]), 2, "there is no command `sovle`");
+}
+
+#[test]
+fn a_belt_is_calibrated_from_rows() {
+    let directory = Path::new(env!("CARGO_TARGET_TMPDIR")).join("calibrate");
+    fs::create_dir_all(&directory).unwrap();
+    for name in ["flat-bench", "flat-bench.csv"] {
+        let file = match name {
+            "flat-bench" => "flat-bench.toml",
+            name => name,
+        };
+        fs::write(directory.join(file), example(name)).unwrap();
+    }
+    let path = |name: &str| directory.join(name).display().to_string();
+    let (file, data) = (path("flat-bench.toml"), path("flat-bench.csv"));
+    let base = ["calibrate", &file, "--data", &data];
+    let output = run(&[&base[..], &["--json", "-", "--plot", &path("figures")]].concat());
+    succeeds(&output);
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let stiffness = &found["parameters"][0];
+    assert_eq!(
+        [&stiffness["key"], &stiffness["unit"]],
+        ["belt.axial_stiffness", "N"]
+    );
+    let [low, high] = ["low", "high"].map(|key| stiffness[key].as_f64().unwrap());
+    assert!(low < 90e3 && 90e3 < high, "{stiffness}");
+    assert_eq!(found["residuals"].as_array().unwrap().len(), 24);
+    assert_eq!(found["residuals"][0]["line"], 4);
+    assert!(directory.join("figures/residuals.svg").is_file());
+    let csv = stdout(&run(&[&base[..], &["--csv", "-"]].concat()));
+    let head = "line,quantity,unit,reading,model,difference,standard_deviation\n";
+    assert!(csv.starts_with(head) && csv.lines().count() == 25, "{csv}");
+    let table = stdout(&run(&base));
+    assert!(
+        table.lines().all(|line| line.chars().count() <= 100),
+        "{table}"
+    );
+    let torque = [&base[..], &["--free", "load.torque"]].concat();
+    fails(&run(&torque), 2, "because a column sets it in every row");
+    let weak = [&base[..], &["--set", "friction.coefficient=0.3"]].concat();
+    fails(
+        &run(&weak),
+        1,
+        "the row in line 7 has no answer at the values of the drive file",
+    );
+    let overwritten = [&base[..], &["--csv", &data]].concat();
+    fails(&run(&overwritten), 2, "would overwrite the data");
 }

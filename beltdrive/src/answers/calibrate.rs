@@ -8,8 +8,9 @@
 //!
 //! where f is what the steady state of the drive of the row has. Without standard deviations, which only a
 //! single measured quantity does without, σ² = S/(n − m) of n readings and m numbers. The covariance is that of
-//! the problem linearised at the solution, (JᵀJ)⁻¹; intervals are p ± t σ_p with the 97.5 % quantile t of the normal
-//! distribution, or of Student's distribution with n − m degrees of freedom where σ is estimated.
+//! the problem linearised at the solution, (JᵀJ)⁻¹; with the standard error s of p intervals are p exp(± t s/p) of
+//! positive numbers, p ± t s of others, with the 97.5 % quantile t of the normal distribution, or of Student's distribution with n − m degrees of freedom
+//! where σ is estimated.
 //!
 //! ```
 //! use beltdrive::calibrate::calibrate;
@@ -201,13 +202,18 @@ fn calibration(model: &Model<'_>, data: &Measurements, fit: Fit) -> Calibration 
             .zip(scale)
             .map(|(error, scale)| error * scale * model.scale(index, &fit.place));
         let value = values[index];
+        let interval = standard_error.map(|error| {
+            [-1.0, 1.0].map(|side| match key.is_positive() {
+                true => value * (side * quantile * error / value).exp(),
+                false => value + side * quantile * error,
+            })
+        });
         Parameter {
             key: key.clone(),
             start: model.start(index),
             value,
             standard_error,
-            interval: standard_error
-                .map(|error| [value - quantile * error, value + quantile * error]),
+            interval,
         }
     });
     let residuals = model

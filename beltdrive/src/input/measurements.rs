@@ -1,20 +1,17 @@
 //! Measured rows in CSV: what was set in each, and what was found.
 
+mod heading;
+
 use super::{
     Diagnostic, DriveFile, FileKey, check,
     diagnostic::Finding,
-    dimension::Dimension,
     quantity::{self, Fault},
     source::Source,
-    spelling, unit,
 };
 use crate::Drive;
-use crate::quantity::Measure;
 use crate::results::measured::Measured;
+use heading::{Column, column, without_deviation};
 use std::ops::Range;
-
-/// What follows the name of a measured quantity in the heading of its standard deviation.
-const DEVIATION: &str = " sd";
 
 /// Measured rows: in each a drive file with what was set, and what was found.
 #[derive(Clone, Debug)]
@@ -49,16 +46,6 @@ pub struct Reading {
     pub value: f64,
     /// Its standard deviation, SI; positive.
     pub deviation: Option<f64>,
-}
-
-/// What a column holds, with the factor from its unit to SI.
-enum Column {
-    /// An entry of the drive file.
-    Key(FileKey, f64),
-    /// A measured quantity, by its index.
-    Measured(usize, f64),
-    /// The standard deviation of one, by its index.
-    Deviation(usize, f64),
 }
 
 impl Measurements {
@@ -156,135 +143,6 @@ fn fields(text: &str, line: Range<usize>) -> impl Iterator<Item = Range<usize>> 
         start += field.len() + 1;
         from..from + inside.len()
     })
-}
-
-/// What the column of a heading holds.
-fn column(
-    text: &str,
-    range: Range<usize>,
-    file: &DriveFile,
-    drive: &Drive,
-    measured: &mut Vec<Measured>,
-) -> Result<Column, Finding> {
-    let heading = &text[range.clone()];
-    let (whole, unit) = match heading.split_once('[') {
-        Some((name, unit)) => {
-            let start = range.start + name.len() + 1;
-            let unit = unit.strip_suffix(']').ok_or_else(|| {
-                Finding::new(range.clone(), format!("the unit of `{heading}` has no end"))
-                    .expected("the unit in brackets, e.g. load.torque [N*m]")
-            })?;
-            (name.trim_end(), Some((unit, start..start + unit.len())))
-        }
-        None => (heading, None),
-    };
-    let (name, is_deviation) = match whole.strip_suffix(DEVIATION) {
-        Some(name) => (name.trim_end(), true),
-        None => (whole, false),
-    };
-    let at_name = range.start..range.start + name.len();
-    let keys = file.keys();
-    if let Some(key) = keys.iter().find(|key| key.path() == name && !is_deviation) {
-        let factor = factor(unit, key.measure())?;
-        return Ok(Column::Key(key.clone(), factor));
-    }
-    let all = Measured::all(drive);
-    let Some(found) = all.iter().find(|measured| measured.name() == name) else {
-        let known = || {
-            let names = all.iter().map(Measured::name);
-            names.chain(keys.iter().map(FileKey::path))
-        };
-        let nearest = spelling::nearest(name, known().map(|name| (name, name)));
-        let nearest = nearest.or_else(|| spelling::nearest_key(name, known));
-        let finding = Finding::new(at_name, format!("unknown column `{name}`"))
-            .expected("a number of the drive file, a measured quantity, or one with ` sd` for its standard deviation");
-        return Err(match nearest {
-            Some(_) => finding.did_you_mean(nearest),
-            None => finding.help(format!(
-                "what can be measured: `{}`",
-                all.iter()
-                    .map(Measured::name)
-                    .collect::<Vec<_>>()
-                    .join("`, `")
-            )),
-        });
-    };
-    let factor = factor(unit, found.measure())?;
-    let index = measured.iter().position(|known| known.name() == name);
-    match (index, is_deviation) {
-        (Some(_), false) => Err(
-            Finding::new(at_name, format!("the column `{name}` stands twice")).expected("it once"),
-        ),
-        (None, false) => {
-            measured.push(found.clone());
-            Ok(Column::Measured(measured.len() - 1, factor))
-        }
-        (Some(index), true) => Ok(Column::Deviation(index, factor)),
-        (None, true) => {
-            let message = format!("a standard deviation before its column `{name}`");
-            Err(Finding::new(range, message).expected(format!("`{name}` to the left of it")))
-        }
-    }
-}
-
-/// The factor from a unit to SI for a measure; SI without a unit.
-fn factor(unit: Option<(&str, Range<usize>)>, measure: Measure) -> Result<f64, Finding> {
-    let Some((symbols, range)) = unit else {
-        return Ok(1.0);
-    };
-    let trimmed = symbols.trim();
-    // Of vibration, not of turning.
-    if measure == Measure::Frequency {
-        return match trimmed {
-            "Hz" => Ok(1.0),
-            _ => Err(
-                Finding::new(range, format!("`{trimmed}` is no unit of a frequency"))
-                    .expected("Hz"),
-            ),
-        };
-    }
-    let dimension = match measure {
-        Measure::Share => Dimension::NUMBER,
-        Measure::Loss => Dimension::POWER,
-        measure => Dimension::of(measure).unwrap_or(Dimension::NUMBER),
-    };
-    let found = unit::parse(trimmed).map_err(|_| {
-        Finding::new(range.clone(), format!("unknown unit `{trimmed}`"))
-            .expected(format!("{dimension}"))
-            .did_you_mean(unit::nearest(trimmed))
-    })?;
-    match found.dimension == dimension {
-        true => Ok(found.scale),
-        false => {
-            let message = format!(
-                "wrong dimension: expected {dimension}, got {}",
-                found.dimension
-            );
-            Err(Finding::new(range, message))
-        }
-    }
-}
-
-/// The finding for measured quantities some or all of which have no standard deviation.
-fn without_deviation(
-    text: &str,
-    headings: &[Range<usize>],
-    columns: &[Column],
-    measured: &[Measured],
-) -> Finding {
-    let has = |index: usize| {
-        let is_of = |column: &Column| matches!(column, Column::Deviation(of, _) if *of == index);
-        columns.iter().any(is_of)
-    };
-    let lacking = (0..measured.len()).find(|&index| !has(index)).unwrap_or(0);
-    let is_it = |column: &Column| matches!(column, Column::Measured(of, _) if *of == lacking);
-    let place = columns.iter().position(is_it);
-    let range = place.map_or(0..0, |place| headings[place].clone());
-    let name = measured[lacking].name();
-    let heading = &text[range.clone()];
-    Finding::new(range, format!("`{name}` has no standard deviation"))
-        .expected(format!("a column `{}`", heading.replacen(name, &format!("{name}{DEVIATION}"), 1)))
-        .help("several measured quantities are weighed by their standard deviations; a single one needs none")
 }
 
 /// A row of the file.

@@ -43,7 +43,7 @@ pub(super) fn figure(heading: &str, calibration: &Calibration) -> String {
         ..Default::default()
     };
     let caption = "Residuals of the calibration";
-    let header = Header::new(&heading, caption, legend.into_iter(), WIDTH);
+    let header = Header::new(&heading, caption, legend, WIDTH);
     let columns = names.len().clamp(1, COLUMNS);
     let rows = names.len().div_ceil(columns).max(1);
     let size = spot(WIDTH, header.height + PANELS * rows as f64);

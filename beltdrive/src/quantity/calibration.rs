@@ -40,7 +40,7 @@ pub fn answer(drive: &Drive, calibration: &Calibration) -> Answer {
         heading,
         remarks: remarks(calibration),
         groups,
-        notes: vec!["Intervals are those of the problem linearised at the solution.".to_owned()],
+        notes: vec!["Intervals are those of the problem linearised at the solution, in the logarithms of positive numbers.".to_owned()],
     }
 }
 
@@ -87,9 +87,7 @@ fn parameters(parameters: &[Parameter]) -> Group {
     type Part = fn(&Parameter) -> Option<f64>;
     let parts: [(&str, u8, Part); 5] = [
         ("found", FOUND, |parameter| Some(parameter.value)),
-        ("σ", OF_ERROR, |parameter| {
-            parameter.standard_error
-        }),
+        ("σ", OF_ERROR, |parameter| parameter.standard_error),
         ("95 % from", FOUND, |parameter| {
             parameter.interval.map(|[low, _]| low)
         }),

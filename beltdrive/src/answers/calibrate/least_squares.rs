@@ -2,7 +2,7 @@
 //! derivatives, from which every damped step of a place follows.
 
 use super::Error;
-use super::model::{Model, Predictions, RowFailure};
+use super::model::{Evaluated, Model, Predictions, RowFailure};
 use faer::Mat;
 
 /// Most steps, tried ones included: with good starts four to eight are enough, and a factor of ten in a stiffness
@@ -155,7 +155,7 @@ fn squares(residuals: &[f64]) -> f64 {
 /// states over h, which the cube root of that error balances.
 fn differences(
     model: &Model<'_>,
-    evaluate: &mut dyn FnMut(&[Vec<f64>]) -> Vec<Result<(Predictions, f64), RowFailure>>,
+    evaluate: &mut dyn FnMut(&[Vec<f64>]) -> Vec<Evaluated>,
     place: &[f64],
     residuals: &[f64],
     error: f64,
@@ -173,7 +173,7 @@ fn differences(
     let found = evaluate(&places);
     let mut columns = Vec::new();
     for pair in found.chunks(2) {
-        let residuals_at = |side: &Result<(Predictions, f64), RowFailure>| match side {
+        let residuals_at = |side: &Evaluated| match side {
             Ok((predictions, _)) => Ok(model.residuals(predictions)),
             Err(row) => Err(row.clone()),
         };

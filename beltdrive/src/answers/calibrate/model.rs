@@ -32,6 +32,9 @@ pub(super) struct Model<'d> {
 /// The model at a place: for each row what it has for each reading.
 pub(super) type Predictions = Vec<Vec<Option<f64>>>;
 
+/// The model at a place with its relative error, or the first row without an answer there.
+pub(super) type Evaluated = Result<(Predictions, f64), RowFailure>;
+
 impl<'d> Model<'d> {
     pub(super) fn new(
         keys: &'d [FileKey],
@@ -101,7 +104,7 @@ impl<'d> Model<'d> {
     /// The model at several places, and how accurate it is; the first failure for a place without an answer.
     ///
     /// Rows and places are shared among threads.
-    pub(super) fn at(&self, places: &[Vec<f64>]) -> Vec<Result<(Predictions, f64), RowFailure>> {
+    pub(super) fn at(&self, places: &[Vec<f64>]) -> Vec<Evaluated> {
         let tasks: Vec<_> = places
             .iter()
             .flat_map(|place| {
