@@ -12,7 +12,7 @@ use std::{env, fs};
 type Figure = (&'static str, &'static str, &'static str);
 
 /// The figures that take no time.
-const FIGURES: [Figure; 10] = [
+const FIGURES: [Figure; 11] = [
     ("serpentine-loop", "loop", "solve serpentine"),
     ("kim2009-drive", "drive", "solve kim2009"),
     ("kim2009-tension", "tension", "solve kim2009"),
@@ -36,6 +36,11 @@ const FIGURES: [Figure; 10] = [
         "kim2009-flat-branch",
         "branch",
         "trace kim2009-flat --parameter load.tight_tension --from 210 --to 9000",
+    ),
+    (
+        "flat-bench-residuals",
+        "residuals",
+        "calibrate flat-bench --data beltdrive/examples/flat-bench.csv",
     ),
     (
         "kim2009-modes",

@@ -1,8 +1,8 @@
 //! What the steady states of measured rows have, and how it changes with the free numbers.
 
-use crate::SolveOptions;
 use crate::belt_loop::{LoopState, solve_to};
 use crate::input::{FileKey, MeasuredRow, Measurements, Reading};
+use crate::{BeltKind, SolveOptions};
 use std::num::NonZero;
 use std::thread;
 
@@ -27,6 +27,7 @@ pub(super) struct Model<'d> {
     starts: Vec<f64>,
     data: &'d Measurements,
     options: &'d SolveOptions,
+    is_flat: bool,
 }
 
 /// The model at a place: for each row what it has for each reading.
@@ -41,7 +42,10 @@ impl<'d> Model<'d> {
         data: &'d Measurements,
         options: &'d SolveOptions,
     ) -> Self {
-        let start = |key| data.rows.first().and_then(|row| row.file.value(key));
+        let first = data.rows.first().map(|row| &row.file);
+        let start = |key| first.and_then(|file| file.value(key));
+        let drive = first.and_then(|file| file.drive().ok());
+        let kind = drive.map(|drive| drive.belt.kind);
         Self {
             starts: keys
                 .iter()
@@ -50,6 +54,7 @@ impl<'d> Model<'d> {
             keys,
             data,
             options,
+            is_flat: matches!(kind, Some(BeltKind::Flat { .. })),
         }
     }
 
@@ -112,7 +117,11 @@ impl<'d> Model<'d> {
                 self.data.rows.iter().map(move |row| (row, values.clone()))
             })
             .collect();
-        let threads = thread::available_parallelism().map_or(1, NonZero::get);
+        // The closed form of a flat belt takes less time than a thread.
+        let threads = match self.is_flat {
+            true => 1,
+            false => thread::available_parallelism().map_or(1, NonZero::get),
+        };
         let share = tasks.len().div_ceil(threads).max(1);
         let solve = |tasks: &[(&MeasuredRow, Vec<f64>)]| -> Vec<_> {
             tasks
