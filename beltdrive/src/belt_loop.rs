@@ -104,5 +104,6 @@ pub use crate::answers::{
 };
 pub use crate::answers::{solve, solve_to, solve_with_margins};
 pub use crate::results::loop_state::{
-    GrooveState, LoadLimit, LoopConvergence, LoopState, PulleyState, SpanState, TensionerState,
+    FrictionParts, GrooveState, LoadLimit, LoopConvergence, LoopState, PulleyState, SpanState,
+    TensionerState,
 };

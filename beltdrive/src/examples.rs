@@ -12,7 +12,7 @@ pub struct Example {
 }
 
 /// Every shipped drive file.
-pub const EXAMPLES: [Example; 14] = [
+pub const EXAMPLES: [Example; 15] = [
     Example {
         name: "kim2009",
         text: include_str!("../examples/kim2009.toml"),
@@ -40,6 +40,10 @@ pub const EXAMPLES: [Example; 14] = [
     Example {
         name: "serpentine",
         text: include_str!("../examples/serpentine.toml"),
+    },
+    Example {
+        name: "serpentine-cases",
+        text: include_str!("../examples/serpentine-cases.toml"),
     },
     Example {
         name: "crossed",

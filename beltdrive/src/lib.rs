@@ -116,13 +116,17 @@ pub mod sections;
 mod vbelt;
 
 pub use answers::calibrate::{self, Calibration, calibrate};
+pub use answers::check::{
+    CaseState, CheckedCase, CheckedService, Failing, OnPulley, SlipMargin, check,
+};
 pub use answers::drive::{limit_curve, limits, solve, solve_from, stability, trace};
+pub use answers::losses::Losses;
 pub use answers::verify::{self, Verification, verify};
 pub use belt::{Belt, BeltKind, NormalForce, VBelt};
 pub use drive::layout::{Layout, LayoutError, PlacedPulley, Sense, Side, Span};
 pub use drive::{
-    Closure, Drive, Duty, Guide, Load, Mount, Pulley, SpanTension, Tensioner, TensionerLoad,
-    TwoPulleys,
+    BendingLoss, Closure, Drive, Duty, GivenLosses, Guide, Load, LoadCase, Mount, Pulley,
+    Requirements, Service, SpanTension, Tensioner, TensionerLoad, TwoPulleys,
 };
 pub use friction::FrictionLaw;
 pub use results::branch::{

@@ -1,11 +1,13 @@
-//! What is asked of drives: of two pulleys, of loops over a number of the drive file, and of what was
-//! published.
+//! What is asked of drives: of two pulleys, of loops over a number of the drive file, of drives in service, and of
+//! what was published.
 
 mod belt_loop;
 pub mod calibrate;
+pub(crate) mod check;
 pub(crate) mod drive;
 mod limit_curve;
 mod limits;
+pub(crate) mod losses;
 mod members;
 mod trace;
 pub mod verify;

@@ -9,6 +9,8 @@ use std::error::Error;
 pub(super) enum Failure {
     /// The drive has no steady state or none was found.
     Unsolved(String),
+    /// A requirement of the drive file is not met.
+    Unmet(String),
     /// An input, an output or the command line is at fault.
     Usage(String),
 }
@@ -44,21 +46,10 @@ impl From<Refusal> for Failure {
 
 impl From<SolveError> for Failure {
     fn from(error: SolveError) -> Self {
-        match error {
-            // What was asked makes no sense, whatever the drive carries.
-            SolveError::Statement { .. }
-            | SolveError::Layout(_)
-            | SolveError::NotModelled(_)
-            | SolveError::Backwards { .. }
-            | SolveError::Tolerance { .. } => Self::Usage(format!("error: {error}")),
-            SolveError::NoSteadyState { .. }
-            | SolveError::TooSlack { .. }
-            | SolveError::NotConverged { .. }
-            | SolveError::NoLimit { .. }
-            | SolveError::Impossible(_)
-            | SolveError::Violated(_)
-            | SolveError::Stability { .. } => Self::Unsolved(format!("error: {error}")),
-            _ => Self::Unsolved(format!("error: no steady state: {error}")),
+        let text = format!("error: {}", error.sentence());
+        match error.is_of_statement() {
+            true => Self::Usage(text),
+            false => Self::Unsolved(text),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The commands: what they read, what they write, and their exit status.
 
 mod calibrate;
+mod check;
 mod common;
 mod completions;
 mod destinations;
@@ -31,7 +32,8 @@ Example:
 Exit status:
   0  success
   1  the drive has no steady state, or none was found
-  2  an input, an output or the command line is at fault";
+  2  an input, an output or the command line is at fault
+  3  a requirement of the drive file is not met";
 
 #[derive(Parser)]
 #[command(version, about, after_help = HELP)]
@@ -44,6 +46,8 @@ struct Cli {
 enum Command {
     /// Find the steady state of a drive and print it as a table
     Solve(solve::Solve),
+    /// Judge each load case of a drive by the requirements of its file
+    Check(check::Check),
     /// Trace the branch of steady states over one entry of the drive file
     Trace(trace::Trace),
     /// Find the smallest and the largest load that a drive carries, and why the range ends there
@@ -68,6 +72,7 @@ enum Command {
 pub(crate) fn run() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Solve(command) => command.run(),
+        Command::Check(command) => command.run(),
         Command::Trace(command) => command.run(),
         Command::Limits(command) => command.run(),
         Command::Stability(command) => command.run(),
@@ -87,6 +92,10 @@ pub(crate) fn run() -> ExitCode {
         Err(Failure::Usage(message)) => {
             output::note(&message);
             ExitCode::from(2)
+        }
+        Err(Failure::Unmet(message)) => {
+            output::note(&message);
+            ExitCode::from(3)
         }
     }
 }

@@ -116,6 +116,7 @@ impl Trace {
                 Failure::Unsolved(text) => Failure::Unsolved(help(text)),
                 // The file itself was read.
                 Failure::Usage(text) => Failure::Usage(help(text)),
+                unmet @ Failure::Unmet(_) => unmet,
             }
         };
         let (name, answer) = match &self.curve {

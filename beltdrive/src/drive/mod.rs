@@ -4,11 +4,13 @@ pub(crate) mod check;
 mod closure;
 pub(crate) mod layout;
 mod pulley;
+mod service;
 mod tensioner;
 mod two_pulleys;
 
 pub use closure::{Closure, Load, SpanTension};
 pub use pulley::{Duty, Mount, Pulley};
+pub use service::{BendingLoss, GivenLosses, LoadCase, Requirements, Service};
 pub use tensioner::{Guide, Tensioner, TensionerLoad};
 pub use two_pulleys::TwoPulleys;
 

@@ -122,9 +122,9 @@ fn inapplicable(path: &str, drive: &Drive, place: &Range<usize>) -> Finding {
             ))
             .did_you_mean(Some(radius))
         }
-        "belt" if is_v_belt => finding(format!(
-            "`{path}` does not change the steady state, so it cannot be traced"
-        )),
+        _ if schema::is_of_service(path) || is_v_belt && path.starts_with("belt.") => finding(
+            format!("`{path}` does not change the steady state, so it cannot be traced"),
+        ),
         "friction" => {
             let law = drive.law.name();
             finding(format!(

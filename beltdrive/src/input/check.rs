@@ -137,6 +137,8 @@ pub(super) fn number(
         schema::Range::Any => true,
         schema::Range::Whole => (1.0..=1000.0).contains(&value) && value.fract() == 0.0,
         schema::Range::Below(limit, _) => value > 0.0 && value < limit,
+        schema::Range::Share => value > 0.0 && value <= 1.0,
+        schema::Range::AtLeastOne => value >= 1.0,
     };
     if is_within && value.is_finite() {
         return Ok(value);
@@ -147,6 +149,8 @@ pub(super) fn number(
         schema::Range::Whole => "must be a whole number from 1 to 1000".to_owned(),
         schema::Range::NotNegative => "must not be negative".to_owned(),
         schema::Range::Below(_, limit) => format!("must lie between 0 and {limit}"),
+        schema::Range::Share => "must be above 0 and at most 1".to_owned(),
+        schema::Range::AtLeastOne => "must be at least 1".to_owned(),
     };
     if dimension == Dimension::ANGLE && is_bare && value.is_finite() && value > 0.0 {
         // A bare number beyond the range is meant in degrees.

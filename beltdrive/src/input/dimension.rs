@@ -32,9 +32,10 @@ impl Dimension {
     pub(super) const FORCE_PER_LENGTH: Self = Self::new(1, 0, -2, 0);
     pub(super) const TORQUE_PER_ANGLE: Self = Self::new(1, 2, -2, -1);
     pub(super) const POWER: Self = Self::new(1, 2, -3, 0);
+    pub(super) const BENDING_STIFFNESS: Self = Self::new(1, 3, -2, 0);
 
     /// The dimensions that have a name in messages.
-    const NAMES: [(Self, &str); 18] = [
+    const NAMES: [(Self, &str); 19] = [
         (Self::NUMBER, "a pure number"),
         (Self::MASS, "a mass"),
         (Self::LENGTH, "a length"),
@@ -48,6 +49,7 @@ impl Dimension {
         (Self::FORCE_PER_AREA, "a force per area"),
         (Self::TORQUE, "a torque"),
         (Self::POWER, "a power"),
+        (Self::BENDING_STIFFNESS, "a bending stiffness"),
         (Self::new(0, 2, 0, 0), "an area"),
         (Self::new(0, 0, -1, 0), "an inverse time"),
         (Self::ACCELERATION, "an acceleration"),

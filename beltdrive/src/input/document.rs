@@ -11,6 +11,8 @@ pub(super) struct Document {
     pub(super) entries: BTreeMap<String, Entry>,
     /// The names of the pulleys of a list, in belt order.
     pub(super) pulleys: Vec<String>,
+    /// The names of the load cases, in order.
+    pub(super) cases: Vec<String>,
     /// Where the file ends: the place of what it lacks.
     pub(super) end: Range<usize>,
 }
@@ -62,6 +64,7 @@ impl Document {
         let mut document = Self {
             entries: BTreeMap::new(),
             pulleys: Vec::new(),
+            cases: Vec::new(),
             end: length..length,
         };
         document.insert_table("", root.get_ref())?;
@@ -79,8 +82,8 @@ impl Document {
                 content: content(value.get_ref()),
             };
             match value.get_ref() {
-                _ if child == schema::PULLEY => {
-                    self.insert_pulleys(&entry, value.get_ref())?;
+                _ if child == schema::PULLEY || child == schema::CASE => {
+                    self.insert_list(&child, &entry, value.get_ref())?;
                     entry.content = Content::Table;
                 }
                 DeValue::Table(table) if schema::is_table(&child) => {
@@ -108,50 +111,77 @@ impl Document {
         Ok(())
     }
 
-    /// Inserts the pulleys of a list, each as a table under its name, or its number if it has none.
-    fn insert_pulleys(&mut self, entry: &Entry, list: &DeValue<'_>) -> Result<(), Finding> {
-        let no_list = |place: Range<usize>| {
-            Finding::new(
-                place,
-                "`pulley` must be a list of tables, one for each pulley in belt order",
-            )
-            .expected("[[pulley]]")
+    /// Inserts the tables of a list, pulleys or load cases, each under its name, or its number if it has none.
+    fn insert_list(
+        &mut self,
+        list: &str,
+        entry: &Entry,
+        value: &DeValue<'_>,
+    ) -> Result<(), Finding> {
+        let (what, order, key) = match list {
+            schema::PULLEY => ("pulley", " in belt order", "pulley.NAME.torque"),
+            _ => ("load case", "", "case.NAME.torque"),
         };
-        let DeValue::Array(pulleys) = list else {
+        let no_list = |place: Range<usize>| {
+            let message = format!("`{list}` must be a list of tables, one for each {what}{order}");
+            Finding::new(place, message).expected(format!("[[{list}]]"))
+        };
+        let DeValue::Array(tables) = value else {
             return Err(no_list(entry.key.clone()));
         };
-        for (index, pulley) in pulleys.iter().enumerate() {
-            let DeValue::Table(table) = pulley.get_ref() else {
-                return Err(no_list(pulley.span()));
+        if tables.is_empty() {
+            let message = format!("`{list}` is an empty list");
+            return Err(Finding::new(entry.place.clone(), message)
+                .expected(format!("[[{list}]] for each {what}")));
+        }
+        for (index, table) in tables.iter().enumerate() {
+            let DeValue::Table(values) = table.get_ref() else {
+                return Err(no_list(table.span()));
             };
-            let named = table.iter().find(|(key, _)| key.get_ref() == "name");
+            let named = values.iter().find(|(key, _)| key.get_ref() == "name");
             let (name, place) = match named.map(|(_, value)| (value.get_ref(), value.span())) {
                 Some((DeValue::String(name), place)) => (name.trim().to_owned(), place),
-                _ => ((index + 1).to_string(), pulley.span()),
+                _ => ((index + 1).to_string(), table.span()),
             };
             if name.is_empty() || name.contains(['.', '=', '*', '"']) {
-                let message = format!("`{name}` is no name for a pulley");
-                return Err(Finding::new(place, message).expected(
-                    "letters, digits, blanks, hyphens: the name stands in keys such as pulley.NAME.torque",
-                ));
+                let message = format!("`{name}` is no name for a {what}");
+                return Err(Finding::new(place, message).expected(format!(
+                    "letters, digits, blanks, hyphens: the name stands in keys such as {key}"
+                )));
             }
-            if self.pulleys.contains(&name) {
-                let message = format!("two pulleys have the name `{name}`");
-                return Err(
-                    Finding::new(place, message).expected("a name of its own for each pulley")
-                );
+            let names = self.names_mut(list);
+            if names.contains(&name) {
+                let message = format!("two {what}s have the name `{name}`");
+                return Err(Finding::new(place, message)
+                    .expected(format!("a name of its own for each {what}")));
             }
-            let path = schema::join(schema::PULLEY, &name);
-            self.insert_table(&path, table)?;
+            names.push(name.clone());
+            let path = schema::join(list, &name);
+            self.insert_table(&path, values)?;
             let entry = Entry {
-                key: pulley.span(),
-                place: pulley.span(),
+                key: table.span(),
+                place: table.span(),
                 content: Content::Table,
             };
             self.entries.insert(path, entry);
-            self.pulleys.push(name);
         }
         Ok(())
+    }
+
+    /// The names of a list, in order.
+    fn names_mut(&mut self, list: &str) -> &mut Vec<String> {
+        match list {
+            schema::PULLEY => &mut self.pulleys,
+            _ => &mut self.cases,
+        }
+    }
+
+    /// Puts an entry in the place of the one at `path`, and of those that state the same in another way.
+    pub(super) fn replace(&mut self, path: &str, entry: Entry) {
+        for other in schema::alternatives(path) {
+            self.entries.remove(&other);
+        }
+        self.entries.insert(path.to_owned(), entry);
     }
 }
 

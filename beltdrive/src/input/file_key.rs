@@ -36,6 +36,8 @@ impl FileKey {
             schema::Range::Any => true,
             schema::Range::Whole => false,
             schema::Range::Below(limit, _) => value > 0.0 && value < limit,
+            schema::Range::Share => value > 0.0 && value <= 1.0,
+            schema::Range::AtLeastOne => value >= 1.0,
         }
     }
 
@@ -48,7 +50,7 @@ impl FileKey {
     pub(crate) fn is_positive(&self) -> bool {
         matches!(
             self.range,
-            schema::Range::Positive | schema::Range::Below(..)
+            schema::Range::Positive | schema::Range::Below(..) | schema::Range::Share
         )
     }
 }
@@ -61,7 +63,7 @@ impl PartialEq for FileKey {
 }
 
 impl DriveFile {
-    /// The numbers that the file gives, but for whole ones.
+    /// The numbers that the file gives and that its steady state depends on, but for whole ones.
     pub fn keys(&self) -> Vec<FileKey> {
         let entries = self.document.entries.iter();
         entries
@@ -124,6 +126,9 @@ impl DriveFile {
         }
         let paths = || keys.iter().map(|key| key.path.as_str());
         let message = match schema::rule(path) {
+            Some(_) if schema::is_of_service(path) => {
+                format!("`{path}` does not change the steady state")
+            }
             Some(rule) if rule.is_whole() => {
                 format!("`{path}` is a whole number and does not vary")
             }
@@ -148,12 +153,12 @@ impl Argument<'_> {
     }
 }
 
-/// The key of the number at a path, unless it is a whole one: that does not vary.
+/// The key of the number at a path, unless it is a whole one, which does not vary, or does not change the steady state.
 fn key(path: &str) -> Option<FileKey> {
     let QuantityRule {
         dimension, range, ..
     } = schema::quantity_rule(path)?;
-    if let schema::Range::Whole = range {
+    if matches!(range, schema::Range::Whole) || schema::is_of_service(path) {
         return None;
     }
     Some(FileKey {

@@ -34,6 +34,7 @@ mod overrides;
 mod quantity;
 mod schema;
 mod section;
+mod service;
 mod source;
 pub(crate) mod spelling;
 mod tensioner;

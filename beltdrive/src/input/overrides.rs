@@ -6,6 +6,7 @@ use super::{
     document::{Content, Document, Entry},
     schema, spelling,
 };
+use std::ops::Range;
 
 /// Applies the override `text`, which starts at byte `start` of the source.
 ///
@@ -37,19 +38,26 @@ pub(super) fn apply(document: &mut Document, text: &str, start: usize) -> Result
         return Ok(());
     }
 
-    if let Some(rest) = path.strip_prefix("pulley.") {
+    let lists = [
+        (schema::PULLEY, "pulley", &document.pulleys),
+        (schema::CASE, "load case", &document.cases),
+    ];
+    for (list, what, names) in lists {
+        let rest = path
+            .strip_prefix(list)
+            .and_then(|rest| rest.strip_prefix('.'));
+        let Some(rest) = rest else {
+            continue;
+        };
         let (name, _) = rest.split_once('.').unwrap_or((rest, ""));
-        if !document.pulleys.iter().any(|pulley| pulley == name) {
-            let pulleys: Vec<_> = document.pulleys.iter().map(String::as_str).collect();
-            let start = path_start + "pulley.".len();
-            let message = format!("there is no pulley `{name}`");
-            let finding = Finding::new(start..start + name.len(), message).did_you_mean(
-                spelling::nearest(name, pulleys.iter().map(|name| (name, name))),
-            );
-            return Err(match pulleys.is_empty() {
-                true => finding.help("the drive file has no [[pulley]]"),
-                false => finding.expected(check::one_of(&pulleys)),
-            });
+        if !names.iter().any(|known| known == name) {
+            let start = path_start + list.len() + 1;
+            return Err(unknown(
+                list,
+                what,
+                names,
+                (name, start..start + name.len()),
+            ));
         }
     }
     // The tables on the way, unless the file has them.
@@ -64,9 +72,6 @@ pub(super) fn apply(document: &mut Document, text: &str, start: usize) -> Result
         document.entries.entry(table.to_owned()).or_insert(entry);
     }
 
-    for other in schema::alternatives(path) {
-        document.entries.remove(&other);
-    }
     let (_, name) = schema::split(path);
     let path_end = path_start + path.len();
     let place = value_start + value.len() - value.trim_start().len();
@@ -75,8 +80,24 @@ pub(super) fn apply(document: &mut Document, text: &str, start: usize) -> Result
         place: place..place + value.trim().len(),
         content: Content::Text(unquoted(value.trim()).to_owned()),
     };
-    document.entries.insert(path.to_owned(), entry);
+    document.replace(path, entry);
     Ok(())
+}
+
+/// The finding that a list of the drive file has no table of a name, which stands at a place.
+pub(super) fn unknown(
+    list: &str,
+    what: &str,
+    names: &[String],
+    (name, place): (&str, Range<usize>),
+) -> Finding {
+    let names: Vec<_> = names.iter().map(String::as_str).collect();
+    let near = spelling::nearest(name, names.iter().map(|name| (name, name)));
+    let finding = Finding::new(place, format!("there is no {what} `{name}`")).did_you_mean(near);
+    match names.is_empty() {
+        true => finding.help(format!("the drive file has no [[{list}]]")),
+        false => finding.expected(check::one_of(&names)),
+    }
 }
 
 /// Advice on how to do without the entry at `path`.

@@ -59,6 +59,10 @@ pub(super) enum Range {
     Whole,
     /// Positive and below a number, in SI units and in words.
     Below(f64, &'static str),
+    /// Positive and at most 1.
+    Share,
+    /// 1 or more.
+    AtLeastOne,
 }
 
 /// The tension of the slack span of a drive, stated in one of two ways.
@@ -76,7 +80,7 @@ pub(super) const CLOSURE: [&str; 4] = [
 ];
 
 /// Entries of which a drive file has at most one, because they state the same.
-const ALTERNATIVES: [&[&str]; 10] = [
+const ALTERNATIVES: [&[&str]; 12] = [
     &SLACK,
     &TIGHT,
     &EFFORT,
@@ -85,6 +89,8 @@ const ALTERNATIVES: [&[&str]; 10] = [
     &["pulleys.driven.radius", "pulleys.driven.diameter"],
     &["pulley.*.radius", "pulley.*.diameter"],
     &["pulley.*.torque", "pulley.*.power"],
+    &["case.*.torque", "case.*.power"],
+    &["case.*.pulley.*.torque", "case.*.pulley.*.power"],
     &["tensioner.arm.free_angle", "tensioner.arm.preload"],
     &["tensioner.slide.free_position", "tensioner.slide.preload"],
 ];
@@ -95,6 +101,10 @@ pub(super) const TORQUE: &str = "load.driven_torque";
 pub(super) const CALIBRATED: &str = "calibration.free";
 /// The list of pulleys.
 pub(super) const PULLEY: &str = "pulley";
+/// The list of load cases.
+pub(super) const CASE: &str = "case";
+/// Tables of the service of a drive, which do not change its steady states.
+const SERVICE: [&str; 3] = [CASE, "requirements", "losses"];
 /// How the normal force follows from the tension of a flat belt.
 pub(super) const NORMAL_FORCE: &str = "model.normal_force";
 
@@ -179,11 +189,20 @@ pub(super) fn quantity_rule(path: &str) -> Option<QuantityRule> {
 /// The other ways to state what the entry at `path` states.
 pub(super) fn alternatives(path: &str) -> Vec<String> {
     let is_of = |patterns: &&&[&str]| patterns.iter().any(|pattern| matches(pattern, path));
-    let (_, name) = path.split_once('.').unwrap_or_default();
-    let (pulley, _) = name.split_once('.').unwrap_or_default();
     let patterns = ALTERNATIVES.iter().find(is_of).copied().unwrap_or_default();
     let others = patterns.iter().filter(|pattern| !matches(pattern, path));
-    others.map(|pattern| pattern.replace('*', pulley)).collect()
+    let filled = |pattern: &&str| {
+        let names = pattern.split('.').zip(path.split('.'));
+        let names = names.map(|(wanted, name)| if wanted == "*" { name } else { wanted });
+        names.collect::<Vec<_>>().join(".")
+    };
+    others.map(filled).collect()
+}
+
+/// Whether the entry at `path` is one of the service of a drive, which does not change its steady states.
+pub(super) fn is_of_service(path: &str) -> bool {
+    let (table, _) = path.split_once('.').unwrap_or((path, ""));
+    SERVICE.contains(&table)
 }
 
 /// Whether `path` is a table; the empty path is the top level.
@@ -201,16 +220,15 @@ pub(super) fn pair(table: &str) -> Option<[&'static str; 2]> {
 
 /// A table as its header in a drive file names it.
 pub(super) fn header(table: &str) -> String {
-    match table
-        .strip_prefix(PULLEY)
-        .and_then(|rest| rest.strip_prefix('.'))
-    {
-        Some(pulley) => match pulley.split_once('.') {
-            None => format!("[[pulley]] `{pulley}`"),
-            Some((pulley, rest)) => format!("`{rest}` of [[pulley]] `{pulley}`"),
-        },
-        None => format!("[{table}]"),
-    }
+    let of_list = |list: &str| {
+        let rest = table.strip_prefix(list)?.strip_prefix('.')?;
+        Some(match rest.split_once('.') {
+            None => format!("[[{list}]] `{rest}`"),
+            Some((name, rest)) => format!("`{rest}` of [[{list}]] `{name}`"),
+        })
+    };
+    let named = [PULLEY, CASE].into_iter().find_map(of_list);
+    named.unwrap_or_else(|| format!("[{table}]"))
 }
 
 /// The names that may stand in a table, in order: keys and tables.
@@ -266,10 +284,12 @@ pub(super) fn nearest(path: &str) -> Option<&'static str> {
 }
 
 /// The path of the entry `name` of a table. A name that is no bare TOML key keeps its quotes, so
-/// that its points do not part tables; that of a pulley has none.
+/// that its points do not part tables; that of a pulley or of a load case has none.
 pub(super) fn join(table: &str, name: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
-    let name = match table == PULLEY || name.chars().all(is_bare) && !name.is_empty() {
+    let is_named = [PULLEY, CASE, "case.*.pulley"].iter();
+    let is_named = { is_named }.any(|list| matches(list, table));
+    let name = match is_named || name.chars().all(is_bare) && !name.is_empty() {
         true => name.to_owned(),
         false => format!("{name:?}"),
     };
@@ -333,6 +353,10 @@ mod tests {
             Some("pulley.*.torque")
         );
         assert_eq!(alternatives("pulley.fan.torque"), ["pulley.fan.power"]);
+        assert_eq!(
+            alternatives("case.full load.pulley.fan.power"),
+            ["case.full load.pulley.fan.torque"]
+        );
         assert_eq!(alternatives(TIGHT[0]), [TIGHT[1]]);
         assert!(alternatives("belt.type").is_empty());
         let top = [
@@ -347,6 +371,9 @@ mod tests {
             "load",
             "model",
             "calibration",
+            "case",
+            "requirements",
+            "losses",
         ];
         assert_eq!(names(""), top);
     }

@@ -4,9 +4,9 @@ use super::{
     check,
     diagnostic::Finding,
     document::{Document, Entry},
+    overrides,
     schema::{self, Kind, Rule},
     source::Source,
-    spelling,
 };
 use std::{collections::BTreeMap, ops::Range};
 
@@ -58,13 +58,8 @@ impl<'d> Values<'d> {
         let pulleys = self.pulleys();
         let index = pulleys.iter().position(|pulley| pulley == name);
         index.ok_or_else(|| {
-            let names: Vec<_> = pulleys.iter().map(String::as_str).collect();
-            Finding::new(self.place(path), format!("there is no pulley `{name}`"))
-                .expected(check::one_of(&names))
-                .did_you_mean(spelling::nearest(
-                    name,
-                    names.iter().map(|name| (name, name)),
-                ))
+            let named = (name, self.place(path));
+            overrides::unknown(schema::PULLEY, "pulley", pulleys, named)
         })
     }
 

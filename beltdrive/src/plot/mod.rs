@@ -66,6 +66,21 @@ pub fn write_state(
     write(drawn.chain(profiles::figures(answer)), directory, metadata)
 }
 
+/// Writes the layouts of several answers to scale, as `case-1.svg` and so on by their numbers, into a directory, as
+/// [`write_state`] does.
+///
+/// # Errors
+/// As [`write_state`].
+pub fn write_layouts(
+    answers: &[(usize, Answer)],
+    directory: &Path,
+    metadata: Option<&str>,
+) -> Result<Vec<PathBuf>, Error> {
+    let figure =
+        |(number, answer): &(usize, Answer)| (format!("case-{number}.svg"), layout::figure(answer));
+    write(answers.iter().map(figure), directory, metadata)
+}
+
 /// Writes a figure of a name with the numbers in the rows of an answer, such as a branch or a curve of limits,
 /// into a directory, as [`write_state`] does.
 ///
@@ -117,8 +132,8 @@ pub fn write_calibration(
     )
 }
 
-fn write(
-    figures: impl Iterator<Item = (&'static str, String)>,
+fn write<N: AsRef<Path>>(
+    figures: impl Iterator<Item = (N, String)>,
     directory: &Path,
     metadata: Option<&str>,
 ) -> Result<Vec<PathBuf>, Error> {

@@ -8,6 +8,7 @@ mod as_loop;
 pub mod belt_loop;
 pub mod branch;
 pub mod calibration;
+pub mod check;
 mod errors;
 pub(crate) mod events;
 pub mod limit_curve;
@@ -68,6 +69,8 @@ pub enum Layout {
     Single,
     /// An array in JSON, and columns of a table.
     Columns,
+    /// As columns, and a row of CSV each.
+    Beside,
     /// An array in JSON, and rows of a table. Of many rows a table leaves some out, but none with a head.
     Rows,
     /// An entry of an object in JSON each, under its head, and columns of a table.

@@ -3,7 +3,8 @@
 use super::{Measure, Quantity, Subject, Value};
 use crate::{LeastSlip, Zone};
 
-/// What the errors of the numbers of a state are relative to.
+/// What the errors of the numbers of a state are relative to; by default they are none.
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Scale {
     /// Relative error of the state.
     pub(super) error: f64,
@@ -49,17 +50,32 @@ impl Scale {
     }
 
     /// A force that is a sum of tensions.
-    pub(super) fn force(&self, key: &'static str, label: &'static str, value: f64) -> Quantity {
+    pub(super) fn force(
+        &self,
+        key: &'static str,
+        label: &'static str,
+        value: impl Into<Option<f64>>,
+    ) -> Quantity {
         self.against(key, label, Measure::Force, value, self.tension)
     }
 
     /// A difference of two powers.
-    pub(super) fn power(&self, key: &'static str, label: &'static str, value: f64) -> Quantity {
+    pub(super) fn power(
+        &self,
+        key: &'static str,
+        label: &'static str,
+        value: impl Into<Option<f64>>,
+    ) -> Quantity {
         self.against(key, label, Measure::Power, value, self.power)
     }
 
     /// A loss of power.
-    pub(super) fn loss(&self, key: &'static str, label: &'static str, value: f64) -> Quantity {
+    pub(super) fn loss(
+        &self,
+        key: &'static str,
+        label: &'static str,
+        value: impl Into<Option<f64>>,
+    ) -> Quantity {
         self.against(key, label, Measure::Loss, value, self.power)
     }
 

@@ -11,7 +11,9 @@ pub fn csv(answer: &Answer) -> String {
     match along.next() {
         Some(first) => self::along(std::iter::once(first).chain(along)),
         None => {
-            let is_row = |group: &&Group| matches!(group.layout, Layout::Rows | Layout::Named);
+            let is_row = |group: &&Group| {
+                matches!(group.layout, Layout::Beside | Layout::Rows | Layout::Named)
+            };
             let points = answer.groups.iter().find(is_row);
             self::points(points.map_or(&[], |group| &group.subjects))
         }

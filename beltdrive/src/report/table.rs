@@ -50,7 +50,7 @@ fn blocks(group: &Group, units: UnitSystem) -> Vec<Vec<String>> {
             });
             vec![lines.collect()]
         }
-        Layout::Columns | Layout::Named => {
+        Layout::Columns | Layout::Beside | Layout::Named => {
             let beside = subjects.chunks(COLUMNS);
             beside.map(|subjects| columns(subjects, units)).collect()
         }

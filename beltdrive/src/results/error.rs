@@ -270,6 +270,36 @@ impl SolveError {
             _ => "not found",
         }
     }
+
+    /// Whether what was asked makes no sense, whatever the drive carries.
+    #[must_use]
+    pub fn is_of_statement(&self) -> bool {
+        matches!(
+            self,
+            Self::Statement { .. }
+                | Self::Layout(_)
+                | Self::NotModelled(_)
+                | Self::Backwards { .. }
+                | Self::Tolerance { .. }
+        )
+    }
+
+    /// Why there is no answer, in a sentence that also says whether there is no steady state at all or none was
+    /// found; of what [`Self::is_of_statement`], only what is wrong.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        match self {
+            _ if self.is_of_statement() => self.to_string(),
+            Self::NoSteadyState { .. }
+            | Self::TooSlack { .. }
+            | Self::NotConverged { .. }
+            | Self::NoLimit { .. }
+            | Self::Impossible(_)
+            | Self::Violated(_)
+            | Self::Stability { .. } => self.to_string(),
+            _ => format!("no steady state: {self}"),
+        }
+    }
 }
 
 /// By how much a load is beyond a limit, and the driven speed and the inclination at the driver's exit there.

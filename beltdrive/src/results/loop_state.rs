@@ -190,6 +190,8 @@ pub struct PulleyState {
     pub speed_loss: f64,
     /// Power lost in friction on this pulley, W.
     pub friction_loss: f64,
+    /// What that is lost in.
+    pub friction_parts: FrictionParts,
     /// Share of the contact that slips with Coulomb friction, `|ln(P_out/P_in)|`/(a R φ) with the traction P
     /// and the slip rate a of the convention (a R = μ but with `thesis`); below 1. `None` for V-belts.
     pub friction_utilisation: Option<f64>,
@@ -202,6 +204,20 @@ pub struct PulleyState {
     pub torque_margin: Option<f64>,
     /// The belt in its groove; `None` for flat belts and for pulleys on the back of a V-belt.
     pub groove: Option<GrooveState>,
+}
+
+/// What the power that friction takes on a pulley is lost in, W; the parts add up to the friction loss.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct FrictionParts {
+    /// Slip along the rim: in slip zones and, with creep-rate friction, in creep zones.
+    pub sliding: f64,
+    /// Slip along the faces of the groove towards the axis and outward, in slip zones: the belt wedges itself in
+    /// and is pulled out. 0 on flat belts and on the back of V-belts.
+    pub wedging: f64,
+    /// Friction below its limit, in elastic zones: the work that bends the bristles, or displaces the belt with
+    /// elastic/perfectly-plastic friction, and that is lost when the belt leaves the pulley (hysteresis).
+    pub elastic: f64,
 }
 
 /// A V-belt in the groove of a pulley.

@@ -228,10 +228,9 @@ impl<T: Real> Contact<T> {
         self.retarding * self.radius
     }
 
-    /// Power against friction per arc length, 2 (q · e) V.
-    pub(crate) fn friction_power_density(&self) -> T {
-        let [slip_t, slip_w] = self.slip;
-        (self.traction[0] * slip_t + self.traction[1] * slip_w) * self.speed * 2.0
+    /// Power against friction per arc length along the rim and across it, `2 q_t e_t V` and `2 q_w e_w V`.
+    pub(crate) fn friction_power_densities(&self) -> [T; 2] {
+        [0, 1].map(|axis| self.traction[axis] * self.slip[axis] * self.speed * 2.0)
     }
 
     /// Power stored in the transverse compression of the belt per arc length, k x tan β V dx/ds.
@@ -573,9 +572,9 @@ pub(super) mod tests {
             let c = Contact::new(&groove, Regime::Either, &state, OMEGA, FLOW);
             let mut rates = vec![0.0; state.len()];
             c.rates(&groove, &state, &mut rates);
-            let spent = c.torque_density() * OMEGA
-                + c.friction_power_density()
-                + c.transverse_power_density(&groove);
+            let [along, across] = c.friction_power_densities();
+            let spent =
+                c.torque_density() * OMEGA + (along + across) + c.transverse_power_density(&groove);
             assert!((c.speed * rates[TENSION] - spent).abs() < 1e-14);
         }
     }

@@ -28,6 +28,10 @@ pub(super) struct Integrals {
     pub(super) torque: f64,
     /// Power against friction.
     pub(super) friction: f64,
+    /// Of that, power against friction at its limit across the rim, in and out of the groove.
+    pub(super) wedging: f64,
+    /// Of that, power against friction below its limit.
+    pub(super) elastic: f64,
     /// Power gained from friction, where its traction is not against the slip.
     pub(super) gained: f64,
     /// Power into the transverse compression of the belt.
@@ -154,8 +158,13 @@ impl OnPulley<'_> {
         self.for_each_point(|stretch, _, weight, y| {
             let contact = self.contact(stretch.regime, y);
             sum.torque += weight * contact.torque_density();
-            let friction = weight * contact.friction_power_density();
+            let [along, across] = contact.friction_power_densities();
+            let friction = weight * (along + across);
             sum.friction += friction;
+            match self.is_elastic(stretch.regime, y) {
+                true => sum.elastic += friction,
+                false => sum.wedging += weight * across,
+            }
             // The traction of vector EPP friction may pull with the slip as it falls.
             if !matches!(self.groove.law, Law::Vector { .. }) {
                 sum.gained += (-friction).max(0.0);
@@ -275,6 +284,22 @@ impl OnPulley<'_> {
         slips
     }
 
+    /// Whether friction is below its limit at a place of a segment in a regime.
+    fn is_elastic(&self, regime: Regime, y: &[f64]) -> bool {
+        match (self.groove.law, regime) {
+            (_, Regime::Stick) => true,
+            (Law::Bristle { .. }, _) => {
+                let limit = SLIPPING_BRISTLES * self.groove.friction_coefficient;
+                y[LAW].hypot(y[LAW + 1]) < limit
+            }
+            (_, Regime::Elastic) => true,
+            (_, Regime::Slip) => false,
+            (_, Regime::Either) => {
+                limit_excess(self.groove, regime, y, self.omega, self.flow) < 0.0
+            }
+        }
+    }
+
     /// The zones of friction by swept angle, where each segment is of one kind.
     pub(super) fn friction_zones(&self) -> Vec<Zone> {
         let mut zones = Vec::new();
@@ -282,23 +307,20 @@ impl OnPulley<'_> {
         for stretch in &self.stretches {
             let segment = stretch.segment;
             let ends = [self.solution.start(segment), self.solution.end(segment)].map(angle);
-            let kind = match (self.groove.law, stretch.regime) {
-                (_, Regime::Stick) => ZoneKind::Adhesion,
-                (Law::Bristle { .. }, _) => {
-                    let limit = SLIPPING_BRISTLES * self.groove.friction_coefficient;
-                    let is_elastic = |y: &[f64]| y[LAW].hypot(y[LAW + 1]) < limit;
-                    self.sampled_zones(segment, is_elastic, &mut zones);
-                    continue;
-                }
-                (_, Regime::Elastic) => ZoneKind::Elastic,
-                (_, Regime::Slip) => ZoneKind::Slip,
-                (_, Regime::Either) => {
-                    let is_elastic = |y: &[f64]| {
-                        limit_excess(self.groove, Regime::Either, y, self.omega, self.flow) < 0.0
-                    };
-                    self.sampled_zones(segment, is_elastic, &mut zones);
-                    continue;
-                }
+            let is_sampled = match (self.groove.law, stretch.regime) {
+                (_, Regime::Stick) => false,
+                (Law::Bristle { .. }, _) | (_, Regime::Either) => true,
+                (_, Regime::Elastic | Regime::Slip) => false,
+            };
+            let is_elastic = |y: &[f64]| self.is_elastic(stretch.regime, y);
+            if is_sampled {
+                self.sampled_zones(segment, is_elastic, &mut zones);
+                continue;
+            }
+            let kind = match stretch.regime {
+                Regime::Stick => ZoneKind::Adhesion,
+                Regime::Elastic => ZoneKind::Elastic,
+                Regime::Slip | Regime::Either => ZoneKind::Slip,
             };
             extend(&mut zones, kind, ends[0], ends[1]);
         }

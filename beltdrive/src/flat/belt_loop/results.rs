@@ -3,14 +3,15 @@
 use super::rest::Rest;
 use super::running::RunningBelt;
 use crate::drive::layout::Layout;
+use crate::friction::rim::contact::Contact;
 use crate::friction::rim::profile::zones;
 use crate::friction::rim::zone::Friction;
 use crate::mechanics::span::{DEFLECTION, first_frequency, rest_frequency};
 use crate::mechanics::tensioner::Held;
 use crate::results::loop_state::{
-    Contacts, LoadLimit, LoopState, PulleyState, SpanState, TensionerState,
+    Contacts, FrictionParts, LoadLimit, LoopState, PulleyState, SpanState, TensionerState,
 };
-use crate::{Drive, Duty, SolveError};
+use crate::{Drive, Duty, SolveError, ZoneKind};
 
 /// A solved loop.
 pub(super) struct Found<'l> {
@@ -149,6 +150,7 @@ impl Found<'_> {
             friction_loss: speed / belt.stiffness
                 * changes[index]
                 * (before_reference + 0.5 * changes[index]),
+            friction_parts: friction_parts(contact, speed / belt.stiffness),
             friction_utilisation: Some(if changes[index] == 0.0 {
                 0.0
             } else {
@@ -175,6 +177,25 @@ impl Found<'_> {
             rest_constant: rest.constant,
         })
     }
+}
+
+/// What the friction loss of a contact consists of, W: c/D ∫ (P − `P_o`) dP over each zone, with c/D in m/s/N.
+fn friction_parts(contact: &Contact, per_traction: f64) -> FrictionParts {
+    let arc = contact.arc;
+    let before_reference = arc.sense * contact.strain * arc.belt.stiffness;
+    let starts = contact.zones.iter().map(|zone| zone.start.traction);
+    let ends = starts.skip(1).chain([arc.exit()]);
+    let mut parts = FrictionParts::default();
+    for (zone, end) in contact.zones.iter().zip(ends) {
+        let grown = zone.start.traction - arc.entry();
+        let change = end - zone.start.traction;
+        let lost = per_traction * change * (before_reference + grown + 0.5 * change);
+        match zone.friction.kind() {
+            ZoneKind::Elastic => parts.elastic += lost,
+            ZoneKind::Slip | ZoneKind::Adhesion | ZoneKind::Creep => parts.sliding += lost,
+        }
+    }
+    parts
 }
 
 /// The answer.

@@ -33,6 +33,10 @@ const fn quantity(path: &'static str, example: &'static str, dimension: Dimensio
     ranged(path, example, dimension, Range::Positive)
 }
 
+const fn share(path: &'static str, example: &'static str) -> Rule {
+    ranged(path, example, Dimension::NUMBER, Range::Share)
+}
+
 const fn any(path: &'static str, example: &'static str, dimension: Dimension) -> Rule {
     ranged(path, example, dimension, Range::Any)
 }
@@ -99,6 +103,7 @@ pub(super) static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
         laws.collect(),
         kinds.collect(),
         FROM_PULLEYS.to_vec(),
+        SERVICE.to_vec(),
     ]
     .concat()
 });
@@ -257,4 +262,39 @@ const FROM_PULLEYS: &[Rule] = &[
         example: "[\"friction.coefficient\"]",
         kind: Kind::Keys,
     },
+];
+
+/// The entries of the service of a drive, which do not change its steady states.
+const SERVICE: &[Rule] = &[
+    text("case.*.name", "\"full load\""),
+    share("case.*.share", "\"20 %\""),
+    any("case.*.torque", "\"45 N*m\"", Dimension::TORQUE),
+    any("case.*.power", "\"4 kW\"", Dimension::POWER),
+    quantity("case.*.speed", "\"1000 rpm\"", Dimension::ANGULAR_SPEED),
+    any("case.*.pulley.*.torque", "\"20 N*m\"", Dimension::TORQUE),
+    any("case.*.pulley.*.power", "\"2 kW\"", Dimension::POWER),
+    quantity(
+        "case.*.pulley.*.speed",
+        "\"1000 rpm\"",
+        Dimension::ANGULAR_SPEED,
+    ),
+    ranged(
+        "requirements.smallest_slip_margin",
+        "1.5",
+        Dimension::NUMBER,
+        Range::AtLeastOne,
+    ),
+    share("requirements.largest_speed_loss", "\"2 %\""),
+    quantity(
+        "requirements.largest_hub_load",
+        "\"800 N\"",
+        Dimension::FORCE,
+    ),
+    quantity(
+        "losses.bending_stiffness",
+        "\"0.5 N*m^2\"",
+        Dimension::BENDING_STIFFNESS,
+    ),
+    share("losses.bending_damping", "\"20 %\""),
+    quantity("losses.bearing_torque", "\"0.1 N*m\"", Dimension::TORQUE),
 ];

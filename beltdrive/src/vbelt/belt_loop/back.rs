@@ -55,6 +55,12 @@ impl Back {
         self.displacement() + usize::from(self.law.elastic().is_some())
     }
 
+    /// Whether friction of its law is elastic below its limit.
+    pub(super) fn is_elastic(&self) -> bool {
+        let is_of_bristles = matches!(self.law, Law::Bristle { .. } | Law::Vector { .. });
+        is_of_bristles || self.law.elastic().is_some()
+    }
+
     /// Index of the displacement u of EPP friction among the states.
     fn displacement(&self) -> usize {
         LAW + usize::from(matches!(self.law, Law::Bristle { .. } | Law::Vector { .. }))

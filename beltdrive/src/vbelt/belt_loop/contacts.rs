@@ -78,7 +78,11 @@ impl OnBack<'_> {
         points(&self.solved.solution, self.segment, |_, weight, y| {
             let at = self.at(y);
             sum.torque += weight * length * at.friction;
-            sum.friction += weight * length * at.friction * at.slip * at.speed;
+            let friction = weight * length * at.friction * at.slip * at.speed;
+            sum.friction += friction;
+            if self.back.is_elastic() && !self.slips(y) {
+                sum.elastic += friction;
+            }
         });
         sum
     }

@@ -14,7 +14,8 @@ use super::tensioner::{held, length_derivatives};
 use super::unknowns::FLOW;
 use crate::mechanics::span::{DEFLECTION, first_frequency, rest_frequency};
 use crate::results::loop_state::{
-    Contacts, GrooveState, LoopConvergence, LoopState, PulleyState, SpanState, TensionerState,
+    Contacts, FrictionParts, GrooveState, LoopConvergence, LoopState, PulleyState, SpanState,
+    TensionerState,
 };
 use crate::{Duty, Mount, Profile, SolveError, Zone, ZoneKind};
 
@@ -139,6 +140,7 @@ impl<'a> Seen<'a> {
             ),
             speed_loss: 1.0 - self.omegas[pulley],
             friction_loss: self.integrals[pulley].friction * units.power(),
+            friction_parts: self.friction_parts(pulley),
             friction_utilisation: None,
             torque_capacity: None,
             torque_margin: None,
@@ -150,6 +152,22 @@ impl<'a> Seen<'a> {
         match &search.drive.pulleys[pulley].mount {
             Mount::Fixed(centre) => *centre,
             Mount::Tensioner(tensioner) => tensioner.guide.centre(coordinate)[0],
+        }
+    }
+
+    fn friction_parts(&self, pulley: usize) -> FrictionParts {
+        let Integrals {
+            friction,
+            wedging,
+            elastic,
+            ..
+        } = self.integrals[pulley];
+        let [sliding, wedging, elastic] = [friction - wedging - elastic, wedging, elastic]
+            .map(|part| part * self.solved.problem.units.power());
+        FrictionParts {
+            sliding,
+            wedging,
+            elastic,
         }
     }
 
