@@ -344,6 +344,11 @@ fn faults_of_the_data_are_shown_where_they_stand() {
         &["did you mean `driven.angular_speed`?"],
     );
     refused(
+        "load.torque;colour\n1;2",
+        "1:1",
+        &["commas part the fields of a line"],
+    );
+    refused(
         "load.torque,colour\n1,2",
         "1:13",
         &["what can be measured: `driver.angular_speed`"],
@@ -402,6 +407,17 @@ fn faults_of_the_data_are_shown_where_they_stand() {
         "1:1",
         &["a standard deviation before its column"],
     );
+}
+
+#[test]
+fn rows_of_spreadsheets_are_read() {
+    let text = "\u{feff}\"load.torque [N*m]\", driven.angular_speed [rpm]\r\n10,1490\r\n 20 ,\r\n";
+    let data = Measurements::read("rows.csv", text, &bench(&[])).unwrap();
+    assert_eq!(data.rows.len(), 2);
+    let reading = data.rows[0].readings[0].unwrap();
+    assert!((reading.value - 1490.0 * std::f64::consts::PI / 30.0).abs() < 1e-12);
+    assert_eq!(data.rows[1].readings, [None]);
+    assert_eq!([data.rows[0].line, data.rows[1].line], [2, 3]);
 }
 
 #[test]

@@ -354,6 +354,11 @@ fn results_say_what_is_filled_in_from_a_section() {
     assert!(entries.iter().all(|entry| entry["key"] != "belt.height"));
     let table = String::from_utf8(run(&["solve", &file]).stdout).unwrap();
     assert!(table.contains("filled in from section"), "{table}");
+    assert!(!table.contains("WARNING"), "{table}");
+    let small = run(&["solve", &file, "--set", "pulleys.driver.diameter=130 mm"]);
+    let warning =
+        "WARNING: pulley `driver` has a diameter of 130 mm, the smallest for section SPB is 140 mm";
+    assert!(stdout(&small).contains(warning), "{}", stdout(&small));
     assert!(
         table.lines().all(|line| line.chars().count() <= 100),
         "{table}"

@@ -89,6 +89,21 @@ fn what_is_given_is_not_filled_in() {
 }
 
 #[test]
+fn pulleys_below_the_smallest_diameter_are_told() {
+    let too_small = |overrides: &[&str]| {
+        let file = read("spb-fan", overrides);
+        file.filled_in().unwrap().too_small.clone()
+    };
+    assert!(too_small(&[]).is_empty());
+    let found = too_small(&["pulleys.driver.radius=60 mm"]);
+    let [(name, diameter)] = &found[..] else {
+        panic!("{found:?}")
+    };
+    assert_eq!(name, "driver");
+    assert!((diameter - 0.12).abs() < 1e-12);
+}
+
+#[test]
 fn several_belts_carry_together() {
     let [one, three] = ["belt.ribs=1", "belt.ribs=3"].map(|ribs| drive("spb-fan", &[ribs]).belt);
     let stiffness = |kind| match kind {

@@ -123,7 +123,13 @@ fn lines(text: &str) -> impl Iterator<Item = (usize, Range<usize>)> {
     let lines = text.split_inclusive('\n').enumerate();
     lines.filter_map(move |(index, whole)| {
         let line = whole.trim_end_matches(['\n', '\r']);
-        let range = start..start + line.len();
+        // The mark that spreadsheets put before the first line.
+        let mark = match line.strip_prefix('\u{feff}') {
+            Some(rest) => line.len() - rest.len(),
+            None => 0,
+        };
+        let range = start + mark..start + line.len();
+        let line = &line[mark..];
         start += whole.len();
         let is_blank = line.trim().is_empty() || line.trim_start().starts_with('#');
         (!is_blank).then_some((index + 1, range))

@@ -248,13 +248,15 @@ pub(super) fn names(table: &str) -> Vec<&'static str> {
 }
 
 /// What engineers call entries, and the last name of what is meant.
-const SYNONYMS: [(&str, &str); 8] = [
+const SYNONYMS: [(&str, &str); 10] = [
     ("mu", "coefficient"),
     ("μ", "coefficient"),
     ("ea", "axial_stiffness"),
     ("beta", "half_angle"),
     ("groove_angle", "half_angle"),
     ("rpm", "speed"),
+    ("count", "ribs"),
+    ("profile", "section"),
     ("axis_distance", "centre_distance"),
     ("center_distance", "centre_distance"),
 ];

@@ -26,6 +26,8 @@ pub struct FilledIn {
     pub section: &'static Section,
     /// Each entry that is filled in, in the order of the schema.
     pub entries: Vec<FilledEntry>,
+    /// Pulleys that are smaller than the section allows: name, and diameter in m.
+    pub too_small: Vec<(String, f64)>,
 }
 
 /// An entry of a drive file that is filled in.
@@ -62,6 +64,7 @@ pub(super) fn fill(document: &mut Document, source: &Source) -> Option<FilledIn>
     filling.belt(section);
     Some(FilledIn {
         section,
+        too_small: filling.too_small(section),
         entries: filling.entries,
     })
 }
@@ -180,7 +183,22 @@ impl Filling<'_> {
         Some(of_belt.value)
     }
 
-    /// The tables of the pulleys with a groove, the driver first.
+    /// The pulleys inside the loop that are smaller than a section allows. Diameters may be off by rounding.
+    fn too_small(&self, section: &Section) -> Vec<(String, f64)> {
+        const ROUNDING: f64 = 1e-9;
+        let Some(smallest) = section.smallest_diameter else {
+            return Vec::new();
+        };
+        let tables = self.grooved_pulleys().into_iter();
+        let small = tables.filter_map(|table| {
+            let diameter = self.diameter(&table)?;
+            let (_, name) = schema::split(&table);
+            (diameter < smallest.value * (1.0 - ROUNDING)).then(|| (name.to_owned(), diameter))
+        });
+        small.collect()
+    }
+
+    /// The tables of the pulleys inside the loop, the driver first.
     fn grooved_pulleys(&self) -> Vec<String> {
         if !self.has(schema::PULLEY) {
             return ["driver", "driven"]

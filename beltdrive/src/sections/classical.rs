@@ -50,7 +50,7 @@ const fn section(row: Row) -> Section {
 
 const fn din(steps: &'static [GrooveStep]) -> GrooveRule {
     GrooveRule {
-        standard: "DIN 2217",
+        standard: "DIN/ISO",
         steps,
         sources: &[OptibeltGrooves],
     }

@@ -60,6 +60,7 @@ pub(super) fn column(
         let finding = Finding::new(at_name, format!("unknown column `{name}`"))
             .expected("a number of the drive file, a measured quantity, or one with ` sd` for its standard deviation");
         return Err(match nearest {
+            _ if name.contains([';', '\t']) => finding.help("commas part the fields of a line"),
             Some(_) => finding.did_you_mean(nearest),
             None => finding.help(format!(
                 "what can be measured: `{}`",

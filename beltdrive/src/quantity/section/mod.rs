@@ -5,6 +5,7 @@ mod sources;
 
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, UnitSystem};
 use crate::input::{FilledIn, FilledValue};
+use crate::quantity::precision::six_digits;
 use crate::sections::{Family, GrooveRule, Section};
 use data::{citations, data, figures};
 use serde_json::json;
@@ -107,6 +108,7 @@ pub fn told_in(mut answer: Answer, filled: &FilledIn) -> Answer {
         Quantity::word("name", "", section.name.to_owned()),
         Quantity::word("family", "", section.family.name().to_owned()),
         Quantity::json("filled_in", entries),
+        Quantity::json("too_small", small_pulleys(filled)),
     ];
     let words = filled.entries.iter().filter_map(|entry| match entry.value {
         FilledValue::Word(word) => Some(format!("{} = {word}", entry.path)),
@@ -129,6 +131,17 @@ pub fn told_in(mut answer: Answer, filled: &FilledIn) -> Answer {
     answer
         .groups
         .extend([Group::single("section", of_programs), shown, numbers]);
+    let millimetres = |length: f64| format!("{} mm", six_digits(1e3 * length));
+    let smallest = section.smallest_diameter.map_or(0.0, |figure| figure.value);
+    let small = filled.too_small.iter().map(|(name, diameter)| {
+        format!(
+            "pulley `{name}` has a diameter of {}, the smallest for section {} is {}: the belt will not last",
+            millimetres(*diameter),
+            section.name,
+            millimetres(smallest)
+        )
+    });
+    answer.remarks.extend(small);
     if !answer.notes.is_empty() {
         answer.notes.push(String::new());
     }
@@ -205,6 +218,14 @@ fn grooves(rule: &GrooveRule, notes: &mut Sources) -> Group {
         Subject::new("", quantities)
     });
     Group::new("", Layout::Rows, rows.collect())
+}
+
+/// The pulleys that are too small, for programs.
+fn small_pulleys(filled: &FilledIn) -> Vec<serde_json::Value> {
+    let pulleys = filled.too_small.iter();
+    pulleys
+        .map(|(name, diameter)| json!({ "pulley": name, "diameter_m": diameter }))
+        .collect()
 }
 
 /// The half angles of the grooves of a section by its first rule, rad.
