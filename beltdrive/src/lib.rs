@@ -108,6 +108,7 @@ mod friction;
 pub mod input;
 mod mechanics;
 mod model;
+pub mod page;
 pub mod plot;
 pub mod quantity;
 pub mod report;

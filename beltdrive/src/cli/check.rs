@@ -44,7 +44,7 @@ impl Check {
 }
 
 /// A failure where a case does not hold.
-fn outcome(checked: &CheckedService) -> Result<(), Failure> {
+pub(super) fn outcome(checked: &CheckedService) -> Result<(), Failure> {
     let failing = match (checked.failing(), checked.cases.len()) {
         (0, _) => return Ok(()),
         (_, 1) => "the drive fails".to_owned(),

@@ -14,9 +14,11 @@ mod output;
 mod parameter;
 mod progress;
 mod read;
+mod report;
 mod sections;
 mod solve;
 mod stability;
+mod stated;
 mod trace;
 mod verify;
 
@@ -48,6 +50,8 @@ enum Command {
     Solve(solve::Solve),
     /// Judge each load case of a drive by the requirements of its file
     Check(check::Check),
+    /// Write a page in HTML on a drive and its load cases, to hand in
+    Report(report::Report),
     /// Trace the branch of steady states over one entry of the drive file
     Trace(trace::Trace),
     /// Find the smallest and the largest load that a drive carries, and why the range ends there
@@ -73,6 +77,7 @@ pub(crate) fn run() -> ExitCode {
     let outcome = match Cli::parse().command {
         Command::Solve(command) => command.run(),
         Command::Check(command) => command.run(),
+        Command::Report(command) => command.run(),
         Command::Trace(command) => command.run(),
         Command::Limits(command) => command.run(),
         Command::Stability(command) => command.run(),

@@ -60,6 +60,24 @@ impl Origin {
         }
     }
 
+    /// The name and the text of the drive file; empty where none was read.
+    pub(super) fn drive_file(&self) -> (&str, &str) {
+        let read = self.drive_file.as_ref();
+        read.map_or(("", ""), |file| (&file.name, &file.text))
+    }
+
+    /// The command line, with quotes round what a shell would take apart.
+    pub(super) fn command_line(&self) -> String {
+        let quoted = self.command_line.iter().map(|argument| {
+            let is_plain = |letter: char| letter.is_alphanumeric() || "-_./=+:,@%".contains(letter);
+            match !argument.is_empty() && argument.chars().all(is_plain) {
+                true => argument.clone(),
+                false => format!("'{}'", argument.replace('\'', r"'\''")),
+            }
+        });
+        quoted.collect::<Vec<_>>().join(" ")
+    }
+
     /// The origin as JSON.
     pub(super) fn json(&self) -> String {
         serde_json::to_string_pretty(self).expect("texts")

@@ -62,8 +62,22 @@ pub fn write_state(
     directory: &Path,
     metadata: Option<&str>,
 ) -> Result<Vec<PathBuf>, Error> {
-    let drawn = std::iter::once((layout, layout::figure(answer)));
-    write(drawn.chain(profiles::figures(answer)), directory, metadata)
+    let drawn = state_figures(answer).into_iter();
+    let named = drawn
+        .enumerate()
+        .map(|(index, (name, figure))| match index {
+            0 => (layout, figure),
+            _ => (name, figure),
+        });
+    write(named, directory, metadata)
+}
+
+/// The figures of a steady state in SVG under their names, as [`write_state`] writes them: first `layout.svg`, the layout
+/// to scale.
+#[must_use]
+pub fn state_figures(answer: &Answer) -> Vec<(&'static str, String)> {
+    let drawn = std::iter::once(("layout.svg", layout::figure(answer)));
+    drawn.chain(profiles::figures(answer)).collect()
 }
 
 /// Writes the layouts of several answers to scale, as `case-1.svg` and so on by their numbers, into a directory, as

@@ -1,8 +1,10 @@
 //! Answers as text, each form written once: a table for people, JSON and CSV for programs, and a page in
 //! Markdown of published results.
 
+mod cells;
 mod csv;
 mod file;
+pub(crate) mod html;
 mod json;
 pub(crate) mod lines;
 mod markdown;

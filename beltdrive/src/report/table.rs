@@ -1,8 +1,8 @@
 //! An answer as a table for a terminal.
 
+use super::cells::{NONE, cell, shown, unit};
 use super::lines;
-use crate::quantity::precision::known;
-use crate::quantity::{self, Answer, Group, Layout, Quantity, Subject, UnitSystem, Value};
+use crate::quantity::{Answer, Group, Layout, Quantity, UnitSystem, Value};
 use std::iter;
 
 /// Columns beside each other, and their smallest width: with labels and units they take 100 characters.
@@ -18,9 +18,6 @@ const LABEL: usize = 26;
 
 /// Of more rows than these about this many are shown.
 const ROWS: usize = 26;
-
-/// Stands for a value that there is not.
-const NONE: &str = "–";
 
 /// An answer on lines of at most 100 columns, in the units of a system.
 ///
@@ -56,13 +53,6 @@ fn blocks(group: &Group, units: UnitSystem) -> Vec<Vec<String>> {
         }
         Layout::Rows => vec![rows(&subjects, units)],
     }
-}
-
-/// The head of a subject and its quantities with a label.
-fn shown(subject: &Subject) -> (&str, Vec<Quantity>) {
-    let mut quantities = quantity::flat(&subject.quantities);
-    quantities.retain(|quantity| !quantity.label.is_empty());
-    (&subject.head, quantities)
 }
 
 /// Subjects beside each other. What none of them has is left out.
@@ -189,36 +179,6 @@ impl Column {
             false => format!("{text:>width$}"),
         }
     }
-}
-
-/// A value as a cell.
-fn cell(quantity: &Quantity, units: UnitSystem) -> String {
-    let factor = quantity.measure.shown(units).factor;
-    match &quantity.value {
-        Value::Number(Some(value)) => minus(&number(value * factor, quantity, factor)),
-        Value::Count(count) => count.to_string(),
-        Value::Word(Some(word)) => word.clone(),
-        _ => NONE.to_owned(),
-    }
-}
-
-/// A number in the unit that is a factor from SI.
-fn number(value: f64, quantity: &Quantity, factor: f64) -> String {
-    let digits = quantity.digits;
-    match digits {
-        0..=2 if value == 0.0 => "0".to_owned(),
-        0..=2 => format!("{value:.*e}", usize::from(digits.saturating_sub(1))),
-        _ => known(value, quantity.error * factor.abs(), digits.into()),
-    }
-}
-
-/// A number with a minus sign in place of the hyphen.
-fn minus(number: &str) -> String {
-    number.replace('-', "−")
-}
-
-fn unit(quantity: &Quantity, units: UnitSystem) -> &'static str {
-    quantity.measure.shown(units).symbol
 }
 
 /// A text that fits a column and leaves a space before it.
