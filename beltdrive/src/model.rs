@@ -3,6 +3,7 @@
 
 use crate::belt_loop::LoopState;
 use crate::input::Key;
+use crate::results::loop_state::RestState;
 use crate::{
     BeltKind, Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState,
     flat, vbelt,
@@ -68,6 +69,9 @@ pub(crate) trait Model {
         belt_loop: &Drive,
         options: &SolveOptions,
     ) -> Result<LoopState, SolveError>;
+
+    /// The loop at rest, where the closure is one of it.
+    fn at_rest(&self, belt_loop: &Drive, options: &SolveOptions) -> Result<RestState, SolveError>;
 
     /// As [`crate::belt_loop::solve_with_margins`].
     fn solve_with_margins(

@@ -3,7 +3,7 @@
 use super::belt_loop::solve_with_margins;
 use super::losses::{Losses, losses};
 use crate::belt_loop::LoopState;
-use crate::{LoadCase, Requirements, Service, SolveError, SolveOptions};
+use crate::{GivenLosses, LoadCase, Requirements, Service, SolveError, SolveOptions};
 
 /// The load cases of a drive with their verdicts.
 #[derive(Clone, Debug)]
@@ -143,7 +143,7 @@ pub fn check(
     let mut cases = Vec::new();
     for case in &service.cases {
         progress(cases.len() as f64 / count, &case.name);
-        let outcome = match judged(case, service, options) {
+        let outcome = match judged(case, &service.given_losses, options) {
             Err(error) if error.is_of_statement() => return Err(error),
             outcome => outcome.map(Box::new),
         };
@@ -160,9 +160,9 @@ pub fn check(
 }
 
 /// The state of a load case.
-fn judged(
+pub(super) fn judged(
     case: &LoadCase,
-    service: &Service,
+    given: &GivenLosses,
     options: &SolveOptions,
 ) -> Result<CaseState, SolveError> {
     let state = solve_with_margins(&case.drive, options)?;
@@ -186,7 +186,7 @@ fn judged(
         },
         hub_load: largest(&state, |pulley| hub(pulley.hub_load), all),
         rest_hub_load: largest(&state, |pulley| hub(pulley.rest_hub_load), all),
-        losses: losses(&case.drive, &state, &service.given_losses),
+        losses: losses(&case.drive, &state, given),
         state,
     })
 }
@@ -252,7 +252,7 @@ mod tests {
         let file = DriveFile::read(example.name, example.text, &[]).unwrap();
         let service = file.service().unwrap();
         let options = SolveOptions::default();
-        let mut found = judged(&service.cases[0], &service, &options).unwrap();
+        let mut found = judged(&service.cases[0], &service.given_losses, &options).unwrap();
         let required = Requirements {
             smallest_slip_margin: Some(1.0),
             ..Requirements::default()

@@ -9,6 +9,7 @@ mod limit_curve;
 mod limits;
 pub(crate) mod losses;
 mod members;
+pub(crate) mod tension;
 mod trace;
 pub mod verify;
 

@@ -19,6 +19,7 @@ mod sections;
 mod solve;
 mod stability;
 mod stated;
+mod tension;
 mod trace;
 mod verify;
 
@@ -52,6 +53,8 @@ enum Command {
     Check(check::Check),
     /// Write a page in HTML on a drive and its load cases, to hand in
     Report(report::Report),
+    /// Find the smallest setup tension at which a drive holds in all load cases
+    Tension(tension::Tension),
     /// Trace the branch of steady states over one entry of the drive file
     Trace(trace::Trace),
     /// Find the smallest and the largest load that a drive carries, and why the range ends there
@@ -78,6 +81,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Solve(command) => command.run(),
         Command::Check(command) => command.run(),
         Command::Report(command) => command.run(),
+        Command::Tension(command) => command.run(),
         Command::Trace(command) => command.run(),
         Command::Limits(command) => command.run(),
         Command::Stability(command) => command.run(),

@@ -3,6 +3,7 @@
 use crate::belt_loop::LoopState;
 use crate::input::Key;
 use crate::model::{Model, Progress};
+use crate::results::loop_state::RestState;
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
 
 /// Flat belts: strings on the rims, in closed form.
@@ -66,6 +67,10 @@ impl Model for FlatBelts {
 
     fn solve_loop(&self, drive: &Drive, _: &SolveOptions) -> Result<LoopState, SolveError> {
         super::belt_loop::solve(drive)
+    }
+
+    fn at_rest(&self, drive: &Drive, _: &SolveOptions) -> Result<RestState, SolveError> {
+        super::belt_loop::at_rest(drive)
     }
 
     fn solve_with_margins(

@@ -21,6 +21,7 @@ mod scalars;
 mod scale;
 pub mod section;
 pub mod stability;
+pub mod tension;
 pub mod two_pulleys;
 pub(crate) mod value;
 pub mod verification;

@@ -53,6 +53,17 @@ pub struct LoopState {
     pub(crate) contacts: Contacts,
 }
 
+/// A belt loop at rest: turned without torques, so that its tension is uniform.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RestState {
+    /// Belt tension, N.
+    pub(crate) tension: f64,
+    /// Length of the unstretched belt, m.
+    pub(crate) unstretched_length: f64,
+    /// Coordinate of the tensioner, rad or m; without one it means nothing.
+    pub(crate) coordinate: f64,
+}
+
 /// What the profiles of a belt on its pulleys follow from.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Contacts {

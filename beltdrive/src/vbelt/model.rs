@@ -3,6 +3,7 @@
 use crate::belt_loop::LoopState;
 use crate::input::Key;
 use crate::model::{Model, Progress};
+use crate::results::loop_state::RestState;
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
 
 /// V-belts: strings that sink into the grooves, as boundary value problems.
@@ -67,6 +68,10 @@ impl Model for VBelts {
 
     fn solve_loop(&self, drive: &Drive, options: &SolveOptions) -> Result<LoopState, SolveError> {
         super::belt_loop::solve(drive, options.tolerance)
+    }
+
+    fn at_rest(&self, drive: &Drive, options: &SolveOptions) -> Result<RestState, SolveError> {
+        super::belt_loop::at_rest(drive, options.tolerance)
     }
 
     fn solve_with_margins(

@@ -27,4 +27,4 @@ mod state;
 mod tensioner;
 mod unknowns;
 
-pub(crate) use solve::{solve, solve_with_margins};
+pub(crate) use solve::{at_rest, solve, solve_with_margins};

@@ -8,7 +8,7 @@ use super::running::{Running, running};
 use super::state::state;
 use crate::mechanics::tensioner::within_travel;
 use crate::results::difficulty;
-use crate::results::loop_state::LoopState;
+use crate::results::loop_state::{LoopState, RestState};
 use crate::{Closure, Drive, SolveError};
 
 /// The search for the steady state of a loop.
@@ -55,27 +55,43 @@ pub(crate) fn solve_with_margins(drive: &Drive, tolerance: f64) -> Result<LoopSt
     Ok(found)
 }
 
+/// The loop at rest, where the closure is one of it.
+pub(crate) fn at_rest(drive: &Drive, tolerance: f64) -> Result<RestState, SolveError> {
+    let mut search = Search::new(drive, tolerance);
+    let Err(known) = closed_by(drive.closure) else {
+        return Err(SolveError::NotFound {
+            what: "state at rest",
+        });
+    };
+    let start = drive.start_coordinate();
+    let (_, rest) = rest_near(&mut search, known, start, &drive.layout(start)?)?;
+    within_travel(drive, rest.coordinate)?;
+    Ok(RestState {
+        tension: rest.tension,
+        unstretched_length: rest.unstretched,
+        coordinate: rest.coordinate,
+    })
+}
+
+/// What the closure asks of the running belt, or else what it says of the belt at rest.
+fn closed_by(closure: Closure) -> Result<Target, Known> {
+    match closure {
+        Closure::UnstretchedLength(length) => Err(Known::Length(length)),
+        Closure::SetupTension(tension) => Err(Known::Tension(tension)),
+        Closure::RestCoordinate(_) => Err(Known::Equilibrium),
+        Closure::SpanTension { span, tension } => Ok(Target::Tension { span, tension }),
+        Closure::SpanTractiveTension { span, tension } => Ok(Target::Tractive { span, tension }),
+        Closure::BothSpans(_) => unreachable!("two pulleys are solved as two pulleys"),
+    }
+}
+
 impl<'l> Search<'l> {
     /// The loop at rest and running, in the order in which the closure gives them.
     fn search(&mut self) -> Result<Found<'l>, SolveError> {
         let drive = self.drive;
-        let start = match (drive.closure, drive.tensioner()) {
-            (Closure::RestCoordinate(coordinate), _) => coordinate,
-            (_, Some((_, tensioner))) => tensioner.start_coordinate,
-            (_, None) => 0.0,
-        };
+        let start = drive.start_coordinate();
         let layout = drive.layout(start)?;
-        let target = match drive.closure {
-            Closure::UnstretchedLength(length) => Err(Known::Length(length)),
-            Closure::SetupTension(tension) => Err(Known::Tension(tension)),
-            Closure::RestCoordinate(_) => Err(Known::Equilibrium),
-            Closure::SpanTension { span, tension } => Ok(Target::Tension { span, tension }),
-            Closure::SpanTractiveTension { span, tension } => {
-                Ok(Target::Tractive { span, tension })
-            }
-            Closure::BothSpans(_) => unreachable!("two pulleys are solved as two pulleys"),
-        };
-        let target = match target {
+        let target = match closed_by(drive.closure) {
             Ok(target) => target,
             Err(known) => {
                 let (at_rest, rest) = rest_near(self, known, start, &layout)?;
