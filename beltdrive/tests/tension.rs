@@ -82,8 +82,8 @@ fn check_finds_the_asked_margin_on_flat_belts() {
                     panic!("a torque")
                 };
                 set.extend([
-                    "load.slack_tractive_tension=".to_owned(),
-                    "load.tight_tractive_tension=".to_owned(),
+                    "load.slack_tension=".to_owned(),
+                    "load.tight_tension=".to_owned(),
                     format!("load.torque={torque:?}"),
                 ]);
             }

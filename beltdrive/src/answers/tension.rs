@@ -1,10 +1,12 @@
 //! How tight to set up a drive: the smallest tension at which it holds in all of its load cases.
 
+mod question;
 mod search;
 mod setting;
 mod start;
 mod travel;
 
+pub use question::SetupQuestion;
 pub use setting::{Set, Setting};
 pub use travel::Travel;
 
@@ -13,18 +15,6 @@ use crate::model::model;
 use crate::{BeltKind, Closure, Drive, LoadCase, Mount, Service, SolveError, SolveOptions};
 use search::{Judged, Search};
 use std::borrow::Cow;
-
-/// What is asked of a setup.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SetupQuestion {
-    /// The smallest factor on all torques at which a pulley may slip grossly, in every load case; at least 1.
-    pub slip_margin: f64,
-    /// By which share of its unstretched length the belt grows in service; at least 0, below 1.
-    pub elongation: f64,
-    /// Index of the pulley whose centre is moved to tension the belt; without one, the driver where there are
-    /// two pulleys.
-    pub moved: Option<usize>,
-}
 
 /// The smallest setup tension of a drive, and what follows from it.
 #[derive(Clone, Debug)]
@@ -36,8 +26,7 @@ pub struct Setup {
     pub setting: Set,
     /// Belt tension at rest, N.
     pub tension: f64,
-    /// Largest relative error of the tension: the slip margin that decides is larger than asked by this at most,
-    /// relative.
+    /// Relative accuracy: the setting is larger than the smallest one by about this at most.
     pub accuracy: f64,
     /// Length of the unstretched belt that has this tension, m.
     pub unstretched_length: f64,
@@ -113,7 +102,7 @@ pub fn tension(
     options: &SolveOptions,
     progress: &mut dyn FnMut(f64, &str),
 ) -> Result<Setup, SolveError> {
-    in_range(question)?;
+    question::in_range(question)?;
     progress(0.0, "tension");
     let mut cases = service.cases.clone();
     for case in &mut cases {
@@ -205,25 +194,6 @@ pub fn tension(
         travel: travel::travel(here, question, rest.unstretched_length)?,
         checked,
     })
-}
-
-/// Whether what is asked is in range.
-fn in_range(question: SetupQuestion) -> Result<(), SolveError> {
-    let wrong = |subject: &str, problem: &'static str| {
-        Err(SolveError::Statement {
-            subject: subject.to_owned(),
-            problem: Cow::Borrowed(problem),
-        })
-    };
-    match question {
-        SetupQuestion { slip_margin, .. } if !(slip_margin >= 1.0 && slip_margin.is_finite()) => {
-            wrong("slip margin", "must be at least 1")
-        }
-        SetupQuestion { elongation, .. } if !(0.0..1.0).contains(&elongation) => {
-            wrong("elongation", "must be at least 0 and below 1")
-        }
-        _ => Ok(()),
-    }
 }
 
 /// How accurately a margin is met, relative: a limit of a V-belt is found on states of a tolerance of 1e-4 at

@@ -29,8 +29,7 @@ Exit status:
 pub(super) struct Tension {
     #[command(flatten)]
     common: Common,
-    /// Smallest factor on all torques at which a pulley may slip, at least 1, in place of
-    /// requirements.smallest_slip_margin
+    /// Smallest factor on all torques at which a pulley may slip, at least 1, in place of that of the file
     #[arg(long, value_name = "X", value_parser = margin)]
     margin: Option<f64>,
     /// Share of its length by which the belt grows in service

@@ -38,14 +38,14 @@ pub fn answer(found: &Setup) -> Answer {
     ];
     groups.extend(travel(found, first));
     groups.push(Group::new(
-        "spans",
-        Layout::Rows,
-        spans(found, first, &cases),
-    ));
-    groups.push(Group::new(
         "cases",
         Layout::Beside,
         cases.iter().map(|&case| of_case(case)).collect(),
+    ));
+    groups.push(Group::new(
+        "spans",
+        Layout::Rows,
+        spans(found, first, &cases),
     ));
     groups.push(Group::new("friction", Layout::Columns, friction(found)));
     groups.push(Group::single("elongation", elongation(found)));
