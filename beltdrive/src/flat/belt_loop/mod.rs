@@ -12,5 +12,4 @@ mod results;
 mod running;
 mod solve;
 
-pub(crate) use rest::at_rest;
 pub(crate) use solve::solve;
