@@ -122,7 +122,9 @@ pub use answers::check::{
 };
 pub use answers::drive::{limit_curve, limits, solve, solve_from, stability, trace};
 pub use answers::losses::Losses;
-pub use answers::map::{MapAxis, MapState, OperatingMap, map};
+pub use answers::tension::{
+    Elongated, OtherFriction, Set, Setting, Setup, SetupQuestion, Travel, tension,
+};
 pub use answers::verify::{self, Verification, verify};
 pub use belt::{Belt, BeltKind, NormalForce, VBelt};
 pub use drive::layout::{Layout, LayoutError, PlacedPulley, Sense, Side, Span};

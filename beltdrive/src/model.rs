@@ -3,6 +3,7 @@
 
 use crate::belt_loop::LoopState;
 use crate::input::Key;
+use crate::results::loop_state::RestState;
 use crate::{
     BeltKind, Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState,
     flat, vbelt,
@@ -69,13 +70,8 @@ pub(crate) trait Model {
         options: &SolveOptions,
     ) -> Result<LoopState, SolveError>;
 
-    /// As [`Model::solve_loop`], fast from a neighbour, and the neighbour of the next one.
-    fn solve_loop_from(
-        &self,
-        belt_loop: &Drive,
-        neighbour: Option<&Neighbour>,
-        options: &SolveOptions,
-    ) -> Result<(LoopState, Neighbour), SolveError>;
+    /// The loop at rest, where the closure is one of it.
+    fn at_rest(&self, belt_loop: &Drive, options: &SolveOptions) -> Result<RestState, SolveError>;
 
     /// As [`crate::belt_loop::solve_with_margins`].
     fn solve_with_margins(
@@ -83,15 +79,6 @@ pub(crate) trait Model {
         belt_loop: &Drive,
         options: &SolveOptions,
     ) -> Result<LoopState, SolveError>;
-}
-
-/// A solved loop from which its neighbours are found.
-#[derive(Clone, Debug)]
-pub(crate) enum Neighbour {
-    /// In closed form there is nothing to begin with.
-    Flat,
-    /// The solution.
-    V(Box<vbelt::belt_loop::LoopNeighbour>),
 }
 
 /// The model of a kind of belt.

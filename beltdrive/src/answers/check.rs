@@ -3,7 +3,7 @@
 use super::belt_loop::solve_with_margins;
 use super::losses::{Losses, losses};
 use crate::belt_loop::LoopState;
-use crate::{Drive, GivenLosses, LoadCase, Requirements, Service, SolveError, SolveOptions};
+use crate::{GivenLosses, LoadCase, Requirements, Service, SolveError, SolveOptions};
 
 /// The load cases of a drive with their verdicts.
 #[derive(Clone, Debug)]
@@ -143,7 +143,7 @@ pub fn check(
     let mut cases = Vec::new();
     for case in &service.cases {
         progress(cases.len() as f64 / count, &case.name);
-        let outcome = match judged(case, service, options) {
+        let outcome = match judged(case, &service.given_losses, options) {
             Err(error) if error.is_of_statement() => return Err(error),
             outcome => outcome.map(Box::new),
         };
@@ -160,23 +160,18 @@ pub fn check(
 }
 
 /// The state of a load case.
-fn judged(
+pub(super) fn judged(
     case: &LoadCase,
-    service: &Service,
+    given: &GivenLosses,
     options: &SolveOptions,
 ) -> Result<CaseState, SolveError> {
     let state = solve_with_margins(&case.drive, options)?;
-    Ok(case_state(&case.drive, state, &service.given_losses))
-}
-
-/// What may be required of a state of a drive.
-pub(super) fn case_state(drive: &Drive, state: LoopState, given: &GivenLosses) -> CaseState {
     let hub = |[x, y]: [f64; 2]| x.hypot(y);
     let all = |_: usize| true;
     let has_torque = |pulley: usize| state.pulleys[pulley].torque != 0.0;
-    let is_driven = |pulley: usize| pulley != drive.driver() && has_torque(pulley);
+    let is_driven = |pulley: usize| pulley != case.drive.driver() && has_torque(pulley);
     let no_load = !(0..state.pulleys.len()).any(has_torque);
-    CaseState {
+    Ok(CaseState {
         slip_margin: match &state.load_limit {
             Some(limit) => SlipMargin::Factor(OnPulley {
                 value: limit.factor,
@@ -191,9 +186,9 @@ pub(super) fn case_state(drive: &Drive, state: LoopState, given: &GivenLosses) -
         },
         hub_load: largest(&state, |pulley| hub(pulley.hub_load), all),
         rest_hub_load: largest(&state, |pulley| hub(pulley.rest_hub_load), all),
-        losses: losses(drive, &state, given),
+        losses: losses(&case.drive, &state, given),
         state,
-    }
+    })
 }
 
 /// The largest value of the pulleys that count.
@@ -257,7 +252,7 @@ mod tests {
         let file = DriveFile::read(example.name, example.text, &[]).unwrap();
         let service = file.service().unwrap();
         let options = SolveOptions::default();
-        let mut found = judged(&service.cases[0], &service, &options).unwrap();
+        let mut found = judged(&service.cases[0], &service.given_losses, &options).unwrap();
         let required = Requirements {
             smallest_slip_margin: Some(1.0),
             ..Requirements::default()

@@ -9,7 +9,6 @@ mod examples;
 mod failure;
 mod limits;
 mod man;
-mod map;
 mod origin;
 mod output;
 mod parameter;
@@ -20,6 +19,7 @@ mod sections;
 mod solve;
 mod stability;
 mod stated;
+mod tension;
 mod trace;
 mod verify;
 
@@ -53,12 +53,12 @@ enum Command {
     Check(check::Check),
     /// Write a page in HTML on a drive and its load cases, to hand in
     Report(report::Report),
+    /// Find the smallest setup tension at which a drive holds in all load cases
+    Tension(tension::Tension),
     /// Trace the branch of steady states over one entry of the drive file
     Trace(trace::Trace),
     /// Find the smallest and the largest load that a drive carries, and why the range ends there
     Limits(limits::Limits),
-    /// Find the steady states over two numbers of the drive file, such as load and speed
-    Map(map::Map),
     /// Find out whether small axial motions of a flat belt grow, and from which load on
     Stability(stability::Command),
     /// Find numbers of the drive file, such as friction and stiffness, from measured rows
@@ -81,9 +81,9 @@ pub(crate) fn run() -> ExitCode {
         Command::Solve(command) => command.run(),
         Command::Check(command) => command.run(),
         Command::Report(command) => command.run(),
+        Command::Tension(command) => command.run(),
         Command::Trace(command) => command.run(),
         Command::Limits(command) => command.run(),
-        Command::Map(command) => command.run(),
         Command::Stability(command) => command.run(),
         Command::Calibrate(command) => command.run(),
         Command::Verify(command) => command.run(),

@@ -37,6 +37,27 @@ impl Argument<'_> {
         known.ok_or_else(|| self.diagnose(self.no_key(drive)))
     }
 
+    /// The index of the pulley of a drive with this name.
+    ///
+    /// # Errors
+    /// There is no such pulley.
+    pub fn pulley(&self, drive: &Drive) -> Result<usize, Diagnostic> {
+        let mut pulleys = drive.pulleys.iter();
+        let known = pulleys.position(|pulley| pulley.name == self.value);
+        known.ok_or_else(|| {
+            let names: Vec<_> = { drive.pulleys.iter() }
+                .map(|pulley| &*pulley.name)
+                .collect();
+            let near = spelling::nearest(self.value, names.iter().map(|name| (name, name)));
+            let message = format!("there is no pulley `{}`", self.value);
+            self.diagnose(
+                Finding::new(self.entry().place, message)
+                    .did_you_mean(near)
+                    .expected(check::one_of(&names)),
+            )
+        })
+    }
+
     /// The end of the range of an entry over which the drive is traced, in SI units. What the drive
     /// has for another entry that is `free`, because it is found for each value, does not count.
     ///

@@ -19,7 +19,7 @@ pub fn answer(checked: &CheckedService) -> Answer {
     let mut heading = belt_loop::heading(first);
     heading.extend(required(&checked.service.requirements));
     heading.push(String::new());
-    heading.extend(cases().flat_map(|case| verdict(case, cases().count())));
+    heading.extend(verdicts(checked));
     let remarks = cases().flat_map(|(stated, found)| {
         let warnings = found
             .outcome
@@ -109,6 +109,21 @@ fn limits(requirements: &Requirements) -> Vec<Quantity> {
     ]
 }
 
+/// The verdicts on all cases, in lines.
+pub(super) fn verdicts(checked: &CheckedService) -> Vec<String> {
+    let cases = checked.service.cases.iter().zip(&checked.cases);
+    let count = checked.cases.len();
+    cases.flat_map(|case| verdict(case, count)).collect()
+}
+
+/// Where the first pulley slips, if one does.
+pub(super) fn slips_at(found: &CaseState) -> Option<OnPulley> {
+    match found.slip_margin {
+        SlipMargin::Factor(margin) => Some(margin),
+        SlipMargin::NoLoad | SlipMargin::NotFound => None,
+    }
+}
+
 /// The verdict on a case, one of so many, in lines.
 fn verdict((stated, found): Case<'_>, count: usize) -> Vec<String> {
     let name = match count {
@@ -182,7 +197,7 @@ fn reason(failing: &Failing, drive: &Drive, state: &CaseState) -> String {
 }
 
 /// Relative error of a slip margin: that of a V-belt is found on states of a tolerance of 1e-4 at least.
-fn margin_error(drive: &Drive, scale: &Scale) -> f64 {
+pub(super) fn margin_error(drive: &Drive, scale: &Scale) -> f64 {
     match drive.belt.kind {
         crate::BeltKind::V(_) => scale.error.max(1e-4),
         crate::BeltKind::Flat { .. } => scale.error,
@@ -196,10 +211,7 @@ fn subject((stated, found): Case<'_>) -> Subject {
     let name =
         |found: Option<OnPulley>| found.map(|found| drive.pulleys[found.pulley].name.clone());
     let scale = state.map_or_else(Scale::default, |found| belt_loop::scale(&found.state));
-    let margin = state.and_then(|found| match found.slip_margin {
-        SlipMargin::Factor(margin) => Some(margin),
-        SlipMargin::NoLoad | SlipMargin::NotFound => None,
-    });
+    let margin = state.and_then(slips_at);
     let is_margin_known = state.map(|found| match found.slip_margin {
         SlipMargin::Factor(_) => "found",
         SlipMargin::NoLoad => "no load",

@@ -53,6 +53,17 @@ pub struct LoopState {
     pub(crate) contacts: Contacts,
 }
 
+/// A belt loop at rest: turned without torques, so that its tension is uniform.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RestState {
+    /// Belt tension, N.
+    pub(crate) tension: f64,
+    /// Length of the unstretched belt, m.
+    pub(crate) unstretched_length: f64,
+    /// Coordinate of the tensioner, rad or m; without one it means nothing.
+    pub(crate) coordinate: f64,
+}
+
 /// What the profiles of a belt on its pulleys follow from.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Contacts {
@@ -84,19 +95,7 @@ pub struct LoopConvergence {
     pub slip_normalisation_effect: f64,
 }
 
-/// Relative error of a loop that was solved in closed form: cases that were solved with 40 digits agree to
-/// 1.6e-13.
-const ROUNDING: f64 = 1e-12;
-
 impl LoopState {
-    /// Relative error of the state: the estimate of a V-belt, rounding of a flat belt.
-    pub(crate) fn relative_error(&self) -> f64 {
-        self.convergence.as_ref().map_or(ROUNDING, |convergence| {
-            let estimate = convergence.error_estimate;
-            estimate.max(convergence.slip_normalisation_effect)
-        })
-    }
-
     /// Remarks on the validity of this state of `drive`, which must be the one that was solved, with the names of
     /// its pulleys.
     pub fn warnings(&self, drive: &Drive) -> Vec<Warning<String>> {

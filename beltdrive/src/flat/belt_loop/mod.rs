@@ -12,4 +12,5 @@ mod results;
 mod running;
 mod solve;
 
+pub(crate) use rest::at_rest;
 pub(crate) use solve::solve;

@@ -1,7 +1,8 @@
 //! The belt at rest.
 
 use crate::drive::layout::Layout;
-use crate::mechanics::tensioner::{Held, Towards, equilibrium, length_derivatives};
+use crate::mechanics::tensioner::{Held, Towards, equilibrium, length_derivatives, within_travel};
+use crate::results::loop_state::RestState;
 use crate::{Closure, Drive, SolveError};
 
 /// The belt at rest: uniform tension, no friction.
@@ -14,6 +15,18 @@ pub(super) struct Rest {
     pub(super) tension: f64,
     /// Length `L_0` of the unstretched belt, m.
     pub(super) unstretched: f64,
+}
+
+/// The loop at rest, where the closure is one of it.
+pub(crate) fn at_rest(drive: &Drive) -> Result<RestState, SolveError> {
+    let start = drive.start_coordinate();
+    let rest = rest_of_closure(drive, (start, drive.layout(start)?))?;
+    within_travel(drive, rest.coordinate)?;
+    Ok(RestState {
+        tension: rest.tension,
+        unstretched_length: rest.unstretched,
+        coordinate: rest.coordinate,
+    })
 }
 
 /// The belt at rest where its length or its tension at rest is given.

@@ -10,6 +10,7 @@ use super::solve::Search;
 use super::unknowns::FLOW;
 use crate::SolveError;
 use crate::results::difficulty;
+use crate::results::loop_state::LoadLimit;
 use bvp::{Control, Family, Options, Problem, Scheme, Solution};
 use continuation::{Branch, Direction, Kind, Point};
 use std::f64::consts::FRAC_PI_2;
@@ -41,13 +42,13 @@ pub(super) enum Climbed {
 
 /// The largest load of a loop.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Top {
+pub(super) struct Top {
     /// The factor on all torques.
-    pub(crate) factor: f64,
+    pub(super) factor: f64,
     /// The pulley that slips, or where the belt overhangs.
-    pub(crate) pulley: usize,
+    pub(super) pulley: usize,
     /// Whether the belt overhangs itself there instead of slipping.
-    pub(crate) overhangs: bool,
+    pub(super) overhangs: bool,
 }
 
 impl Search<'_> {
@@ -56,7 +57,7 @@ impl Search<'_> {
     pub(super) fn load_limit(
         &mut self,
         from: Solved<LoopProblem>,
-    ) -> Result<Option<Top>, SolveError> {
+    ) -> Result<Option<LoadLimit>, SolveError> {
         let mut pulleys = self.drive.pulleys.iter();
         if pulleys.all(|pulley| pulley.duty.torque_at(1.0) == 0.0) {
             return Ok(None);
@@ -65,7 +66,9 @@ impl Search<'_> {
         while to < LARGEST_FACTOR {
             match self.climb(&here, to) {
                 Climbed::Reached(solved) => here = *solved,
-                Climbed::Limit(top, _) => return Ok(Some(top)),
+                Climbed::Limit(Top { factor, pulley, .. }, _) => {
+                    return Ok(Some(LoadLimit { factor, pulley }));
+                }
                 Climbed::Lost { reached, cause } => {
                     return Err(SolveError::Unreached { reached, cause });
                 }

@@ -27,5 +27,4 @@ mod state;
 mod tensioner;
 mod unknowns;
 
-pub(crate) use climb::Top;
-pub(crate) use solve::{LoopNeighbour, solve, solve_from, solve_with_margins};
+pub(crate) use solve::{at_rest, solve, solve_with_margins};
