@@ -126,6 +126,30 @@ fn requirements_are_judged_in_each_case() {
 }
 
 #[test]
+fn the_margin_is_that_of_torques_however_the_load_is_stated() {
+    for (example, law) in [("v-power", "bristle"), ("poly-v", "coulomb")] {
+        let law = format!("friction.law={law}");
+        let margin = |overrides: &[&str]| {
+            let found = checked(example, overrides, 1e-8);
+            let state = found.cases[0].outcome.as_ref().unwrap();
+            let SlipMargin::Factor(margin) = state.slip_margin else {
+                panic!("{:?}", state.slip_margin)
+            };
+            let torques = state.state.pulleys.iter().map(|pulley| pulley.torque);
+            (margin.value, torques.fold(0.0, f64::max))
+        };
+        let (by_power, torque) = margin(&[&law]);
+        let torque = format!("load.torque={torque:?}");
+        let (by_torque, _) = margin(&[&law, &torque]);
+        println!("{example}: {by_power} {by_torque}");
+        assert!(
+            (by_power / by_torque - 1.0).abs() < 1e-6,
+            "{by_power} {by_torque}"
+        );
+    }
+}
+
+#[test]
 fn a_case_without_a_state_fails_and_the_others_are_judged() {
     let too_much = "case.idle.pulley.steering.power=300 kW";
     let found = checked("serpentine-cases", &[too_much], 1e-6);

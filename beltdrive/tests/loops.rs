@@ -257,8 +257,9 @@ fn two_pulleys_have_the_keys_of_a_drive_and_those_of_a_loop() {
         "convergence",
     ];
     let of_loop = ["pulleys", "spans", "loop"];
+    // Of the torque: the power that it carries is 1.9153 times that of the file.
     let limit = &json(&["solve", &example("v-power")])["loop"]["load_factor_limit"];
-    assert!((limit.as_f64().unwrap() - 1.915_3).abs() < 1e-3, "{limit}");
+    assert!((limit.as_f64().unwrap() - 2.049_8).abs() < 1e-3, "{limit}");
     for name in ["kim2009-bristle", "flat-unequal", "poly-v", "v-power"] {
         let found = json(&["solve", &example(name)]);
         for key in drive.iter().chain(&of_loop) {

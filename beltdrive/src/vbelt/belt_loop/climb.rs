@@ -52,17 +52,19 @@ pub(super) struct Top {
 }
 
 impl Search<'_> {
-    /// How far all torques can be raised from a state, found by raising them; `None` if that is not at all, or
-    /// farther than anything that was tried.
+    /// How far all torques of a state can be raised, found by raising them from a rough solution of it; `None` if that
+    /// is not at all, or farther than anything that was tried.
     pub(super) fn load_limit(
         &mut self,
-        from: Solved<LoopProblem>,
+        state: &Solved<LoopProblem>,
+        rough: Solved<LoopProblem>,
     ) -> Result<Option<LoadLimit>, SolveError> {
         let mut pulleys = self.drive.pulleys.iter();
         if pulleys.all(|pulley| pulley.duty.torque_at(1.0) == 0.0) {
             return Ok(None);
         }
-        let (mut here, mut to) = (from, 2.0);
+        let problem = rough.problem.with_torques(state.solution.parameters());
+        let (mut here, mut to) = (Solved { problem, ..rough }, 2.0);
         while to < LARGEST_FACTOR {
             match self.climb(&here, to) {
                 Climbed::Reached(solved) => here = *solved,

@@ -109,6 +109,16 @@ impl LoopProblem {
         self
     }
 
+    /// The same loop with torques in place of powers: those of its state with these parameters.
+    pub(super) fn with_torques(mut self, p: &[f64]) -> Self {
+        for pulley in 0..self.loads.len() {
+            if let Load::Power(power) = self.loads[pulley] {
+                self.loads[pulley] = Load::Torque(power / self.omega(pulley, p));
+            }
+        }
+        self
+    }
+
     /// The same loop with the factor as its last parameter, and no condition for it: a curve of states.
     pub(super) fn with_unknown_factor(mut self) -> Self {
         self.factor = None;

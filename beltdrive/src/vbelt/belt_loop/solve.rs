@@ -51,7 +51,7 @@ pub(crate) fn solve_with_margins(drive: &Drive, tolerance: f64) -> Result<LoopSt
             .torque_margin
             .map(|margin| margin * pulley.torque.abs());
     }
-    found.load_limit = search.load_limit(rough).ok().flatten();
+    found.load_limit = search.load_limit(solved, rough).ok().flatten();
     Ok(found)
 }
 
