@@ -73,12 +73,29 @@ pub(crate) trait Model {
     /// The loop at rest, where the closure is one of it.
     fn at_rest(&self, belt_loop: &Drive, options: &SolveOptions) -> Result<RestState, SolveError>;
 
+    /// As [`Model::solve_loop`], fast from a neighbour, and the neighbour of the next one.
+    fn solve_loop_from(
+        &self,
+        belt_loop: &Drive,
+        neighbour: Option<&Neighbour>,
+        options: &SolveOptions,
+    ) -> Result<(LoopState, Neighbour), SolveError>;
+
     /// As [`crate::belt_loop::solve_with_margins`].
     fn solve_with_margins(
         &self,
         belt_loop: &Drive,
         options: &SolveOptions,
     ) -> Result<LoopState, SolveError>;
+}
+
+/// A solved loop from which its neighbours are found.
+#[derive(Clone, Debug)]
+pub(crate) enum Neighbour {
+    /// In closed form there is nothing to begin with.
+    Flat,
+    /// The solution.
+    V(Box<vbelt::belt_loop::LoopNeighbour>),
 }
 
 /// The model of a kind of belt.

@@ -3,7 +3,7 @@
 use super::belt_loop::solve_with_margins;
 use super::losses::{Losses, losses};
 use crate::belt_loop::LoopState;
-use crate::{GivenLosses, LoadCase, Requirements, Service, SolveError, SolveOptions};
+use crate::{Drive, GivenLosses, LoadCase, Requirements, Service, SolveError, SolveOptions};
 
 /// The load cases of a drive with their verdicts.
 #[derive(Clone, Debug)]
@@ -166,12 +166,17 @@ pub(super) fn judged(
     options: &SolveOptions,
 ) -> Result<CaseState, SolveError> {
     let state = solve_with_margins(&case.drive, options)?;
+    Ok(case_state(&case.drive, state, given))
+}
+
+/// What may be required of a state of a drive.
+pub(super) fn case_state(drive: &Drive, state: LoopState, given: &GivenLosses) -> CaseState {
     let hub = |[x, y]: [f64; 2]| x.hypot(y);
     let all = |_: usize| true;
     let has_torque = |pulley: usize| state.pulleys[pulley].torque != 0.0;
-    let is_driven = |pulley: usize| pulley != case.drive.driver() && has_torque(pulley);
+    let is_driven = |pulley: usize| pulley != drive.driver() && has_torque(pulley);
     let no_load = !(0..state.pulleys.len()).any(has_torque);
-    Ok(CaseState {
+    CaseState {
         slip_margin: match &state.load_limit {
             Some(limit) => SlipMargin::Factor(OnPulley {
                 value: limit.factor,
@@ -186,9 +191,9 @@ pub(super) fn judged(
         },
         hub_load: largest(&state, |pulley| hub(pulley.hub_load), all),
         rest_hub_load: largest(&state, |pulley| hub(pulley.rest_hub_load), all),
-        losses: losses(&case.drive, &state, given),
+        losses: losses(drive, &state, given),
         state,
-    })
+    }
 }
 
 /// The largest value of the pulleys that count.

@@ -94,11 +94,7 @@ impl<'f> Members<'f> {
             return Ok(drive);
         };
         let mut drive = closed_once(&drive, self.options)?.into_owned();
-        for pulley in &mut drive.pulleys {
-            if let Duty::Torque(load) | Duty::Power(load) = &mut pulley.duty {
-                *load *= value;
-            }
-        }
+        load(&mut drive, value);
         Ok(drive)
     }
 
@@ -145,6 +141,15 @@ impl<'f> Members<'f> {
         match self.varied {
             Varied::Key(key) => self.file.value(key).unwrap_or(f64::NAN),
             Varied::LoadFactor => 1.0,
+        }
+    }
+}
+
+/// Multiplies the torques and powers of all pulleys.
+pub(super) fn load(drive: &mut Drive, factor: f64) {
+    for pulley in &mut drive.pulleys {
+        if let Duty::Torque(load) | Duty::Power(load) = &mut pulley.duty {
+            *load *= factor;
         }
     }
 }

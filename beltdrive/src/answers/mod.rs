@@ -8,6 +8,7 @@ pub(crate) mod drive;
 mod limit_curve;
 mod limits;
 pub(crate) mod losses;
+pub(crate) mod map;
 mod members;
 pub(crate) mod tension;
 mod trace;

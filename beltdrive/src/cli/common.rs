@@ -8,6 +8,7 @@ use super::stated::Stated;
 use beltdrive::SolveOptions;
 use beltdrive::input::DriveFile;
 use clap::Args;
+use std::path::Path;
 
 /// A drive, and where the results go.
 #[derive(Args)]
@@ -21,7 +22,15 @@ pub(super) struct Common {
 impl Common {
     /// The drive file, once it is clear that its results have somewhere to go, and their origin.
     pub(super) fn file(&self) -> Result<(DriveFile, Origin), Failure> {
-        self.output.check(self.stated.path())?;
+        self.file_beside(&[])
+    }
+
+    /// As [`Common::file`], of a command with other options that write files.
+    pub(super) fn file_beside(
+        &self,
+        others: &[(&'static str, Option<&Path>)],
+    ) -> Result<(DriveFile, Origin), Failure> {
+        self.output.check(self.stated.path(), others)?;
         self.stated.read()
     }
 
@@ -31,7 +40,10 @@ impl Common {
     }
 
     /// Does long work that shows its progress.
-    pub(super) fn with_progress<T>(&self, work: impl FnOnce(&mut dyn FnMut(f64, &str)) -> T) -> T {
+    pub(super) fn with_progress<T>(
+        &self,
+        work: impl FnOnce(&mut (dyn FnMut(f64, &str) + Send)) -> T,
+    ) -> T {
         with_bar(self.output.is_quiet(), work)
     }
 }

@@ -9,6 +9,7 @@ mod examples;
 mod failure;
 mod limits;
 mod man;
+mod map;
 mod origin;
 mod output;
 mod parameter;
@@ -59,6 +60,8 @@ enum Command {
     Trace(trace::Trace),
     /// Find the smallest and the largest load that a drive carries, and why the range ends there
     Limits(limits::Limits),
+    /// Find the steady states over two numbers of the drive file, such as load and speed
+    Map(map::Map),
     /// Find out whether small axial motions of a flat belt grow, and from which load on
     Stability(stability::Command),
     /// Find numbers of the drive file, such as friction and stiffness, from measured rows
@@ -84,6 +87,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Tension(command) => command.run(),
         Command::Trace(command) => command.run(),
         Command::Limits(command) => command.run(),
+        Command::Map(command) => command.run(),
         Command::Stability(command) => command.run(),
         Command::Calibrate(command) => command.run(),
         Command::Verify(command) => command.run(),

@@ -77,13 +77,22 @@ impl Output {
     /// Refuses outputs that would overwrite a file that is read beside the drive file.
     pub(super) fn check_data(&self, data: &Path) -> Result<(), Failure> {
         let plot = self.plot.as_deref();
-        self.texts.check_beside(plot, Some(("the data", data)))
+        self.texts.check_beside(plot, Some(("the data", data)), &[])
     }
 
-    /// Refuses outputs that would overwrite each other or the drive file.
-    pub(super) fn check(&self, drive_file: &Path) -> Result<(), Failure> {
-        self.texts
-            .check_beside(self.plot.as_deref(), Some(("the drive file", drive_file)))
+    /// Refuses outputs, also those of other options, that would overwrite each other or the drive file.
+    pub(super) fn check(
+        &self,
+        drive_file: &Path,
+        others: &[(&'static str, Option<&Path>)],
+    ) -> Result<(), Failure> {
+        let read = Some(("the drive file", drive_file));
+        self.texts.check_beside(self.plot.as_deref(), read, others)
+    }
+
+    /// Names files that another option has written.
+    pub(super) fn name(&self, written: &[PathBuf]) {
+        self.texts.note(written);
     }
 
     /// Prints and writes an answer in the forms asked for, with what its drive file takes from a belt section.
@@ -109,22 +118,24 @@ impl Output {
 impl Texts {
     /// Refuses outputs that would overwrite each other.
     pub(super) fn check(&self) -> Result<(), Failure> {
-        self.check_beside(None, None)
+        self.check_beside(None, None, &[])
     }
 
     fn check_beside(
         &self,
         figures: Option<&Path>,
         read: Option<(&'static str, &Path)>,
+        others: &[(&'static str, Option<&Path>)],
     ) -> Result<(), Failure> {
         let csv = self.csv.as_deref().filter(|path| !is_stream(path));
         let origin = csv.map(Origin::beside);
+        let own = [
+            ("--json", self.json.as_deref()),
+            ("--csv", self.csv.as_deref()),
+            ("the origin of --csv", origin.as_deref()),
+        ];
         Destinations {
-            texts: &[
-                ("--json", self.json.as_deref()),
-                ("--csv", self.csv.as_deref()),
-                ("the origin of --csv", origin.as_deref()),
-            ],
+            texts: &[&own, others].concat(),
             figures,
             read,
         }

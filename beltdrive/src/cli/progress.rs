@@ -7,7 +7,10 @@ const DIVISIONS: f64 = 1000.0;
 
 /// Does work that reports its share done, 0 to 1, and what it does; a bar on standard error shows
 /// it. There is none where standard error is no terminal, or if nothing is to be shown.
-pub(super) fn with_bar<T>(quiet: bool, work: impl FnOnce(&mut dyn FnMut(f64, &str)) -> T) -> T {
+pub(super) fn with_bar<T>(
+    quiet: bool,
+    work: impl FnOnce(&mut (dyn FnMut(f64, &str) + Send)) -> T,
+) -> T {
     let target = if quiet {
         ProgressDrawTarget::hidden()
     } else {

@@ -32,7 +32,7 @@ pub(super) struct Command {
 
 impl Command {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        self.output.check(&self.file)?;
+        self.output.check(&self.file, &[])?;
         let (name, text) = read(&self.file)?;
         let file = DriveFile::read(&name, &text, &self.overrides).map_err(Failure::usage)?;
         let drive = file.drive().map_err(Failure::usage)?;

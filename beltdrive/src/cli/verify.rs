@@ -58,7 +58,7 @@ impl Verify {
         .check()?;
         let outputs = [&self.json, &self.markdown, &self.csv];
         let on_stdout = outputs.into_iter().flatten().any(|path| is_stream(path));
-        let verification = with_bar(self.quiet, verify);
+        let verification = with_bar(self.quiet, |progress| verify(progress));
         let answer = verification::answer(&verification);
         if !self.quiet && !on_stdout {
             print(&table(&answer, UnitSystem::default()))?;

@@ -66,6 +66,46 @@ impl Drive {
         }
     }
 
+    /// Whether its belt is at rest as that of another drive, as far as the statement says: they differ in speeds, torques
+    /// and powers alone.
+    pub(crate) fn is_at_rest_as(&self, other: &Self) -> bool {
+        let mut same = other.clone();
+        for (pulley, here) in same.pulleys.iter_mut().zip(&self.pulleys) {
+            pulley.duty = here.duty;
+        }
+        same == *self
+    }
+
+    /// The factor by which all torques or powers are those of another drive, if the two differ in nothing else; a
+    /// tension that closes them may differ by rounding.
+    pub(crate) fn load_factor_over(&self, other: &Self) -> Option<f64> {
+        let mut same = other.clone();
+        let mut factor = None;
+        for (pulley, here) in same.pulleys.iter_mut().zip(&self.pulleys) {
+            if let (Duty::Torque(load), Duty::Torque(own)) | (Duty::Power(load), Duty::Power(own)) =
+                (pulley.duty, here.duty)
+            {
+                if load == 0.0 && own == 0.0 {
+                    continue;
+                }
+                let known = *factor.get_or_insert(own / load);
+                if !is_near(own, known * load) {
+                    return None;
+                }
+                pulley.duty = here.duty;
+            }
+        }
+        if let (
+            Closure::SpanTractiveTension { span, tension },
+            Closure::SpanTractiveTension { tension: own, .. },
+        ) = (same.closure, self.closure)
+            && is_near(own, tension)
+        {
+            same.closure = Closure::SpanTractiveTension { span, tension: own };
+        }
+        factor.filter(|factor| same == *self && *factor > 0.0)
+    }
+
     /// The index of the driver.
     pub(crate) fn driver(&self) -> usize {
         let mut pulleys = self.pulleys.iter();
@@ -90,4 +130,9 @@ impl Drive {
             Mount::Fixed(_) => None,
         })
     }
+}
+
+/// Whether two numbers differ by rounding: those of a drive come from a few operations.
+fn is_near(one: f64, other: f64) -> bool {
+    (one - other).abs() <= 1e-12 * one.abs().max(other.abs())
 }

@@ -2,7 +2,7 @@
 
 use crate::belt_loop::LoopState;
 use crate::input::Key;
-use crate::model::{Model, Progress};
+use crate::model::{Model, Neighbour, Progress};
 use crate::results::loop_state::RestState;
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
 
@@ -71,6 +71,16 @@ impl Model for FlatBelts {
 
     fn at_rest(&self, drive: &Drive, _: &SolveOptions) -> Result<RestState, SolveError> {
         super::belt_loop::at_rest(drive)
+    }
+
+    fn solve_loop_from(
+        &self,
+        drive: &Drive,
+        _: Option<&Neighbour>,
+        _: &SolveOptions,
+    ) -> Result<(LoopState, Neighbour), SolveError> {
+        let state = super::belt_loop::solve(drive)?;
+        Ok((state, Neighbour::Flat))
     }
 
     fn solve_with_margins(

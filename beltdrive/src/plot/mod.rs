@@ -1,6 +1,7 @@
 //! Results as figures in SVG.
 
 mod axis;
+mod contours;
 mod curve;
 mod header;
 mod layout;
@@ -18,7 +19,7 @@ mod zones;
 
 use crate::quantity::Answer;
 use crate::report::write_file;
-use crate::{Calibration, Stability};
+use crate::{Calibration, OperatingMap, Stability};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -144,6 +145,20 @@ pub fn write_calibration(
         directory,
         metadata,
     )
+}
+
+/// Writes `map.svg`, contours of speed loss, efficiency, slip margin and hub load over the axes of a map, into a directory,
+/// as [`write_state`] does.
+///
+/// # Errors
+/// As [`write_state`].
+pub fn write_map(
+    map: &OperatingMap,
+    directory: &Path,
+    metadata: Option<&str>,
+) -> Result<Vec<PathBuf>, Error> {
+    let figure = contours::figure(map);
+    write(std::iter::once(("map.svg", figure)), directory, metadata)
 }
 
 fn write<N: AsRef<Path>>(

@@ -14,6 +14,7 @@ pub(crate) mod events;
 pub mod limit_curve;
 pub mod limits;
 pub mod loop_range;
+pub mod map;
 mod measure;
 mod parameter;
 pub(crate) mod precision;

@@ -7,6 +7,7 @@ mod file;
 pub(crate) mod html;
 mod json;
 pub(crate) mod lines;
+mod lookup_table;
 mod markdown;
 mod table;
 
@@ -14,5 +15,6 @@ pub use self::csv::csv;
 pub(crate) use crate::quantity::precision::six_digits;
 pub use file::write_file;
 pub use json::json;
+pub use lookup_table::{NoTable, lookup_tables};
 pub use markdown::markdown;
 pub use table::table;

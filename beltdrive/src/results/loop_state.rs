@@ -95,7 +95,19 @@ pub struct LoopConvergence {
     pub slip_normalisation_effect: f64,
 }
 
+/// Relative error of a loop that was solved in closed form: cases that were solved with 40 digits agree to
+/// 1.6e-13.
+const ROUNDING: f64 = 1e-12;
+
 impl LoopState {
+    /// Relative error of the state: the estimate of a V-belt, rounding of a flat belt.
+    pub(crate) fn relative_error(&self) -> f64 {
+        self.convergence.as_ref().map_or(ROUNDING, |convergence| {
+            let estimate = convergence.error_estimate;
+            estimate.max(convergence.slip_normalisation_effect)
+        })
+    }
+
     /// Remarks on the validity of this state of `drive`, which must be the one that was solved, with the names of
     /// its pulleys.
     pub fn warnings(&self, drive: &Drive) -> Vec<Warning<String>> {

@@ -38,6 +38,35 @@ impl<P: BeltProblem> bvp::Guess for Carried<'_, P> {
     }
 }
 
+/// Two solutions of neighbouring problems with the same states as the guess of the next one at an equal step.
+pub(super) struct Extrapolated<'a, P> {
+    pub(super) last: &'a Solved<P>,
+    pub(super) before: &'a Solved<P>,
+}
+
+impl<P: BeltProblem> bvp::Guess for Extrapolated<'_, P> {
+    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
+        let mut before = [0.0; MAX_STATES];
+        let before = &mut before[..y.len()];
+        self.last.solution.state(segment, s, y);
+        self.before.solution.state(segment, s, before);
+        for (next, before) in y.iter_mut().zip(before) {
+            *next += *next - *before;
+        }
+    }
+
+    fn parameters(&self, p: &mut [f64]) {
+        let known = [self.last, self.before].map(|solved| solved.solution.parameters());
+        for (next, (last, before)) in p.iter_mut().zip(known[0].iter().zip(known[1])) {
+            *next = last + (last - before);
+        }
+    }
+
+    fn mesh(&self) -> Option<Vec<Vec<f64>>> {
+        bvp::Guess::mesh(&self.last.solution)
+    }
+}
+
 /// A solution as the guess for the member of a family with these values of its entries.
 pub(super) struct Member<'a> {
     pub(super) solution: Carried<'a>,

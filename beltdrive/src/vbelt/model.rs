@@ -2,7 +2,7 @@
 
 use crate::belt_loop::LoopState;
 use crate::input::Key;
-use crate::model::{Model, Progress};
+use crate::model::{Model, Neighbour, Progress};
 use crate::results::loop_state::RestState;
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
 
@@ -72,6 +72,20 @@ impl Model for VBelts {
 
     fn at_rest(&self, drive: &Drive, options: &SolveOptions) -> Result<RestState, SolveError> {
         super::belt_loop::at_rest(drive, options.tolerance)
+    }
+
+    fn solve_loop_from(
+        &self,
+        drive: &Drive,
+        neighbour: Option<&Neighbour>,
+        options: &SolveOptions,
+    ) -> Result<(LoopState, Neighbour), SolveError> {
+        let near = neighbour.and_then(|neighbour| match neighbour {
+            Neighbour::V(near) => Some(&**near),
+            Neighbour::Flat => None,
+        });
+        let (state, near) = super::belt_loop::solve_from(drive, near, options.tolerance)?;
+        Ok((state, Neighbour::V(Box::new(near))))
     }
 
     fn solve_with_margins(

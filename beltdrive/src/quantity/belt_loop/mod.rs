@@ -89,24 +89,12 @@ fn convergence(found: &LoopConvergence) -> Vec<Quantity> {
     ]
 }
 
-/// Relative error of a loop that was solved in closed form: cases that were solved with 40 digits agree to
-/// 1.6e-13.
-const ROUNDING: f64 = 1e-12;
-
-/// Relative error of a state.
-fn relative_error(state: &LoopState) -> f64 {
-    state.convergence.as_ref().map_or(ROUNDING, |convergence| {
-        let estimate = convergence.error_estimate;
-        estimate.max(convergence.slip_normalisation_effect)
-    })
-}
-
 /// How accurate the numbers of a state are.
 pub(super) fn scale(state: &LoopState) -> Scale {
     let tensions = state.spans.iter().map(|span| span.tension);
     let tension = tensions.fold(0.0, f64::max);
     Scale {
-        error: relative_error(state),
+        error: state.relative_error(),
         tension,
         power: tension * state.unstretched_speed,
     }

@@ -10,7 +10,6 @@ use super::solve::Search;
 use super::unknowns::FLOW;
 use crate::SolveError;
 use crate::results::difficulty;
-use crate::results::loop_state::LoadLimit;
 use bvp::{Control, Family, Options, Problem, Scheme, Solution};
 use continuation::{Branch, Direction, Kind, Point};
 use std::f64::consts::FRAC_PI_2;
@@ -42,13 +41,13 @@ pub(super) enum Climbed {
 
 /// The largest load of a loop.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Top {
+pub(crate) struct Top {
     /// The factor on all torques.
-    pub(super) factor: f64,
+    pub(crate) factor: f64,
     /// The pulley that slips, or where the belt overhangs.
-    pub(super) pulley: usize,
+    pub(crate) pulley: usize,
     /// Whether the belt overhangs itself there instead of slipping.
-    pub(super) overhangs: bool,
+    pub(crate) overhangs: bool,
 }
 
 impl Search<'_> {
@@ -58,7 +57,7 @@ impl Search<'_> {
         &mut self,
         state: &Solved<LoopProblem>,
         rough: Solved<LoopProblem>,
-    ) -> Result<Option<LoadLimit>, SolveError> {
+    ) -> Result<Option<Top>, SolveError> {
         let mut pulleys = self.drive.pulleys.iter();
         if pulleys.all(|pulley| pulley.duty.torque_at(1.0) == 0.0) {
             return Ok(None);
@@ -68,9 +67,7 @@ impl Search<'_> {
         while to < LARGEST_FACTOR {
             match self.climb(&here, to) {
                 Climbed::Reached(solved) => here = *solved,
-                Climbed::Limit(Top { factor, pulley, .. }, _) => {
-                    return Ok(Some(LoadLimit { factor, pulley }));
-                }
+                Climbed::Limit(top, _) => return Ok(Some(top)),
                 Climbed::Lost { reached, cause } => {
                     return Err(SolveError::Unreached { reached, cause });
                 }

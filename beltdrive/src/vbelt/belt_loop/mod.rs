@@ -27,4 +27,5 @@ mod state;
 mod tensioner;
 mod unknowns;
 
-pub(crate) use solve::{at_rest, solve, solve_with_margins};
+pub(crate) use climb::Top;
+pub(crate) use solve::{LoopNeighbour, at_rest, solve, solve_from, solve_with_margins};

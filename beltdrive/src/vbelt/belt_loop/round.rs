@@ -6,8 +6,10 @@ use super::super::groove::TENSION;
 use super::super::path::Solved;
 use super::plane::Laid;
 use super::problem::LoopProblem;
+use super::rest::Known;
 use super::seat::Seat;
 use super::unknowns::FLOW;
+use crate::Closure;
 use bvp::{Ends, Problem, Real, Solution};
 
 /// What the closure asks of the running belt.
@@ -19,6 +21,20 @@ pub(super) enum Target {
     Tension { span: usize, tension: f64 },
     /// Tractive tension of a span, N.
     Tractive { span: usize, tension: f64 },
+}
+
+impl Target {
+    /// What a closure asks of the running belt, or of the belt at rest.
+    pub(super) fn of(closure: Closure) -> Result<Self, Known> {
+        match closure {
+            Closure::UnstretchedLength(length) => Err(Known::Length(length)),
+            Closure::SetupTension(tension) => Err(Known::Tension(tension)),
+            Closure::RestCoordinate(_) => Err(Known::Equilibrium),
+            Closure::SpanTension { span, tension } => Ok(Self::Tension { span, tension }),
+            Closure::SpanTractiveTension { span, tension } => Ok(Self::Tractive { span, tension }),
+            Closure::BothSpans(_) => unreachable!("two pulleys are solved as two pulleys"),
+        }
+    }
 }
 
 /// The belt of a problem with states at both ends of every segment, and parameters.

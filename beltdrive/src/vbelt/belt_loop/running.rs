@@ -1,8 +1,10 @@
 //! The search for the running loop under its whole load.
 
 use super::super::BeltProblem;
+use super::super::carried::{Carried, Extrapolated};
 use super::super::groove::TENSION;
-use super::super::path::Solved;
+use super::super::laws::Asked;
+use super::super::path::{Effort, Solved};
 use super::climb::Climbed;
 use super::guess::tractive_tensions;
 use super::problem::LoopProblem;
@@ -13,6 +15,7 @@ use super::start::Start;
 use super::unknowns::FLOW;
 use crate::SolveError;
 use crate::drive::layout::Layout;
+use bvp::Problem;
 
 /// Shares of the load that are tried in turn where the whole fails; from them the load is raised.
 const SHARES: [f64; 6] = [0.5, 0.2, 0.05, 0.01, 1e-3, 0.0];
@@ -99,6 +102,46 @@ pub(super) fn running<'l>(
             cause: "the belt would have to push in a span even under hardly any load",
         }),
     }
+}
+
+/// The running loop under its whole load from a neighbour, and the one before that at an equal step, if Newton's method
+/// finds it and it cannot lie beyond the largest load.
+pub(super) fn neighbouring<'s>(
+    search: &mut Search<'_>,
+    near: [Option<&'s Solved<LoopProblem>>; 2],
+    target: Target,
+    rest: Option<&Rest>,
+    coordinate: f64,
+) -> Option<Solved<LoopProblem>> {
+    let drive = search.drive;
+    let layout = drive.layout(coordinate).ok()?;
+    presses(search, target, &layout).ok()?;
+    let start = Start {
+        drive,
+        tractive: tractive_tensions(drive, &layout, target, rest, 1.0),
+        layout,
+        target,
+        coordinate,
+        factor: 1.0,
+    };
+    if !start.is_taut() {
+        return None;
+    }
+    let problem = start.problem(drive.law, 0.0);
+    let like = |near: Option<&'s Solved<LoopProblem>>| {
+        near.filter(|near| problem.segments() == near.problem.segments())
+    };
+    let [last, before] = near.map(like);
+    let last = last?;
+    let by_both = before.and_then(|before| {
+        let guess = Extrapolated { last, before };
+        search.attempt(problem.clone(), &guess, Effort::Final).ok()
+    });
+    let is_safe = |solved: &Solved<LoopProblem>| is_drive(solved) && !may_be_beyond(solved);
+    by_both.filter(is_safe).or_else(|| {
+        let by_last = search.attempt(problem, &Carried(last), Effort::Final);
+        by_last.ok().filter(is_safe)
+    })
 }
 
 /// Whether a belt between fixed centres presses on its pulleys without torques. Where it hardly presses

@@ -2,17 +2,32 @@
 
 use super::super::path::{Path, Solved};
 use super::at_rest::rest_near;
+use super::climb::Top;
+use super::problem::LoopProblem;
 use super::rest::{Known, Rest, RestProblem};
 use super::round::Target;
-use super::running::{Running, running};
+use super::running::{Running, neighbouring, running};
 use super::state::state;
 use crate::mechanics::tensioner::within_travel;
 use crate::results::difficulty;
-use crate::results::loop_state::{LoopState, RestState};
-use crate::{Closure, Drive, SolveError};
+use crate::results::loop_state::{LoadLimit, LoopState, RestState};
+use crate::{Drive, FrictionLaw, SolveError};
 
 /// The search for the steady state of a loop.
 pub(super) type Search<'l> = Path<'l>;
+
+/// A solved loop, from which that of a drive that differs little is found fast.
+#[derive(Clone, Debug)]
+pub(crate) struct LoopNeighbour {
+    drive: Drive,
+    at_rest: RestProblem,
+    rest: Rest,
+    solved: Solved<LoopProblem>,
+    /// That from which it was found.
+    before: Option<Box<Solved<LoopProblem>>>,
+    /// Force across each span at rest, as in [`SpanState::deflection_force`](crate::belt_loop::SpanState).
+    deflections: Vec<Option<f64>>,
+}
 
 /// A loop at rest and running.
 struct Found<'l> {
@@ -29,7 +44,107 @@ pub(crate) fn solve(drive: &Drive, tolerance: f64) -> Result<LoopState, SolveErr
         rest,
         running,
     } = search.search()?;
-    state(&mut search, &rest, &at_rest, &running.solved)
+    state(&mut search, &rest, &at_rest, &running.solved, None)
+}
+
+/// As [`solve`], with what the next neighbour is found from; from a neighbour itself where there is one and friction
+/// is that of bristles, whose zones need not be found.
+pub(crate) fn solve_from(
+    drive: &Drive,
+    neighbour: Option<&LoopNeighbour>,
+    tolerance: f64,
+) -> Result<(LoopState, LoopNeighbour), SolveError> {
+    if let Some(near) = neighbour
+        && let Some(found) = near.step_to(drive, tolerance)
+    {
+        return Ok(found);
+    }
+    let mut search = Search::new(drive, tolerance);
+    let found = search.search()?;
+    LoopNeighbour::of(
+        &mut search,
+        found.at_rest,
+        found.rest,
+        found.running.solved,
+        None,
+    )
+}
+
+impl LoopNeighbour {
+    /// The answer, and what the next one is found from.
+    fn of(
+        search: &mut Search<'_>,
+        at_rest: RestProblem,
+        rest: Rest,
+        solved: Solved<LoopProblem>,
+        deflections: Option<&[Option<f64>]>,
+    ) -> Result<(LoopState, Self), SolveError> {
+        let state = state(search, &rest, &at_rest, &solved, deflections)?;
+        let deflections = state.spans.iter().map(|span| span.deflection_force);
+        let neighbour = Self {
+            drive: search.drive.clone(),
+            deflections: deflections.collect(),
+            at_rest,
+            rest,
+            solved,
+            before: None,
+        };
+        Ok((state, neighbour))
+    }
+
+    /// The state of a drive by Newton's method from this one; `None` if that does not find one that is certainly below
+    /// the largest load.
+    fn step_to(&self, drive: &Drive, tolerance: f64) -> Option<(LoopState, Self)> {
+        let (FrictionLaw::Bristle { .. }, FrictionLaw::Bristle { .. }) =
+            (self.drive.law, drive.law)
+        else {
+            return None;
+        };
+        let mut search = Search::new(drive, tolerance);
+        let known = drive
+            .is_at_rest_as(&self.drive)
+            .then_some((&self.at_rest, &self.rest));
+        let solved = |search: &mut Search<'_>, rest, target, coordinate| {
+            let near = [Some(&self.solved), self.before.as_deref()];
+            neighbouring(search, near, target, rest, coordinate)
+        };
+        let start = drive.start_coordinate();
+        let layout = drive.layout(start).ok()?;
+        let (at_rest, rest, solved) = match Target::of(drive.closure) {
+            Ok(target) => {
+                let solved = solved(&mut search, None, target, start)?;
+                let (at_rest, rest) = search.rest_of(&solved).ok()?;
+                (at_rest, rest, solved)
+            }
+            Err(at_rest) => {
+                let (at_rest, rest) = match known {
+                    Some((at_rest, rest)) => (at_rest.clone(), rest.clone()),
+                    None => rest_near(&mut search, at_rest, start, &layout).ok()?,
+                };
+                let target = Target::Length(rest.unstretched);
+                let solved = solved(&mut search, Some(&rest), target, rest.coordinate)?;
+                (at_rest, rest, solved)
+            }
+        };
+        search.within_travel(&rest, &solved).ok()?;
+        let deflections = known.map(|_| &self.deflections[..]);
+        let (state, next) = Self::of(&mut search, at_rest, rest, solved, deflections).ok()?;
+        let before = Some(Box::new(self.solved.clone()));
+        Some((state, Self { before, ..next }))
+    }
+
+    /// The same, of which no step before it is known.
+    pub(crate) fn at_a_turn(mut self) -> Self {
+        self.before = None;
+        self
+    }
+
+    /// How far all torques can be raised, found by raising them; as [`Search::load_limit`].
+    pub(crate) fn load_limit(&self, tolerance: f64) -> Option<Top> {
+        let mut search = Search::new(&self.drive, tolerance);
+        let rough = self.solved.clone();
+        search.load_limit(&self.solved, rough).ok().flatten()
+    }
 }
 
 /// As [`solve`], with what takes longer than the state: the torque margin of every pulley and the load limit.
@@ -41,7 +156,7 @@ pub(crate) fn solve_with_margins(drive: &Drive, tolerance: f64) -> Result<LoopSt
         running,
     } = search.search()?;
     let solved = &running.solved;
-    let mut found = state(&mut search, &rest, &at_rest, solved)?;
+    let mut found = state(&mut search, &rest, &at_rest, solved, None)?;
     let Ok(rough) = running.roughly(&mut search) else {
         return Ok(found);
     };
@@ -51,14 +166,15 @@ pub(crate) fn solve_with_margins(drive: &Drive, tolerance: f64) -> Result<LoopSt
             .torque_margin
             .map(|margin| margin * pulley.torque.abs());
     }
-    found.load_limit = search.load_limit(solved, rough).ok().flatten();
+    let limit = search.load_limit(solved, rough).ok().flatten();
+    found.load_limit = limit.map(|Top { factor, pulley, .. }| LoadLimit { factor, pulley });
     Ok(found)
 }
 
 /// The loop at rest, where the closure is one of it.
 pub(crate) fn at_rest(drive: &Drive, tolerance: f64) -> Result<RestState, SolveError> {
     let mut search = Search::new(drive, tolerance);
-    let Err(known) = closed_by(drive.closure) else {
+    let Err(known) = Target::of(drive.closure) else {
         return Err(SolveError::NotFound {
             what: "state at rest",
         });
@@ -73,25 +189,13 @@ pub(crate) fn at_rest(drive: &Drive, tolerance: f64) -> Result<RestState, SolveE
     })
 }
 
-/// What the closure asks of the running belt, or else what it says of the belt at rest.
-fn closed_by(closure: Closure) -> Result<Target, Known> {
-    match closure {
-        Closure::UnstretchedLength(length) => Err(Known::Length(length)),
-        Closure::SetupTension(tension) => Err(Known::Tension(tension)),
-        Closure::RestCoordinate(_) => Err(Known::Equilibrium),
-        Closure::SpanTension { span, tension } => Ok(Target::Tension { span, tension }),
-        Closure::SpanTractiveTension { span, tension } => Ok(Target::Tractive { span, tension }),
-        Closure::BothSpans(_) => unreachable!("two pulleys are solved as two pulleys"),
-    }
-}
-
 impl<'l> Search<'l> {
     /// The loop at rest and running, in the order in which the closure gives them.
     fn search(&mut self) -> Result<Found<'l>, SolveError> {
         let drive = self.drive;
         let start = drive.start_coordinate();
         let layout = drive.layout(start)?;
-        let target = match closed_by(drive.closure) {
+        let target = match Target::of(drive.closure) {
             Ok(target) => target,
             Err(known) => {
                 let (at_rest, rest) = rest_near(self, known, start, &layout)?;
@@ -102,11 +206,7 @@ impl<'l> Search<'l> {
             }
         };
         let running = running(self, target, None, start)?;
-        let problem = &running.solved.problem;
-        let [length, _] = running.solved.round(|round| round.lengths());
-        let coordinate = problem.coordinate(running.solved.solution.parameters());
-        let layout = drive.layout(coordinate)?;
-        let (at_rest, rest) = rest_near(self, Known::Length(length), coordinate, &layout)?;
+        let (at_rest, rest) = self.rest_of(&running.solved)?;
         self.found(at_rest, rest, running)
     }
 
@@ -116,16 +216,32 @@ impl<'l> Search<'l> {
         rest: Rest,
         running: Running<'l>,
     ) -> Result<Found<'l>, SolveError> {
-        let Solved { problem, solution } = &running.solved;
-        let coordinate = problem.coordinate(solution.parameters());
-        for coordinate in [rest.coordinate, coordinate] {
-            within_travel(self.drive, coordinate)?;
-        }
+        self.within_travel(&rest, &running.solved)?;
         Ok(Found {
             at_rest,
             rest,
             running,
         })
+    }
+
+    /// The belt of a running loop at rest.
+    fn rest_of(
+        &mut self,
+        running: &Solved<LoopProblem>,
+    ) -> Result<(RestProblem, Rest), SolveError> {
+        let [length, _] = running.round(|round| round.lengths());
+        let coordinate = running.problem.coordinate(running.solution.parameters());
+        let layout = self.drive.layout(coordinate)?;
+        rest_near(self, Known::Length(length), coordinate, &layout)
+    }
+
+    /// Refuses a tensioner beyond its stops, at rest and running.
+    fn within_travel(&self, rest: &Rest, running: &Solved<LoopProblem>) -> Result<(), SolveError> {
+        let Solved { problem, solution } = running;
+        for coordinate in [rest.coordinate, problem.coordinate(solution.parameters())] {
+            within_travel(self.drive, coordinate)?;
+        }
+        Ok(())
     }
 }
 

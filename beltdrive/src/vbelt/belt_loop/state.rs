@@ -209,7 +209,13 @@ impl<'a> Seen<'a> {
         }
     }
 
-    fn span(&self, search: &mut Search<'_>, at_rest: &RestProblem, span: usize) -> SpanState {
+    fn span(
+        &self,
+        search: &mut Search<'_>,
+        at_rest: &RestProblem,
+        span: usize,
+        deflection_force: Option<Option<f64>>,
+    ) -> SpanState {
         let units = self.solved.problem.units;
         let belt = search.drive.belt;
         let tension = self.tension(span) * units.force;
@@ -229,7 +235,8 @@ impl<'a> Seen<'a> {
             rest_length,
             rest_frequency: rest_frequency(rest_length, self.rest.tension, &belt),
             deflection,
-            deflection_force: self.deflection_force(search, at_rest, span, deflection),
+            deflection_force: deflection_force
+                .unwrap_or_else(|| self.deflection_force(search, at_rest, span, deflection)),
         }
     }
 
@@ -319,12 +326,13 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// The answer, if it passes its checks.
+/// The answer, if it passes its checks. The forces that deflect the spans at rest may be known.
 pub(super) fn state(
     search: &mut Search<'_>,
     rest: &Rest,
     at_rest: &RestProblem,
     solved: &Solved<LoopProblem>,
+    deflections: Option<&[Option<f64>]>,
 ) -> Result<LoopState, SolveError> {
     let seen = Seen::new(solved, rest);
     let drive = search.drive;
@@ -352,7 +360,7 @@ pub(super) fn state(
         [input + (-power).max(0.0), output + power.max(0.0)]
     });
     let spans = (0..count)
-        .map(|span| seen.span(search, at_rest, span))
+        .map(|span| seen.span(search, at_rest, span, deflections.map(|known| known[span])))
         .collect();
     let tensioner = seen.tensioner(search, at_rest)?;
     let length = solved.round(|round| round.lengths())[1];

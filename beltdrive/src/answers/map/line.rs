@@ -1,0 +1,263 @@
+//! The states along a line of a map.
+
+use super::MapState;
+use super::limit::{Limit, beyond};
+use crate::answers::belt_loop::closed_once;
+use crate::answers::check::{OnPulley, SlipMargin, case_state};
+use crate::answers::members::{Refusal, Varied, load};
+use crate::belt_loop::LoopState;
+use crate::input::DriveFile;
+use crate::model::{Neighbour, model};
+use crate::{Drive, Duty, GivenLosses, SolveOptions, SteadyState, solve_from};
+
+/// The drives of a map.
+pub(super) struct Family<'f> {
+    file: DriveFile,
+    axes: [&'f Varied; 2],
+    options: &'f SolveOptions,
+    given: GivenLosses,
+}
+
+/// A solved drive, from which its neighbours are found.
+#[derive(Clone)]
+pub(super) struct Near {
+    /// As it is closed once its torques are known.
+    closed: Drive,
+    state_of_two: Option<Box<SteadyState>>,
+    neighbour: Neighbour,
+}
+
+impl<'f> Family<'f> {
+    pub(super) fn new(
+        file: &DriveFile,
+        axes: [&'f Varied; 2],
+        options: &'f SolveOptions,
+        given: GivenLosses,
+    ) -> Self {
+        Self {
+            file: file.with_sense(),
+            axes,
+            options,
+            given,
+        }
+    }
+
+    /// The axis along which lines run: x where it alone raises the load, else y.
+    pub(super) fn along(&self, values: [&[f64]; 2]) -> usize {
+        let raises = |axis: usize| {
+            let [Some(&x), Some(&y)] = values.map(<[f64]>::first) else {
+                return false;
+            };
+            let mut other = [x, y];
+            other[axis] = values[axis].last().copied().unwrap_or(f64::NAN);
+            let drives = [[x, y], other].map(|values| self.stated(values));
+            let [Ok((one, first)), Ok((other, last))] = drives else {
+                return false;
+            };
+            first != last || one.load_factor_over(&other).is_some() && one != other
+        };
+        match raises(0) && !raises(1) {
+            true => 0,
+            false => 1,
+        }
+    }
+
+    /// The drive as the file states it with these values of x and y, and the factor on its torques.
+    fn stated(&self, values: [f64; 2]) -> Result<(Drive, f64), Refusal> {
+        let (mut file, mut factor) = (None, 1.0);
+        for (varied, value) in self.axes.into_iter().zip(values) {
+            match varied {
+                Varied::Key(key) => {
+                    file = Some(file.as_ref().unwrap_or(&self.file).with(key, value));
+                }
+                Varied::LoadFactor => factor *= value,
+            }
+        }
+        let drive = file.as_ref().unwrap_or(&self.file).drive();
+        let drive = drive.map_err(|error| Refusal::Input(Box::new(error)))?;
+        Ok((drive, factor))
+    }
+
+    /// The state with these values of x and y, and what its neighbours are found from.
+    pub(super) fn point(
+        &self,
+        near: Option<&Near>,
+        values: [f64; 2],
+    ) -> Result<(Near, LoopState), Refusal> {
+        let stated = self.stated(values)?;
+        self.solve(near, stated)
+    }
+
+    fn solve(
+        &self,
+        near: Option<&Near>,
+        (stated, factor): (Drive, f64),
+    ) -> Result<(Near, LoopState), Refusal> {
+        let options = self.options;
+        let of_two = near.and_then(|near| near.state_of_two.as_deref());
+        let (mut closed, state_of_two) = match of_two {
+            Some(near) => {
+                let state = solve_from(near, &stated, options)?;
+                (state.as_loop(), Some(Box::new(state)))
+            }
+            None if stated.two_pulleys().is_some() => {
+                let state = crate::solve(&stated, options)?;
+                (state.as_loop(), Some(Box::new(state)))
+            }
+            None => (closed_once(&stated, options)?.into_owned(), None),
+        };
+        if factor != 1.0 {
+            load(&mut closed, factor);
+        }
+        let neighbour = near.map(|near| &near.neighbour);
+        let model = model(closed.belt.kind);
+        let (state, neighbour) = model.solve_loop_from(&closed, neighbour, options)?;
+        let near = Near {
+            closed,
+            state_of_two,
+            neighbour,
+        };
+        Ok((near, state))
+    }
+
+    /// The states of a line, each from the one before.
+    pub(super) fn line(
+        &self,
+        start: Option<&Near>,
+        values: impl Iterator<Item = [f64; 2]>,
+    ) -> Vec<Result<MapState, Refusal>> {
+        let mut near = start.cloned().map(Near::at_a_turn);
+        let (mut line, mut limit, mut refused) = (Vec::new(), None, None);
+        // The drives of the last states, whose load alone rises; their limit is found with the last of them.
+        let mut rising: Vec<(usize, Drive)> = Vec::new();
+        for values in values {
+            let place = line.len();
+            let stated = self.stated(values);
+            let known = stated.as_ref().ok();
+            let error = known.and_then(|stated| beyond(stated, limit.as_ref(), refused.as_ref()));
+            let found = match (stated, error) {
+                (Err(refusal), _) => Err(refusal),
+                (_, Some(error)) => Err(error.into()),
+                (Ok(stated), None) => {
+                    let found = self.solve(near.as_ref(), stated.clone());
+                    if let Err(Refusal::Loop(error)) = &found {
+                        limit = limit.or_else(|| Limit::refusing(&stated, error));
+                        refused = Some((stated.0, (**error).clone()));
+                    }
+                    found
+                }
+            };
+            let told = found.map(|(here, state)| {
+                let first = rising.first().map(|(_, first)| first);
+                let torques = with_torques(&here.closed, &state);
+                let rises = first.is_none_or(|first| torques.load_factor_over(first).is_some());
+                if !rises {
+                    self.limit(&mut line, &mut rising, near.as_ref(), limit.take());
+                }
+                rising.push((place, torques));
+                let told = self.told(&here.closed, state);
+                near = Some(here);
+                told
+            });
+            line.push(told);
+        }
+        self.limit(&mut line, &mut rising, near.as_ref(), limit);
+        line
+    }
+
+    /// Tells the slip margins of the states of drives whose load alone rises to that of the last one, `near`.
+    fn limit(
+        &self,
+        line: &mut [Result<MapState, Refusal>],
+        rising: &mut Vec<(usize, Drive)>,
+        near: Option<&Near>,
+        known: Option<Limit>,
+    ) {
+        let (Some(near), Some((_, last))) = (near, rising.last()) else {
+            return;
+        };
+        let Neighbour::V(neighbour) = &near.neighbour else {
+            rising.clear();
+            return;
+        };
+        let is_known = |limit: &Limit| limit.of.load_factor_over(last).is_some();
+        let limit = known.filter(is_known).or_else(|| {
+            let top = neighbour.load_limit(self.options.tolerance)?;
+            let of = last.clone();
+            Some(Limit { of, top })
+        });
+        for (place, drive) in rising.drain(..) {
+            let Ok(state) = &mut line[place] else {
+                continue;
+            };
+            let over = limit
+                .as_ref()
+                .and_then(|limit| drive.load_factor_over(&limit.of));
+            if let (Some(limit), Some(over), SlipMargin::NotFound) =
+                (&limit, over, state.slip_margin)
+            {
+                state.slip_margin = SlipMargin::Factor(OnPulley {
+                    value: limit.top.factor / over,
+                    pulley: limit.top.pulley,
+                });
+            }
+        }
+    }
+
+    /// What a map tells of a state.
+    fn told(&self, drive: &Drive, state: LoopState) -> MapState {
+        let found = case_state(drive, state, &self.given);
+        let state = &found.state;
+        let tensions = state.spans.iter().map(|span| span.tension);
+        let tractive = state.spans.iter().map(|span| span.tractive_tension);
+        MapState {
+            speed_loss: found.speed_loss,
+            efficiency: state.efficiency,
+            slip_margin: found.slip_margin,
+            hub_load: found.hub_load,
+            rest_hub_load: found.rest_hub_load,
+            largest_tension: tensions.fold(f64::NEG_INFINITY, f64::max),
+            smallest_tractive_tension: tractive.fold(f64::INFINITY, f64::min),
+            rest_tension: state.rest_tension,
+            power_in: state.power_in,
+            power_out: state.power_out,
+            losses: found.losses,
+            error: state.relative_error(),
+        }
+    }
+}
+
+impl Near {
+    /// The same, from which a line in another direction begins.
+    fn at_a_turn(self) -> Self {
+        let neighbour = match self.neighbour {
+            Neighbour::V(near) => Neighbour::V(Box::new(near.at_a_turn())),
+            Neighbour::Flat => Neighbour::Flat,
+        };
+        Self { neighbour, ..self }
+    }
+}
+
+/// A drive with the torques of a state in place of powers: margins are factors on torques.
+fn with_torques(drive: &Drive, state: &LoopState) -> Drive {
+    let mut drive = drive.clone();
+    for (pulley, found) in drive.pulleys.iter_mut().zip(&state.pulleys) {
+        if let Duty::Power(_) = pulley.duty {
+            pulley.duty = Duty::Torque(found.torque);
+        }
+    }
+    drive
+}
+
+/// The results of work on so many lines, in their order, by several threads at a time.
+#[cfg(feature = "parallel")]
+pub(super) fn each<T: Send>(count: usize, work: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
+    use rayon::iter::{IntoParallelIterator, ParallelIterator};
+    (0..count).into_par_iter().map(work).collect()
+}
+
+/// The results of work on so many lines, in their order.
+#[cfg(not(feature = "parallel"))]
+pub(super) fn each<T>(count: usize, work: impl Fn(usize) -> T) -> Vec<T> {
+    (0..count).map(work).collect()
+}
