@@ -54,8 +54,9 @@ const FIGURES: [Figure; 11] = [
     ),
 ];
 
-/// The figures that take minutes.
-const SLOW: [Figure; 3] = [
+/// The figures that take many seconds or minutes.
+const SLOW: [Figure; 4] = [
+    ("v-power-map", "map", "map v-power"),
     (
         "kim2009-branch",
         "branch",
