@@ -13,6 +13,7 @@ mod map;
 mod origin;
 mod output;
 mod parameter;
+mod parquet;
 mod progress;
 mod read;
 mod report;
@@ -88,6 +89,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Trace(command) => command.run(),
         Command::Limits(command) => command.run(),
         Command::Map(command) => command.run(),
+        Command::Sweep(command) => command.run(),
         Command::Stability(command) => command.run(),
         Command::Calibrate(command) => command.run(),
         Command::Verify(command) => command.run(),

@@ -83,6 +83,22 @@ impl Origin {
         serde_json::to_string_pretty(self).expect("texts")
     }
 
+    /// The origin as keys with values, for the metadata of Parquet.
+    pub(super) fn entries(&self) -> Vec<(String, String)> {
+        let (name, text) = self.drive_file();
+        let entries = [
+            ("program", self.program),
+            ("version", self.version),
+            ("command_line", &self.command_line()),
+            ("drive_file.name", name),
+            ("drive_file.text", text),
+        ];
+        let given = entries.into_iter().filter(|(_, value)| !value.is_empty());
+        given
+            .map(|(key, value)| (key.to_owned(), value.to_owned()))
+            .collect()
+    }
+
     /// A JSON object with the origin as its last key, `origin`. Nothing else in its text changes.
     pub(super) fn in_json(&self, object: &str) -> String {
         match object.strip_suffix("\n}") {

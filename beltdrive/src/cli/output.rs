@@ -3,6 +3,7 @@
 use super::destinations::Destinations;
 use super::failure::Failure;
 use super::origin::Origin;
+use super::parquet;
 use beltdrive::plot;
 use beltdrive::quantity::{Answer, UnitSystem};
 use beltdrive::report::{self, write_file};
@@ -34,6 +35,9 @@ pub(super) struct Texts {
     /// Write rows as CSV; - for standard output, in place of the table
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Write the rows of --csv as Parquet
+    #[arg(long, value_name = "FILE")]
+    parquet: Option<PathBuf>,
     /// Print neither the table nor the names of written files
     #[arg(long)]
     quiet: bool,
@@ -127,12 +131,16 @@ impl Texts {
         read: Option<(&'static str, &Path)>,
         others: &[(&'static str, Option<&Path>)],
     ) -> Result<(), Failure> {
+        if self.parquet.is_some() {
+            parquet::check()?;
+        }
         let csv = self.csv.as_deref().filter(|path| !is_stream(path));
         let origin = csv.map(Origin::beside);
         let own = [
             ("--json", self.json.as_deref()),
             ("--csv", self.csv.as_deref()),
             ("the origin of --csv", origin.as_deref()),
+            ("--parquet", self.parquet.as_deref()),
         ];
         Destinations {
             texts: &[&own, others].concat(),
@@ -149,7 +157,7 @@ impl Texts {
         units: Units,
         origin: &Origin,
     ) -> Result<(), Failure> {
-        let outputs = [self.json.as_deref(), self.csv.as_deref()];
+        let outputs = [&self.json, &self.csv, &self.parquet].map(Option::as_deref);
         if !self.quiet && !outputs.into_iter().any(is_stdout) {
             print(&report::table(answer, units.into()))?;
         }
@@ -159,6 +167,9 @@ impl Texts {
         }
         if let Some(path) = &self.csv {
             written.extend(write_csv(path, &report::csv(answer), origin)?);
+        }
+        if let Some(path) = &self.parquet {
+            written.extend(write_content(path, &parquet::bytes(answer, origin)?)?);
         }
         self.note(&written);
         Ok(())
@@ -176,12 +187,17 @@ impl Texts {
 
 /// Writes a text to a file, which it returns, or to standard output.
 pub(super) fn write_text(path: &Path, text: &str) -> Result<Option<PathBuf>, Failure> {
+    write_content(path, text.as_bytes())
+}
+
+/// As [`write_text`], of bytes.
+fn write_content(path: &Path, content: &[u8]) -> Result<Option<PathBuf>, Failure> {
     if is_stream(path) {
-        print(text)?;
+        print_bytes(content)?;
         return Ok(None);
     }
     let action = format!("write {}", path.display());
-    write_file(path, text).map_err(|error| Failure::io(&action, &error))?;
+    write_file(path, content).map_err(|error| Failure::io(&action, &error))?;
     Ok(Some(path.to_owned()))
 }
 

@@ -1,5 +1,5 @@
-//! Answers as text, each form written once: a table for people, JSON and CSV for programs, and a page in
-//! Markdown of published results.
+//! Answers as text and files, each form written once: a table for people, JSON, CSV and Parquet for programs, and a
+//! page in Markdown of published results.
 
 mod cells;
 mod csv;
@@ -9,12 +9,20 @@ mod json;
 pub(crate) mod lines;
 mod lookup_table;
 mod markdown;
+#[cfg(feature = "parquet")]
+mod parquet;
+mod row_file;
+mod rows;
 mod table;
 
-pub use self::csv::csv;
+pub use self::csv::{csv, csv_header, csv_rows};
+#[cfg(feature = "parquet")]
+pub use self::parquet::{ParquetWriter, parquet};
 pub(crate) use crate::quantity::precision::six_digits;
-pub use file::write_file;
+pub use file::{WholeFile, write_file};
 pub use json::json;
 pub use lookup_table::{NoTable, lookup_tables};
 pub use markdown::markdown;
+pub use row_file::{RowFormat, RowWriter};
+pub use rows::{Column, Field, FieldKind, Head, Rows};
 pub use table::table;
