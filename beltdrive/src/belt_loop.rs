@@ -100,7 +100,7 @@
 
 pub use crate::answers::{
     LoopBranch, LoopEnd, LoopLimit, LoopLimitCurve, LoopLimitPoint, LoopLimits, LoopPoint, Refusal,
-    Varied, limit_curve, limits, trace,
+    Refusals, Varied, limit_curve, limits, trace,
 };
 pub use crate::answers::{solve, solve_to, solve_with_margins};
 pub use crate::results::loop_state::{

@@ -123,6 +123,9 @@ pub use answers::check::{
 pub use answers::drive::{limit_curve, limits, solve, solve_from, stability, trace};
 pub use answers::losses::Losses;
 pub use answers::map::{MapAxis, MapState, OperatingMap, map};
+pub use answers::sweep::{
+    Grid, LatinHypercube, Sweep, SweepError, SweepQuestion, SweepRow, SweepSummary, Swept,
+};
 pub use answers::tension::{
     Elongated, OtherFriction, Set, Setting, Setup, SetupQuestion, Travel, tension,
 };

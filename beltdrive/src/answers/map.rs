@@ -1,10 +1,11 @@
 //! How a drive behaves over a rectangle of two of its numbers.
 
 mod limit;
-mod line;
+pub(in crate::answers) mod line;
 
-use super::check::{OnPulley, SlipMargin};
+use super::check::{CaseState, OnPulley, SlipMargin};
 use super::members::{Refusal, Varied};
+use super::shares::each;
 use crate::input::{Diagnostic, DriveFile};
 use crate::{Closure, Drive, Losses, SolveOptions};
 use line::{Family, Near};
@@ -67,6 +68,37 @@ pub struct MapState {
     pub losses: Losses,
     /// Estimated relative error of the state.
     pub error: f64,
+}
+
+impl MapState {
+    /// What is told of a state of a load case.
+    pub(crate) fn of(found: &CaseState) -> Self {
+        let state = &found.state;
+        let tensions = state.spans.iter().map(|span| span.tension);
+        let tractive = state.spans.iter().map(|span| span.tractive_tension);
+        Self {
+            speed_loss: found.speed_loss,
+            efficiency: state.efficiency,
+            slip_margin: found.slip_margin,
+            hub_load: found.hub_load,
+            rest_hub_load: found.rest_hub_load,
+            largest_tension: tensions.fold(f64::NEG_INFINITY, f64::max),
+            smallest_tractive_tension: tractive.fold(f64::INFINITY, f64::min),
+            rest_tension: state.rest_tension,
+            power_in: state.power_in,
+            power_out: state.power_out,
+            losses: found.losses,
+            error: state.relative_error(),
+        }
+    }
+
+    /// The name of the pulley of a drive that slips first, if the slip margin was found.
+    pub(crate) fn slips_first(&self, drive: &Drive) -> Option<String> {
+        match self.slip_margin {
+            SlipMargin::Factor(margin) => Some(drive.pulleys[margin.pulley].name.clone()),
+            SlipMargin::NoLoad | SlipMargin::NotFound => None,
+        }
+    }
 }
 
 impl MapAxis {
@@ -180,7 +212,8 @@ pub fn map(
 ) -> Result<OperatingMap, Diagnostic> {
     let drive = file.drive()?;
     let given = file.service()?.given_losses;
-    let family = Family::new(file, [&x.varied, &y.varied], options, given);
+    let file = file.with_sense();
+    let family = Family::new(&file, vec![&x.varied, &y.varied], options, given)?;
     let along = family.along([&x.values, &y.values]);
     let axes = [&x, &y];
     let [marched, across] = [axes[along], axes[1 - along]].map(|axis| &axis.values[..]);
@@ -194,14 +227,14 @@ pub fn map(
     let starts: Vec<Option<Near>> = across
         .iter()
         .map(|&at| {
-            if let Ok((found, _)) = family.point(near.as_ref(), values(begin, at)) {
+            if let Ok((found, _)) = family.point(near.as_ref(), &values(begin, at)) {
                 near = Some(found);
             }
             near.clone()
         })
         .collect();
     let done = Mutex::new((0.0, progress));
-    let lines = line::each(across.len(), |index| {
+    let lines = each(across.len(), |index| {
         let at = marched.iter().map(|&value| values(value, across[index]));
         let line = family.line(starts[index].as_ref(), at);
         if let Ok(mut done) = done.lock() {

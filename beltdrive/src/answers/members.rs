@@ -52,6 +52,42 @@ impl fmt::Display for Refusal {
     }
 }
 
+/// How often there is no state for which reason.
+#[derive(Clone, Debug, Default)]
+pub struct Refusals(Vec<(&'static str, usize, String)>);
+
+impl Refusals {
+    /// Counts a refusal.
+    pub fn add(&mut self, refusal: &Refusal) {
+        let kind = refusal.kind();
+        match self.0.iter_mut().find(|(known, ..)| *known == kind) {
+            Some((_, count, _)) => *count += 1,
+            None => self.0.push((kind, 1, refusal.to_string())),
+        }
+    }
+
+    /// Counts refusals that come later.
+    pub fn join(&mut self, later: Self) {
+        for (kind, more, first) in later.0 {
+            match self.0.iter_mut().find(|(known, ..)| *known == kind) {
+                Some((_, count, _)) => *count += more,
+                None => self.0.push((kind, more, first)),
+            }
+        }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.0.iter().map(|(_, count, _)| count).sum()
+    }
+
+    /// Each reason in one word, how often it was there, and what was said the first time.
+    pub fn by_reason(&self) -> impl Iterator<Item = (&'static str, usize, &str)> {
+        let reasons = self.0.iter();
+        reasons.map(|(kind, count, first)| (*kind, *count, first.as_str()))
+    }
+}
+
 /// A loop and its steady state.
 #[derive(Clone, Debug)]
 pub(super) struct Member {
@@ -166,7 +202,7 @@ impl Varied {
     /// Its key in JSON and CSV, without the unit.
     pub fn key(&self) -> String {
         match self {
-            Self::Key(key) => key.path().replace(['.', ' ', '-', '/'], "_"),
+            Self::Key(key) => key.stem(),
             Self::LoadFactor => "load_factor".to_owned(),
         }
     }

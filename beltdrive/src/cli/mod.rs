@@ -21,6 +21,7 @@ mod sections;
 mod solve;
 mod stability;
 mod stated;
+mod sweep;
 mod tension;
 mod trace;
 mod verify;
@@ -63,6 +64,8 @@ enum Command {
     Limits(limits::Limits),
     /// Find the steady states over two numbers of the drive file, such as load and speed
     Map(map::Map),
+    /// Answer a question for many drives, which differ in some numbers of the drive file
+    Sweep(sweep::Command),
     /// Find out whether small axial motions of a flat belt grow, and from which load on
     Stability(stability::Command),
     /// Find numbers of the drive file, such as friction and stiffness, from measured rows

@@ -23,6 +23,11 @@ impl FileKey {
         &self.path
     }
 
+    /// Its name in JSON, CSV and Parquet, without the unit.
+    pub fn stem(&self) -> String {
+        self.path.replace(['.', ' ', '-', '/'], "_")
+    }
+
     /// What it measures.
     pub fn measure(&self) -> Measure {
         self.measure

@@ -27,6 +27,7 @@ mod document;
 mod file;
 mod file_key;
 mod friction;
+mod heading;
 mod key;
 mod load;
 mod measurements;
@@ -41,6 +42,7 @@ mod tensioner;
 mod traceable;
 mod unit;
 mod values;
+mod variants;
 
 pub use argument::Argument;
 pub use diagnostic::Diagnostic;
@@ -48,6 +50,7 @@ pub use file_key::FileKey;
 pub use key::Key;
 pub use measurements::{MeasuredRow, Measurements, Reading};
 pub use section::{FilledEntry, FilledIn, FilledValue};
+pub use variants::Variants;
 
 use crate::Drive;
 use diagnostic::Finding;

@@ -16,6 +16,11 @@ const ROUNDED: f64 = 1e-6;
 const LOADS: [&str; 3] = ["torque", "power", "speed"];
 
 impl DriveFile {
+    /// Whether the file has load cases.
+    pub(crate) fn has_cases(&self) -> bool {
+        !self.document.cases.is_empty()
+    }
+
     /// The service of the drive: the load cases of the file, or the drive as it stands where it has none, with the
     /// requirements and the given losses.
     ///

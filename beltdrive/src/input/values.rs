@@ -11,6 +11,7 @@ use super::{
 use std::{collections::BTreeMap, ops::Range};
 
 /// The checked values of a drive file by path.
+#[derive(Clone, Debug)]
 pub(super) struct Values<'d> {
     document: &'d Document,
     /// Quantities in SI units.
@@ -41,6 +42,11 @@ impl<'d> Values<'d> {
     /// The number at `path`, if it is given.
     pub(super) fn number(&self, path: &str) -> Option<f64> {
         self.numbers.get(path).copied()
+    }
+
+    /// Puts a checked number, SI, in the place of the one at `path`.
+    pub(super) fn set_number(&mut self, path: &'d str, number: f64) {
+        self.numbers.insert(path, number);
     }
 
     /// The text at `path`, if it is given.

@@ -1,7 +1,7 @@
 //! What there is to tell of the states over a rectangle of two numbers of a drive file.
 
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, belt_loop};
-use crate::belt_loop::{Refusal, Varied};
+use crate::belt_loop::{Refusal, Refusals, Varied};
 use crate::{MapAxis, MapState, OperatingMap, SlipMargin};
 
 /// A number of every state of a map.
@@ -147,14 +147,8 @@ fn row(map: &OperatingMap, values: [f64; 2], point: &Result<MapState, Refusal>) 
         Err(_) => Quantity::number(scalar.key, "", scalar.measure, None, 0.0),
     }));
     let refusal = point.as_ref().err();
-    let pulley = |on: usize| map.drive.pulleys[on].name.clone();
-    let slips = point
-        .as_ref()
-        .ok()
-        .and_then(|state| match state.slip_margin {
-            SlipMargin::Factor(margin) => Some(pulley(margin.pulley)),
-            SlipMargin::NoLoad | SlipMargin::NotFound => None,
-        });
+    let state = point.as_ref().ok();
+    let slips = state.and_then(|state| state.slips_first(&map.drive));
     quantities.extend([
         Quantity::word("slips_first", "", slips),
         Quantity::word(
@@ -205,19 +199,18 @@ fn extremes(map: &OperatingMap) -> Vec<Subject> {
 
 /// How many points have no steady state for which reason, with the first of them.
 fn refusals(map: &OperatingMap) -> Vec<String> {
-    let mut reasons: Vec<(&str, usize, String)> = Vec::new();
+    let mut refusals = Refusals::default();
     for refusal in map.points.iter().filter_map(|point| point.as_ref().err()) {
-        match reasons
-            .iter_mut()
-            .find(|(kind, ..)| *kind == refusal.kind())
-        {
-            Some((_, count, _)) => *count += 1,
-            None => reasons.push((refusal.kind(), 1, refusal.to_string())),
-        }
+        refusals.add(refusal);
     }
-    let lines = reasons.into_iter().map(|(kind, count, first)| {
-        let points = if count == 1 { "point" } else { "points" };
-        format!("no state at {count} {points}: {kind}, first: {first}")
+    without_state(&refusals, ["point", "points"])
+}
+
+/// How many of what a map or a sweep consists of have no answer for which reason, with the first of them.
+pub(super) fn without_state(refusals: &Refusals, [one, several]: [&str; 2]) -> Vec<String> {
+    let lines = refusals.by_reason().map(|(kind, count, first)| {
+        let what = if count == 1 { one } else { several };
+        format!("no state at {count} {what}: {kind}, first: {first}")
     });
     lines.collect()
 }

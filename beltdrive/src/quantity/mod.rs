@@ -22,6 +22,7 @@ mod scalars;
 mod scale;
 pub mod section;
 pub mod stability;
+pub mod sweep;
 pub mod tension;
 pub mod two_pulleys;
 pub(crate) mod value;

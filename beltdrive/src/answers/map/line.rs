@@ -1,4 +1,4 @@
-//! The states along a line of a map.
+//! The states along a line of drives that differ in some numbers.
 
 use super::MapState;
 use super::limit::{Limit, beyond};
@@ -6,21 +6,21 @@ use crate::answers::belt_loop::closed_once;
 use crate::answers::check::{OnPulley, SlipMargin, case_state};
 use crate::answers::members::{Refusal, Varied, load};
 use crate::belt_loop::LoopState;
-use crate::input::DriveFile;
+use crate::input::{Diagnostic, DriveFile, Variants};
 use crate::model::{Neighbour, model};
 use crate::{Drive, Duty, GivenLosses, SolveOptions, SteadyState, solve_from};
 
-/// The drives of a map.
-pub(super) struct Family<'f> {
-    file: DriveFile,
-    axes: [&'f Varied; 2],
+/// The drives that differ from a file in some numbers.
+pub(in crate::answers) struct Family<'f> {
+    variants: Variants<'f>,
+    axes: Vec<&'f Varied>,
     options: &'f SolveOptions,
     given: GivenLosses,
 }
 
 /// A solved drive, from which its neighbours are found.
 #[derive(Clone)]
-pub(super) struct Near {
+pub(in crate::answers) struct Near {
     /// As it is closed once its torques are known.
     closed: Drive,
     state_of_two: Option<Box<SteadyState>>,
@@ -28,21 +28,29 @@ pub(super) struct Near {
 }
 
 impl<'f> Family<'f> {
-    pub(super) fn new(
-        file: &DriveFile,
-        axes: [&'f Varied; 2],
+    /// The drives of a file, which says the sense of its belt.
+    ///
+    /// # Errors
+    /// An entry of the file is at fault.
+    pub(in crate::answers) fn new(
+        file: &'f DriveFile,
+        axes: Vec<&'f Varied>,
         options: &'f SolveOptions,
         given: GivenLosses,
-    ) -> Self {
-        Self {
-            file: file.with_sense(),
+    ) -> Result<Self, Diagnostic> {
+        let keys = axes.iter().filter_map(|axis| match axis {
+            Varied::Key(key) => Some(key),
+            Varied::LoadFactor => None,
+        });
+        Ok(Self {
+            variants: Variants::new(file, &keys.collect::<Vec<_>>())?,
             axes,
             options,
             given,
-        }
+        })
     }
 
-    /// The axis along which lines run: x where it alone raises the load, else y.
+    /// The axis of two along which lines run: x where it alone raises the load, else y.
     pub(super) fn along(&self, values: [&[f64]; 2]) -> usize {
         let raises = |axis: usize| {
             let [Some(&x), Some(&y)] = values.map(<[f64]>::first) else {
@@ -50,7 +58,7 @@ impl<'f> Family<'f> {
             };
             let mut other = [x, y];
             other[axis] = values[axis].last().copied().unwrap_or(f64::NAN);
-            let drives = [[x, y], other].map(|values| self.stated(values));
+            let drives = [[x, y], other].map(|values| self.stated(&values));
             let [Ok((one, first)), Ok((other, last))] = drives else {
                 return false;
             };
@@ -62,27 +70,24 @@ impl<'f> Family<'f> {
         }
     }
 
-    /// The drive as the file states it with these values of x and y, and the factor on its torques.
-    fn stated(&self, values: [f64; 2]) -> Result<(Drive, f64), Refusal> {
-        let (mut file, mut factor) = (None, 1.0);
-        for (varied, value) in self.axes.into_iter().zip(values) {
-            match varied {
-                Varied::Key(key) => {
-                    file = Some(file.as_ref().unwrap_or(&self.file).with(key, value));
-                }
-                Varied::LoadFactor => factor *= value,
-            }
-        }
-        let drive = file.as_ref().unwrap_or(&self.file).drive();
+    /// The drive as the file states it with these values of the axes, and the factor on its torques.
+    pub(in crate::answers) fn stated(&self, values: &[f64]) -> Result<(Drive, f64), Refusal> {
+        let numbers = |factors: bool| {
+            let all = self.axes.iter().zip(values);
+            all.filter_map(move |(axis, &value)| {
+                (matches!(axis, Varied::LoadFactor) == factors).then_some(value)
+            })
+        };
+        let drive = self.variants.drive(numbers(false));
         let drive = drive.map_err(|error| Refusal::Input(Box::new(error)))?;
-        Ok((drive, factor))
+        Ok((drive, numbers(true).product()))
     }
 
-    /// The state with these values of x and y, and what its neighbours are found from.
-    pub(super) fn point(
+    /// The state with these values of the axes, and what its neighbours are found from.
+    pub(in crate::answers) fn point(
         &self,
         near: Option<&Near>,
-        values: [f64; 2],
+        values: &[f64],
     ) -> Result<(Near, LoopState), Refusal> {
         let stated = self.stated(values)?;
         self.solve(near, stated)
@@ -121,10 +126,10 @@ impl<'f> Family<'f> {
     }
 
     /// The states of a line, each from the one before.
-    pub(super) fn line(
+    pub(in crate::answers) fn line<Values: AsRef<[f64]>>(
         &self,
         start: Option<&Near>,
-        values: impl Iterator<Item = [f64; 2]>,
+        values: impl Iterator<Item = Values>,
     ) -> Vec<Result<MapState, Refusal>> {
         let mut near = start.cloned().map(Near::at_a_turn);
         let (mut line, mut limit, mut refused) = (Vec::new(), None, None);
@@ -132,7 +137,7 @@ impl<'f> Family<'f> {
         let mut rising: Vec<(usize, Drive)> = Vec::new();
         for values in values {
             let place = line.len();
-            let stated = self.stated(values);
+            let stated = self.stated(values.as_ref());
             let known = stated.as_ref().ok();
             let error = known.and_then(|stated| beyond(stated, limit.as_ref(), refused.as_ref()));
             let found = match (stated, error) {
@@ -206,24 +211,7 @@ impl<'f> Family<'f> {
 
     /// What a map tells of a state.
     fn told(&self, drive: &Drive, state: LoopState) -> MapState {
-        let found = case_state(drive, state, &self.given);
-        let state = &found.state;
-        let tensions = state.spans.iter().map(|span| span.tension);
-        let tractive = state.spans.iter().map(|span| span.tractive_tension);
-        MapState {
-            speed_loss: found.speed_loss,
-            efficiency: state.efficiency,
-            slip_margin: found.slip_margin,
-            hub_load: found.hub_load,
-            rest_hub_load: found.rest_hub_load,
-            largest_tension: tensions.fold(f64::NEG_INFINITY, f64::max),
-            smallest_tractive_tension: tractive.fold(f64::INFINITY, f64::min),
-            rest_tension: state.rest_tension,
-            power_in: state.power_in,
-            power_out: state.power_out,
-            losses: found.losses,
-            error: state.relative_error(),
-        }
+        MapState::of(&case_state(drive, state, &self.given))
     }
 }
 
@@ -247,17 +235,4 @@ fn with_torques(drive: &Drive, state: &LoopState) -> Drive {
         }
     }
     drive
-}
-
-/// The results of work on so many lines, in their order, by several threads at a time.
-#[cfg(feature = "parallel")]
-pub(super) fn each<T: Send>(count: usize, work: impl Fn(usize) -> T + Send + Sync) -> Vec<T> {
-    use rayon::iter::{IntoParallelIterator, ParallelIterator};
-    (0..count).into_par_iter().map(work).collect()
-}
-
-/// The results of work on so many lines, in their order.
-#[cfg(not(feature = "parallel"))]
-pub(super) fn each<T>(count: usize, work: impl Fn(usize) -> T) -> Vec<T> {
-    (0..count).map(work).collect()
 }

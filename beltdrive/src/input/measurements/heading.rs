@@ -1,8 +1,8 @@
 //! The headings of measured rows.
 
-use super::super::{DriveFile, FileKey, diagnostic::Finding, dimension::Dimension, spelling, unit};
+use super::super::heading::{factor, parted};
+use super::super::{DriveFile, FileKey, diagnostic::Finding, spelling};
 use crate::Drive;
-use crate::quantity::Measure;
 use crate::results::measured::Measured;
 use std::ops::Range;
 
@@ -27,23 +27,12 @@ pub(super) fn column(
     drive: &Drive,
     measured: &mut Vec<Measured>,
 ) -> Result<Column, Finding> {
-    let heading = &text[range.clone()];
-    let (whole, unit) = match heading.split_once('[') {
-        Some((name, unit)) => {
-            let start = range.start + name.len() + 1;
-            let unit = unit.strip_suffix(']').ok_or_else(|| {
-                Finding::new(range.clone(), format!("the unit of `{heading}` has no end"))
-                    .expected("the unit in brackets, e.g. load.torque [N*m]")
-            })?;
-            (name.trim_end(), Some((unit, start..start + unit.len())))
-        }
-        None => (heading, None),
-    };
+    let ((whole, place), unit) = parted(text, range.clone())?;
     let (name, is_deviation) = match whole.strip_suffix(DEVIATION) {
         Some(name) => (name.trim_end(), true),
         None => (whole, false),
     };
-    let at_name = range.start..range.start + name.len();
+    let at_name = place.start..place.start + name.len();
     let keys = file.keys();
     if let Some(key) = keys.iter().find(|key| key.path() == name && !is_deviation) {
         let factor = factor(unit, key.measure())?;
@@ -85,44 +74,6 @@ pub(super) fn column(
         (None, true) => {
             let message = format!("a standard deviation before its column `{name}`");
             Err(Finding::new(range, message).expected(format!("`{name}` to the left of it")))
-        }
-    }
-}
-
-/// The factor from a unit to SI for a measure; SI without a unit.
-fn factor(unit: Option<(&str, Range<usize>)>, measure: Measure) -> Result<f64, Finding> {
-    let Some((symbols, range)) = unit else {
-        return Ok(1.0);
-    };
-    let trimmed = symbols.trim();
-    // Of vibration, not of turning.
-    if measure == Measure::Frequency {
-        return match trimmed {
-            "Hz" => Ok(1.0),
-            _ => Err(
-                Finding::new(range, format!("`{trimmed}` is no unit of a frequency"))
-                    .expected("Hz"),
-            ),
-        };
-    }
-    let dimension = match measure {
-        Measure::Share => Dimension::NUMBER,
-        Measure::Loss => Dimension::POWER,
-        measure => Dimension::of(measure).unwrap_or(Dimension::NUMBER),
-    };
-    let found = unit::parse(trimmed).map_err(|_| {
-        Finding::new(range.clone(), format!("unknown unit `{trimmed}`"))
-            .expected(format!("{dimension}"))
-            .did_you_mean(unit::nearest(trimmed))
-    })?;
-    match found.dimension == dimension {
-        true => Ok(found.scale),
-        false => {
-            let message = format!(
-                "wrong dimension: expected {dimension}, got {}",
-                found.dimension
-            );
-            Err(Finding::new(range, message))
         }
     }
 }
