@@ -124,7 +124,8 @@ pub use answers::drive::{limit_curve, limits, solve, solve_from, stability, trac
 pub use answers::losses::Losses;
 pub use answers::map::{MapAxis, MapState, OperatingMap, map};
 pub use answers::sweep::{
-    Grid, LatinHypercube, Sweep, SweepError, SweepQuestion, SweepRow, SweepSummary, Swept,
+    Grid, LatinHypercube, Sweep, SweepError, SweepQuestion, SweepRow, SweepSummary, SweepTable,
+    Swept, TableError, TableRows,
 };
 pub use answers::tension::{
     Elongated, OtherFriction, Set, Setting, Setup, SetupQuestion, Travel, tension,
@@ -158,6 +159,11 @@ pub use results::warning::Warning;
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;
+
+/// The example of the page on sweeps is a test.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/sweeps.md")]
+struct Sweeps;
 
 /// The examples of the page on the crates are tests.
 #[cfg(doctest)]

@@ -5,6 +5,7 @@ mod latin_hypercube;
 mod lines;
 mod question;
 mod summary;
+mod table;
 
 use super::LoopLimits;
 use super::check::CheckedService;
@@ -20,6 +21,7 @@ pub use grid::Grid;
 pub use latin_hypercube::LatinHypercube;
 pub use question::SweepQuestion;
 pub use summary::SweepSummary;
+pub use table::{SweepTable, TableError, TableRows};
 
 /// A question asked of many drives, which differ from a drive file in some of its numbers.
 #[derive(Clone, Debug)]

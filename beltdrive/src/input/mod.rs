@@ -38,6 +38,7 @@ mod section;
 mod service;
 mod source;
 pub(crate) mod spelling;
+mod table;
 mod tensioner;
 mod traceable;
 mod unit;
@@ -50,6 +51,7 @@ pub use file_key::FileKey;
 pub use key::Key;
 pub use measurements::{MeasuredRow, Measurements, Reading};
 pub use section::{FilledEntry, FilledIn, FilledValue};
+pub use table::TableHead;
 pub use variants::Variants;
 
 use crate::Drive;

@@ -216,8 +216,12 @@ pub fn answer(sweep: &Sweep, summary: &SweepSummary) -> Answer {
     let names: Vec<_> = { sweep.varied().iter() }
         .map(|varied| varied.name())
         .collect();
+    let standing = match summary.standing {
+        0 => String::new(),
+        standing => format!("; {standing} rows stood before"),
+    };
     heading.push(format!(
-        "Sweep over {}: {} of {} rows answered",
+        "Sweep over {}: {} of {} rows answered{standing}",
         names.join(", "),
         summary.answered(),
         summary.rows
@@ -236,6 +240,7 @@ pub fn answer(sweep: &Sweep, summary: &SweepSummary) -> Answer {
                     Quantity::word("answer", "", sweep.question().name().to_owned()),
                     Quantity::count("rows", "", summary.rows),
                     Quantity::count("answered", "", summary.answered()),
+                    Quantity::count("standing", "", summary.standing),
                 ],
             ),
             Group::new("refusals", Layout::Columns, reasons.collect()),

@@ -8,6 +8,8 @@ use crate::answers::members::{Refusal, Refusals};
 pub struct SweepSummary {
     /// The number of rows.
     pub rows: usize,
+    /// The number of rows whose answers stood before, which are not among them.
+    pub standing: usize,
     /// Why there is no answer, by reason.
     pub refusals: Refusals,
 }
@@ -24,6 +26,7 @@ impl SweepSummary {
     /// Counts the rows of another summary behind those of this one.
     pub fn join(&mut self, other: Self) {
         self.rows += other.rows;
+        self.standing += other.standing;
         self.refusals.join(other.refusals);
     }
 

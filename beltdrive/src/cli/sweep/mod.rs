@@ -1,7 +1,10 @@
 //! `beltdrive sweep`: one question for many drives.
 
+mod outputs;
 mod over;
+mod parts;
 mod rate;
+mod source;
 
 use super::destinations::Destinations;
 use super::failure::Failure;
@@ -12,34 +15,40 @@ use super::progress::with_bar;
 use super::stated::Stated;
 use beltdrive::input::DriveFile;
 use beltdrive::quantity::sweep::{Columns, answer};
-use beltdrive::report::{self, Head, RowFormat, RowWriter, WholeFile};
-use beltdrive::{BeltKind, Grid, Sweep, SweepQuestion, SweepRow, SweepSummary};
+use beltdrive::report::{self, Head, RowFormat, RowWriter};
+use beltdrive::{BeltKind, Sweep, SweepQuestion, SweepSummary};
 use clap::{Args, ValueEnum};
-use over::Over;
+use outputs::{Output, Outputs, Wanted, cannot_write};
+use parts::{PartFormat, Parts, Shard};
 use rate::Rate;
-use std::io::{self, ErrorKind, Write};
+use serde_json::{Value, json};
+use source::{Source, SourceArgs};
 use std::path::{Path, PathBuf};
 
 const HELP: &str = "\
 Examples:
   beltdrive sweep drive.toml --over 'load.torque=10 N*m:60 N*m:100' \\
     --over friction.coefficient=0.4,0.5,0.6 --csv rows.csv
+  beltdrive sweep drive.toml --over friction.coefficient=0.3:0.6 --over 'load.torque=10 N*m:60 N*m' \\
+    --sample lhs:100000 --answer check --out rows --shard 1/4
 
-All combinations are answered, those of the last --over one after another. A row without an answer keeps its
-place, with status and reason.";
+All combinations are answered, those of the last --over one after another; or the rows of a sample or of a
+table. A row without an answer keeps its place, with status and reason. --out writes a file for each chunk of
+rows; the same command goes on where it was interrupted.";
 
-/// Rows of a chunk: some tenths of a second of flat belts, some seconds of V-belts.
+/// Rows of a chunk of flat belts, which take some tenths of a second, and of V-belts, which take some seconds.
 const CHUNKS: [usize; 2] = [10_000, 1000];
+
+/// The most rows of a chunk: all of them are in memory together.
+const LARGEST_CHUNK: u64 = 1_000_000;
 
 #[derive(Args)]
 #[command(after_help = HELP)]
 pub(super) struct Command {
     #[command(flatten)]
     stated: Stated,
-    /// A number that varies by its dotted path, its ends with their units and how many values it takes, or
-    /// its values; repeatable
-    #[arg(long, value_name = "KEY=A:B:N|V1,V2,…", required = true)]
-    over: Vec<String>,
+    #[command(flatten)]
+    source: SourceArgs,
     /// What is asked of every drive
     #[arg(long, value_name = "COMMAND", default_value = "solve")]
     answer: Question,
@@ -49,6 +58,18 @@ pub(super) struct Command {
     /// Write the rows as Parquet; - for standard output, in place of the summary
     #[arg(long, value_name = "FILE")]
     parquet: Option<PathBuf>,
+    /// Write the rows into a directory, a file for each chunk, and go on where that was interrupted
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["csv", "parquet"])]
+    out: Option<PathBuf>,
+    /// Form of the files of --out
+    #[arg(long, value_name = "FORM", default_value = "parquet", requires = "out")]
+    format: PartFormat,
+    /// Rows of a chunk; 10000 of flat belts and 1000 of V-belts unless given
+    #[arg(long, value_name = "ROWS", value_parser = clap::value_parser!(u64).range(1..=LARGEST_CHUNK))]
+    chunk: Option<u64>,
+    /// Answer every N-th chunk from the I-th on alone
+    #[arg(long, value_name = "I/N", value_parser = Shard::read)]
+    shard: Option<Shard>,
     /// Write the summary as JSON; - for standard output, in place of the summary
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -90,36 +111,37 @@ impl Command {
         if self.parquet.is_some() {
             parquet::check()?;
         }
+        if self.out.is_some() {
+            self.format.rows()?;
+        }
         let csv = self.csv.as_deref().filter(|path| !is_stream(path));
         let beside = csv.map(Origin::beside);
-        Destinations {
-            texts: &[
-                ("--csv", self.csv.as_deref()),
-                ("the origin of --csv", beside.as_deref()),
-                ("--parquet", self.parquet.as_deref()),
-                ("--json", self.json.as_deref()),
-            ],
-            figures: None,
-            read: Some(("the drive file", self.stated.path())),
+        let table = self.source.table().map(|path| ("the table", path));
+        for read in [Some(("the drive file", self.stated.path())), table] {
+            Destinations {
+                texts: &[
+                    ("--csv", self.csv.as_deref()),
+                    ("the origin of --csv", beside.as_deref()),
+                    ("--parquet", self.parquet.as_deref()),
+                    ("--json", self.json.as_deref()),
+                ],
+                figures: None,
+                read,
+            }
+            .check()?;
         }
-        .check()
+        Ok(())
     }
 
     fn of(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
         // A drive file that is at fault says so itself.
         file.drive().map_err(Failure::usage)?;
-        let over = Over::all(file, &self.over)?;
-        let axes: Vec<_> = over.iter().map(Over::listed).collect();
-        if Grid::count_of(&axes).is_none() {
-            return Err(Failure::usage("error: there are too many rows to count"));
-        }
-        let grid = Grid::new(axes);
-        let varied = over.into_iter().map(|over| over.varied).collect();
+        let source = self.source.source(file)?;
         let options = self.stated.options();
-        let sweep = Sweep::new(file, varied, self.answer.into(), options);
+        let sweep = Sweep::new(file, source.varied.clone(), self.answer.into(), options);
         let sweep = sweep.map_err(|error| Failure::Usage(format!("error: {error}")))?;
         let summary = with_bar(self.quiet, |progress| {
-            self.answered(&sweep, &grid, origin, progress)
+            self.answered(&sweep, &source, origin, progress)
         })?;
         self.tell(&sweep, &summary, origin)
     }
@@ -128,48 +150,46 @@ impl Command {
     fn answered(
         &self,
         sweep: &Sweep,
-        grid: &Grid,
+        source: &Source,
         origin: &Origin,
         progress: &mut (dyn FnMut(f64, &str) + Send),
     ) -> Result<SweepSummary, Failure> {
         let columns = Columns::new(sweep);
         let head = Head::of(&columns.quantities());
-        let mut outputs = self.outputs(&head, origin)?;
-        let chunk = match sweep.drive().belt.kind {
-            BeltKind::Flat { .. } => CHUNKS[0],
-            BeltKind::V(_) => CHUNKS[1],
-        };
-        let rate = Rate::new(grid.count(), progress);
-        let mut rows = grid.rows(0);
+        let metadata = origin.entries();
+        let size = self.chunk_size(sweep);
+        let identity = self.identity(sweep, source, origin, size);
+        let mut outputs = self.outputs(&head, &metadata, &identity, origin)?;
+        let count = source.count();
+        let chunk = |chunk: usize| chunk * size..count.min((chunk + 1) * size);
+        let chunks = count.div_ceil(size);
+        let shard = self.shard.unwrap_or(Shard::ALL);
+        let own = || (0..chunks).filter(|&chunk| shard.has(chunk));
+        let rate = Rate::new(own().map(|index| chunk(index).len()).sum(), progress);
+        let mut rows = source.reader()?;
         let mut summary = SweepSummary::default();
-        for first in (0..grid.count()).step_by(chunk) {
-            let rows: Vec<SweepRow> = rows.by_ref().take(chunk).collect();
-            let fields = sweep.answer(&rows, |index, row, answer| {
+        for index in own() {
+            let range = chunk(index);
+            if outputs.stands(index) {
+                summary.standing += range.len();
+                rate.stood(range.len());
+                continue;
+            }
+            let first = range.start;
+            let fields = sweep.answer(&rows.take(range)?, |index, row, answer| {
                 let mut counted = SweepSummary::default();
                 counted.add(answer);
                 rate.answered();
-                (
-                    counted,
-                    head.row(columns.values(first + index, row, answer)),
-                )
+                let values = columns.values(first + index, row, answer);
+                (counted, head.row(values))
             });
             let (counted, fields): (Vec<_>, Vec<_>) = fields.into_iter().unzip();
             counted.into_iter().for_each(|row| summary.join(row));
-            for (output, path) in &mut outputs {
-                match output.write(&fields) {
-                    // Whoever closes standard output has read enough.
-                    Err(error) if is_stream(path) && error.kind() == ErrorKind::BrokenPipe => {
-                        return Ok(summary);
-                    }
-                    written => written.map_err(|error| cannot_write(path, &error))?,
-                }
+            if outputs.write(index, &fields)? == Wanted::Enough {
+                return Ok(summary);
             }
         }
-        for (output, path) in outputs {
-            let finished = output.finish().and_then(Output::finish);
-            finished.map_err(|error| cannot_write(path, &error))?;
-            self.note(path);
-        }
+        outputs.finish(chunks, |path| self.note(path))?;
         if let Some(path) = self.csv.as_deref().filter(|path| path.is_file()) {
             write_text(&Origin::beside(path), &origin.json())?;
             self.note(&Origin::beside(path));
@@ -177,12 +197,50 @@ impl Command {
         Ok(summary)
     }
 
-    /// The files of the rows, begun.
-    fn outputs(
-        &self,
-        head: &Head,
+    /// Rows of a chunk.
+    fn chunk_size(&self, sweep: &Sweep) -> usize {
+        let usual = match sweep.drive().belt.kind {
+            BeltKind::Flat { .. } => CHUNKS[0],
+            BeltKind::V(_) => CHUNKS[1],
+        };
+        let given = self.chunk.and_then(|size| usize::try_from(size).ok());
+        given.unwrap_or(usual)
+    }
+
+    /// What tells this sweep from others.
+    fn identity(&self, sweep: &Sweep, source: &Source, origin: &Origin, size: usize) -> Value {
+        json!({
+            "version": env!("CARGO_PKG_VERSION"),
+            "drive_file": origin.drive_file().1,
+            "set": self.stated.overrides(),
+            "tolerance": self.stated.options().tolerance,
+            "answer": sweep.question().name(),
+            "source": source.identity,
+            "rows": source.count(),
+            "chunk": size,
+            "format": format!("{:?}", self.format).to_lowercase(),
+        })
+    }
+
+    /// Where the rows go, begun.
+    fn outputs<'o>(
+        &'o self,
+        head: &'o Head,
+        metadata: &'o [(String, String)],
+        identity: &Value,
         origin: &Origin,
-    ) -> Result<Vec<(RowWriter<Output>, &Path)>, Failure> {
+    ) -> Result<Outputs<'o>, Failure> {
+        if let Some(directory) = &self.out {
+            let parts = Parts {
+                directory,
+                format: self.format.rows()?,
+                columns: head.columns(),
+                metadata,
+            };
+            let origin = serde_json::to_value(origin).expect("texts");
+            parts.open(identity, &origin)?;
+            return Ok(Outputs::Parts(parts));
+        }
         let csv = self.csv.as_deref().map(|path| (path, RowFormat::Csv));
         let parquet = match self.parquet.as_deref() {
             Some(path) => Some((path, parquet::format()?)),
@@ -190,13 +248,12 @@ impl Command {
         };
         let begun = [csv, parquet].into_iter().flatten().map(|(path, format)| {
             let output = Output::new(path);
-            let writer = output.and_then(|output| {
-                RowWriter::new(format, output, head.columns(), &origin.entries())
-            });
+            let writer =
+                output.and_then(|output| RowWriter::new(format, output, head.columns(), metadata));
             let writer = writer.map_err(|error| cannot_write(path, &error))?;
             Ok((writer, path))
         });
-        begun.collect()
+        Ok(Outputs::Files(begun.collect::<Result<_, Failure>>()?))
     }
 
     /// Prints and writes the summary.
@@ -214,63 +271,19 @@ impl Command {
             self.note(&path);
         }
         match summary.refusals.by_reason().next() {
-            Some((_, _, first)) if summary.answered() == 0 => Err(Failure::Unsolved(format!(
-                "error: no row has an answer, the first because of this: {first}"
-            ))),
+            Some((_, _, first)) if summary.answered() + summary.standing == 0 => {
+                Err(Failure::Unsolved(format!(
+                    "error: no row has an answer, the first because of this: {first}"
+                )))
+            }
             _ => Ok(()),
         }
     }
 
-    /// Names a written file.
+    /// Names what was written.
     fn note(&self, path: &Path) {
         if !self.quiet && !is_stream(path) {
             note(&format!("wrote {}", path.display()));
-        }
-    }
-}
-
-fn cannot_write(path: &Path, error: &io::Error) -> Failure {
-    let action = match is_stream(path) {
-        true => "write to standard output".to_owned(),
-        false => format!("write {}", path.display()),
-    };
-    Failure::io(&action, error)
-}
-
-/// Where rows go.
-enum Output {
-    Stream(io::Stdout),
-    File(WholeFile),
-}
-
-impl Output {
-    fn new(path: &Path) -> io::Result<Self> {
-        match is_stream(path) {
-            true => Ok(Self::Stream(io::stdout())),
-            false => WholeFile::create(path).map(Self::File),
-        }
-    }
-
-    fn finish(self) -> io::Result<()> {
-        match self {
-            Self::Stream(mut stream) => stream.flush(),
-            Self::File(file) => file.finish(),
-        }
-    }
-}
-
-impl Write for Output {
-    fn write(&mut self, buffer: &[u8]) -> io::Result<usize> {
-        match self {
-            Self::Stream(stream) => stream.write(buffer),
-            Self::File(file) => file.write(buffer),
-        }
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        match self {
-            Self::Stream(stream) => stream.flush(),
-            Self::File(file) => file.flush(),
         }
     }
 }

@@ -26,6 +26,8 @@ pub(super) struct Over {
 pub(super) enum Values {
     /// At equal steps from one end of a range to the other.
     Steps([f64; 2], usize),
+    /// Anywhere in a range.
+    Range([f64; 2]),
     /// Those of a list.
     List(Vec<f64>),
 }
@@ -88,7 +90,7 @@ impl Over {
                 let values = list.split(',').map(|value| number(value.trim()));
                 Values::List(values.collect::<Result<_, _>>()?)
             }
-            [_, _] => return Err(shape("how many values there are is not said")),
+            [from, to] => Values::Range(range(from, to)?),
             [from, to, count] => {
                 let count = count.parse().ok();
                 let count = count.filter(|count| (COUNTS[0]..=COUNTS[1]).contains(count));
@@ -106,17 +108,34 @@ impl Over {
     }
 
     /// Its values one by one.
-    pub(super) fn listed(&self) -> Vec<f64> {
+    pub(super) fn listed(&self) -> Result<Vec<f64>, Failure> {
         match &self.values {
             Values::Steps(range, count) => {
-                MapAxis::over(self.varied.clone(), *range, *count).values
+                Ok(MapAxis::over(self.varied.clone(), *range, *count).values)
             }
-            Values::List(values) => values.clone(),
+            Values::List(values) => Ok(values.clone()),
+            Values::Range(_) => Err(self.shape("how many values there are is not said")),
+        }
+    }
+
+    /// Its range, to be sampled.
+    pub(super) fn range(&self) -> Result<[f64; 2], Failure> {
+        match self.values {
+            Values::Range(range) => Ok(range),
+            Values::Steps(..) => Err(self.problem("--sample says how many rows there are")),
+            Values::List(_) => Err(self.problem("a sample is one of a range")),
         }
     }
 
     fn shape(&self, problem: &str) -> Failure {
         shape(&self.text, problem)
+    }
+
+    fn problem(&self, problem: &str) -> Failure {
+        let text = &self.text;
+        Failure::Usage(format!(
+            "error: {OPTION} {text}: {problem}; expected KEY=A:B"
+        ))
     }
 }
 

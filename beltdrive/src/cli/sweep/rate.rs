@@ -16,8 +16,9 @@ struct State<'p> {
     progress: &'p mut (dyn FnMut(f64, &str) + Send),
     began: Instant,
     told: Instant,
-    /// Rows that are done.
+    /// Rows answered in this run, and those that stood before.
     answered: usize,
+    standing: usize,
 }
 
 impl<'p> Rate<'p> {
@@ -28,10 +29,18 @@ impl<'p> Rate<'p> {
             began: now,
             told: now,
             answered: 0,
+            standing: 0,
         };
         Self {
             total,
             state: Mutex::new(state),
+        }
+    }
+
+    /// Counts rows that stood before.
+    pub(super) fn stood(&self, rows: usize) {
+        if let Ok(mut state) = self.state.lock() {
+            state.standing += rows;
         }
     }
 
@@ -45,7 +54,7 @@ impl<'p> Rate<'p> {
             return;
         }
         state.told = Instant::now();
-        let done = state.answered;
+        let done = state.answered + state.standing;
         let rate = state.answered as f64 / state.began.elapsed().as_secs_f64();
         let left = self.total.saturating_sub(done) as f64 / rate;
         let share = done as f64 / self.total.max(1) as f64;

@@ -1,5 +1,10 @@
 //! Sweeps: every row is what the command finds for one drive, and none is lost.
 
+mod faults;
+mod parts;
+mod program;
+mod tables;
+
 use beltdrive::belt_loop::{self, Refusal, Varied};
 use beltdrive::input::{Argument, DriveFile};
 use beltdrive::quantity::{self, sweep::Columns};
@@ -8,9 +13,6 @@ use beltdrive::{
     Grid, SolveOptions, StateSummary, Sweep, SweepQuestion, SweepRow, Swept, examples, limits,
     solve, trace,
 };
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 const OPTIONS: SolveOptions = SolveOptions { tolerance: 1e-6 };
 
@@ -266,160 +268,5 @@ fn compared(file: &DriveFile, path: &str, value: f64, branch: &Rows) {
         };
         let off = (found - expected).abs() / expected.abs().max(1e-3);
         assert!(off < 1e-4, "{name}: {found} {expected}");
-    }
-}
-
-/// A fresh directory of this test run with an example.
-fn directory(name: &str, example: &str) -> PathBuf {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .join("sweep")
-        .join(name);
-    let _ = fs::remove_dir_all(&path);
-    fs::create_dir_all(&path).unwrap();
-    let text = examples::find(example).unwrap().text;
-    fs::write(path.join("drive.toml"), text).unwrap();
-    path
-}
-
-fn run(directory: &Path, args: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_beltdrive"));
-    let args = [&["sweep", "drive.toml"], args].concat();
-    command.args(args).current_dir(directory).output().unwrap()
-}
-
-#[track_caller]
-fn answered(output: &Output) {
-    let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{errors}");
-}
-
-#[track_caller]
-fn refused(output: &Output, message: &str) {
-    let text = String::from_utf8_lossy(&output.stderr);
-    assert_eq!(output.status.code(), Some(2), "{text}");
-    assert!(text.contains(message), "{text}");
-}
-
-#[test]
-fn every_row_of_the_csv_is_there_with_its_status() {
-    let directory = directory("csv", "kim2009-flat");
-    let output = run(
-        &directory,
-        &[
-            "--over",
-            "pulleys.driver.speed=60 rad/s,100 rad/s",
-            "--over",
-            "load.tight_tension=300 N:9 kN:30",
-            "--csv",
-            "rows.csv",
-        ],
-    );
-    answered(&output);
-    let mut rows = csv::Reader::from_path(directory.join("rows.csv")).unwrap();
-    let header = rows.headers().unwrap().clone();
-    assert_eq!(
-        header.iter().take(4).collect::<Vec<_>>(),
-        [
-            "row",
-            "pulleys_driver_speed_rad_per_s",
-            "load_tight_tension_N",
-            "belt_length_m"
-        ]
-    );
-    let place = |name: &str| header.iter().position(|known| known == name).unwrap();
-    let rows: Vec<_> = rows.records().map(Result::unwrap).collect();
-    assert_eq!(rows.len(), 60);
-    let mut counts = [0; 2];
-    for (index, row) in rows.iter().enumerate() {
-        assert_eq!(row[0], index.to_string());
-        let is_answered = &row[place("status")] == "answered";
-        assert_eq!(is_answered, !row[place("efficiency")].is_empty());
-        assert_eq!(is_answered, row[place("reason")].is_empty());
-        assert_eq!(is_answered, row[place("description")].is_empty());
-        counts[usize::from(is_answered)] += 1;
-    }
-    assert!(counts[0] > 2 && counts[1] > 5, "{counts:?}");
-    let table = String::from_utf8(output.stdout).unwrap();
-    let told = format!("{} of 60 rows answered", counts[1]);
-    assert!(table.contains(&told), "{table}");
-    assert!(directory.join("rows.csv.origin.json").is_file());
-}
-
-#[test]
-fn faults_of_the_command_line_are_one_error() {
-    let directory = directory("faults", "kim2009-flat");
-    for (args, message) in [
-        (
-            &["--over", "load.tight_tensoin=300:500:3"][..],
-            "did you mean `load.tight_tension`?",
-        ),
-        (&["--over", "load.tight_tension"], "there is no `=`"),
-        (
-            &["--over", "load.tight_tension=300:500:0"],
-            "N is not a whole number",
-        ),
-        (
-            &["--over", "load.tight_tension=300:500:1"],
-            "N is not a whole number",
-        ),
-        (&["--over", "load.tight_tension=500:300:3"], "A is above B"),
-        (
-            &["--over", "load.tight_tension=500:500:3"],
-            "the same value",
-        ),
-        (
-            &["--over", "load.tight_tension=nan:500:3"],
-            "not a finite number",
-        ),
-        (
-            &["--over", "load.tight_tension=300 kg:500 N:3"],
-            "wrong dimension",
-        ),
-        (
-            &["--over", "load.tight_tension=300 N:500 N"],
-            "how many values",
-        ),
-        (&["--over", "load.tight_tension=300 N,"], "missing number"),
-        (&["--over", "friction.law=epp,coulomb"], "no number"),
-        (
-            &[
-                "--over",
-                "load.tight_tension=300,400",
-                "--over",
-                "load.tight_tension=1:2:3",
-            ],
-            "varies twice",
-        ),
-        (
-            &["--over", "load_factor=1:2:3", "--answer", "limits"],
-            "load factor",
-        ),
-        (&["--over", "load_factor=nan:2:3"], "not negative"),
-        (
-            &["--over", "load.tight_tension=3,4", "--csv", "drive.toml"],
-            "would overwrite",
-        ),
-        (
-            &[
-                "--over",
-                "load.tight_tension=3,4",
-                "--csv",
-                "-",
-                "--json",
-                "-",
-            ],
-            "standard output",
-        ),
-        (
-            &[
-                "--over",
-                "load.tight_tension=3,4",
-                "--csv",
-                "nowhere/rows.csv",
-            ],
-            "cannot write nowhere/rows.csv",
-        ),
-    ] {
-        refused(&run(&directory, args), message);
     }
 }
