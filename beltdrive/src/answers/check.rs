@@ -1,8 +1,9 @@
 //! Whether a drive holds: its state in each load case against what is required of it.
 
-use super::belt_loop::solve_with_margins;
+use super::belt_loop::{closed_once, solve_with_margins};
 use super::losses::{Losses, losses};
 use crate::belt_loop::LoopState;
+use crate::model::{Neighbour, model};
 use crate::{Drive, GivenLosses, LoadCase, Requirements, Service, SolveError, SolveOptions};
 
 /// The load cases of a drive with their verdicts.
@@ -169,6 +170,37 @@ pub(super) fn judged(
     Ok(case_state(&case.drive, state, given))
 }
 
+/// The slip margin of a drive alone.
+pub(super) fn slip_margin(drive: &Drive, options: &SolveOptions) -> Result<SlipMargin, SolveError> {
+    let drive = closed_once(drive, options)?;
+    let model = model(drive.belt.kind);
+    let (state, neighbour) = model.solve_loop_from(&drive, None, options)?;
+    Ok(match (margin_of(&state), neighbour) {
+        (SlipMargin::NotFound, Neighbour::V(neighbour)) => {
+            let limit = neighbour.load_limit(options.tolerance);
+            limit.map_or(SlipMargin::NotFound, |limit| {
+                SlipMargin::Factor(OnPulley {
+                    value: limit.factor,
+                    pulley: limit.pulley,
+                })
+            })
+        }
+        (margin, _) => margin,
+    })
+}
+
+/// The slip margin that a state has.
+fn margin_of(state: &LoopState) -> SlipMargin {
+    match &state.load_limit {
+        Some(limit) => SlipMargin::Factor(OnPulley {
+            value: limit.factor,
+            pulley: limit.pulley,
+        }),
+        None if state.pulleys.iter().all(|pulley| pulley.torque == 0.0) => SlipMargin::NoLoad,
+        None => SlipMargin::NotFound,
+    }
+}
+
 /// What may be required of a state of a drive.
 pub(super) fn case_state(drive: &Drive, state: LoopState, given: &GivenLosses) -> CaseState {
     let hub = |[x, y]: [f64; 2]| x.hypot(y);
@@ -177,14 +209,7 @@ pub(super) fn case_state(drive: &Drive, state: LoopState, given: &GivenLosses) -
     let is_driven = |pulley: usize| pulley != drive.driver() && has_torque(pulley);
     let no_load = !(0..state.pulleys.len()).any(has_torque);
     CaseState {
-        slip_margin: match &state.load_limit {
-            Some(limit) => SlipMargin::Factor(OnPulley {
-                value: limit.factor,
-                pulley: limit.pulley,
-            }),
-            None if no_load => SlipMargin::NoLoad,
-            None => SlipMargin::NotFound,
-        },
+        slip_margin: margin_of(&state),
         speed_loss: match no_load {
             true => largest(&state, |pulley| pulley.speed_loss, all),
             false => largest(&state, |pulley| pulley.speed_loss, is_driven),

@@ -12,8 +12,9 @@ pub use travel::Travel;
 
 use super::check::{CheckedService, check};
 use crate::model::model;
+use crate::vbelt::belt_loop::limit_accuracy;
 use crate::{BeltKind, Closure, Drive, LoadCase, Mount, Service, SolveError, SolveOptions};
-use search::{Judged, Search};
+use search::{Found, Judged, Search};
 use std::borrow::Cow;
 
 /// The smallest setup tension of a drive, and what follows from it.
@@ -28,6 +29,8 @@ pub struct Setup {
     pub tension: f64,
     /// Relative accuracy: the setting is larger than the smallest one by about this at most.
     pub accuracy: f64,
+    /// The same of the tensions for other friction.
+    pub band_accuracy: f64,
     /// Length of the unstretched belt that has this tension, m.
     pub unstretched_length: f64,
     /// The load case that decides, by its index: the others have larger margins, or the same.
@@ -72,11 +75,15 @@ pub struct Elongated {
 /// Factors on the coefficients of friction of a band.
 const FRICTION_BAND: [f64; 2] = [0.8, 1.2];
 
+/// Accuracy of the tensions of a band of a V-belt, relative: of the SPB belt that ships as an example the load limit
+/// jumps with the tension where friction is 20 % larger, and halving the jump to 1e-6 took half a minute more.
+const BAND: f64 = 1e-4;
+
 /// The smallest setup tension at which a drive has the asked slip margin in all of its load cases.
 ///
 /// What closes the drive in the file decides what is varied ([`Setting`]). The tension is found on the states of the
 /// drive themselves: their load limit grows with the tension, about in proportion to what centrifugal force leaves of
-/// it. A limit of a V-belt is known to about 1e-4, a limit of a flat belt to rounding: so is the margin that the
+/// it. A limit of a V-belt is known to about 1e-6, a limit of a flat belt to rounding: so is the margin that the
 /// answer has, which is never below the asked one. `progress` is called with the share of the work that is done.
 ///
 /// ```
@@ -102,36 +109,12 @@ pub fn tension(
     options: &SolveOptions,
     progress: &mut dyn FnMut(f64, &str),
 ) -> Result<Setup, SolveError> {
-    question::in_range(question)?;
     progress(0.0, "tension");
-    let mut cases = service.cases.clone();
-    for case in &mut cases {
-        case.drive = loaded(&case.drive, options)?;
-    }
-    let first = &cases[0].drive;
-    travel::movable(first, question.moved)?;
-    let accuracy = accuracy(first, options);
-    let setting = Setting::of(first);
-    let search = Search {
-        setting,
-        margin: question.slip_margin,
-        accuracy,
-        options,
-    };
-    if cases.iter().all(|case| is_idle(&case.drive)) {
-        return Err(SolveError::Statement {
-            subject: "load".to_owned(),
-            problem: Cow::Borrowed(
-                "no pulley has a torque or a power in any load case, so that none slips",
-            ),
-        });
-    }
-    let start = cases
-        .iter()
-        .map(|case| search.start(&case.drive))
-        .fold(0.0, f64::max);
+    let (cases, search, found) = sought(service, question, options)?;
+    let Search {
+        setting, accuracy, ..
+    } = search;
     let drives: Vec<_> = cases.iter().map(|case| case.drive.clone()).collect();
-    let found = search.of_all(&drives, start)?;
     progress(0.5, "load cases");
     let set: Vec<_> = { cases.iter() }
         .map(|case| LoadCase {
@@ -148,12 +131,20 @@ pub fn tension(
     let here = &asked.cases[0].drive;
     let rest = model(here.belt.kind).at_rest(here, options)?;
     let of_length = |drive: &Drive, length: f64| with_length(drive, length, rest.coordinate);
+    let band_accuracy = accuracy.max(match here.belt.kind {
+        BeltKind::V(_) => BAND,
+        BeltKind::Flat { .. } => 0.0,
+    });
+    let of_band = Search {
+        accuracy: band_accuracy,
+        ..search
+    };
     let other_friction = FRICTION_BAND.map(|factor| {
         progress(0.6 + 0.5 * (factor - FRICTION_BAND[0]), "other friction");
         let others: Vec<_> = { drives.iter() }
             .map(|drive| with_friction(drive, factor))
             .collect();
-        let needed = search.of_all(&others, found.value);
+        let needed = of_band.of_all(&others, found.value);
         let slip_margin = match &needed {
             Ok(needed) => needed.margin_at_start,
             Err(_) => None,
@@ -186,6 +177,7 @@ pub fn tension(
         setting: setting.set(here, found.value),
         tension: rest.tension,
         accuracy,
+        band_accuracy,
         unstretched_length: rest.unstretched_length,
         deciding_case: found.case,
         ends_below: found.ends_below,
@@ -196,11 +188,60 @@ pub fn tension(
     })
 }
 
-/// How accurately a margin is met, relative: a limit of a V-belt is found on states of a tolerance of 1e-4 at
-/// least, one of a flat belt in closed form.
+/// The belt tension at rest, N, that [`tension`] finds.
+pub(super) fn smallest_tension(
+    service: &Service,
+    question: SetupQuestion,
+    options: &SolveOptions,
+) -> Result<f64, SolveError> {
+    let (cases, search, found) = sought(service, question, options)?;
+    let drive = search.setting.applied(&cases[0].drive, found.value);
+    Ok(model(drive.belt.kind).at_rest(&drive, options)?.tension)
+}
+
+/// The load cases with torques, and the smallest value of what is varied.
+fn sought<'o>(
+    service: &Service,
+    question: SetupQuestion,
+    options: &'o SolveOptions,
+) -> Result<(Vec<LoadCase>, Search<'o>, Found), SolveError> {
+    question::in_range(question)?;
+    let mut cases = service.cases.clone();
+    for case in &mut cases {
+        case.drive = loaded(&case.drive, options)?;
+    }
+    let first = &cases[0].drive;
+    travel::movable(first, question.moved)?;
+    let accuracy = accuracy(first, options);
+    let setting = Setting::of(first);
+    let search = Search {
+        setting,
+        margin: question.slip_margin,
+        accuracy,
+        options,
+    };
+    if cases.iter().all(|case| is_idle(&case.drive)) {
+        return Err(SolveError::Statement {
+            subject: "load".to_owned(),
+            problem: Cow::Borrowed(
+                "no pulley has a torque or a power in any load case, so that none slips",
+            ),
+        });
+    }
+    let start = cases
+        .iter()
+        .map(|case| search.start(&case.drive))
+        .fold(0.0, f64::max);
+    let drives: Vec<_> = cases.iter().map(|case| case.drive.clone()).collect();
+    let found = search.of_all(&drives, start)?;
+    Ok((cases, search, found))
+}
+
+/// How accurately a margin is met, relative: that of a V-belt as accurately as it is known, one of a flat belt,
+/// which is in closed form, nearly to rounding.
 fn accuracy(drive: &Drive, options: &SolveOptions) -> f64 {
     match drive.belt.kind {
-        BeltKind::V(_) => options.tolerance.max(2e-4),
+        BeltKind::V(_) => limit_accuracy(options.tolerance),
         BeltKind::Flat { .. } => 1e-9,
     }
 }

@@ -4,6 +4,7 @@ use super::precision::six_digits;
 use super::scale::Scale;
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value};
 use super::{belt_loop, warning, words};
+use crate::vbelt::belt_loop::limit_accuracy;
 use crate::{
     CaseState, CheckedCase, CheckedService, Drive, Failing, LoadCase, OnPulley, Requirements,
     SlipMargin,
@@ -196,10 +197,10 @@ fn reason(failing: &Failing, drive: &Drive, state: &CaseState) -> String {
     }
 }
 
-/// Relative error of a slip margin: that of a V-belt is found on states of a tolerance of 1e-4 at least.
+/// Relative error of a slip margin.
 pub(super) fn margin_error(drive: &Drive, scale: &Scale) -> f64 {
     match drive.belt.kind {
-        crate::BeltKind::V(_) => scale.error.max(1e-4),
+        crate::BeltKind::V(_) => limit_accuracy(scale.error),
         crate::BeltKind::Flat { .. } => scale.error,
     }
 }

@@ -1,11 +1,13 @@
 //! What there is to tell of the setup of a drive.
 
+mod bands;
+
 use super::check::{margin_error, slips_at, verdicts};
 use super::precision::six_digits;
 use super::{Answer, Group, Layout, Measure, Quantity, Subject};
 use super::{belt_loop, warning};
 use crate::belt_loop::LoopState;
-use crate::{CaseState, Drive, OtherFriction, Set, Setup, SolveError};
+use crate::{CaseState, Drive, Set, Setup};
 
 /// A load case of a drive that is set up: its name, the drive and its state.
 type Case<'s> = (&'s str, &'s Drive, &'s CaseState);
@@ -47,8 +49,12 @@ pub fn answer(found: &Setup) -> Answer {
         Layout::Rows,
         spans(found, first, &cases),
     ));
-    groups.push(Group::new("friction", Layout::Columns, friction(found)));
-    groups.push(Group::single("elongation", elongation(found)));
+    groups.push(Group::new(
+        "friction",
+        Layout::Columns,
+        bands::friction(found),
+    ));
+    groups.push(Group::single("elongation", bands::elongation(found)));
     Answer {
         heading,
         remarks: remarks.collect(),
@@ -331,86 +337,4 @@ fn of_case((name, drive, found): Case<'_>) -> Subject {
             Quantity::word("largest_hub_load_pulley", "  of", pulley(hub.pulley)),
         ],
     )
-}
-
-/// A tension of a band, or why there is none.
-fn of_band(
-    found: &Setup,
-    [key, error_key]: [&'static str; 2],
-    label: &'static str,
-    tension: &Result<f64, SolveError>,
-) -> [Quantity; 2] {
-    let value = tension.as_ref().ok().copied();
-    let error = found.accuracy * value.unwrap_or(0.0).abs();
-    let why = tension.as_ref().err().map(|error| error.kind().to_owned());
-    let why_label = if why.is_some() { "  because" } else { "" };
-    [
-        Quantity::number(key, label, Measure::Force, value, error),
-        Quantity::word(error_key, why_label, why),
-    ]
-}
-
-/// What friction other than stated asks for.
-fn friction(found: &Setup) -> Vec<Subject> {
-    let column = |other: &OtherFriction| {
-        let change = 100.0 * (other.factor - 1.0);
-        let sign = if change < 0.0 { '−' } else { '+' };
-        let [tension, error] = of_band(
-            found,
-            ["tension", "error"],
-            "belt tension at rest that is needed",
-            &other.tension,
-        );
-        Subject::new(
-            format!("friction {sign}{:.0} %", change.abs()),
-            vec![
-                Quantity::number("factor", "", Measure::Number, other.factor, 0.0),
-                tension,
-                error,
-                margin(
-                    found,
-                    "slip margin of the drive as set up",
-                    other.slip_margin,
-                ),
-            ],
-        )
-    };
-    found.other_friction.iter().map(column).collect()
-}
-
-/// The smallest slip margin of a band.
-fn margin(found: &Setup, label: &'static str, value: Option<f64>) -> Quantity {
-    let error = found.accuracy * value.unwrap_or(0.0);
-    Quantity::number("slip_margin", label, Measure::Number, value, error)
-}
-
-/// What a longer belt leaves.
-fn elongation(found: &Setup) -> Vec<Quantity> {
-    let share = Quantity::number(
-        "elongation",
-        "elongation of the belt",
-        Measure::Share,
-        found.question.elongation,
-        0.0,
-    );
-    let elongated = &found.elongated;
-    let mut quantities = vec![share];
-    quantities.extend(of_band(
-        found,
-        ["tension", "error"],
-        "belt tension at rest that it leaves",
-        &elongated.tension,
-    ));
-    quantities.push(margin(
-        found,
-        "slip margin that it leaves",
-        elongated.slip_margin,
-    ));
-    quantities.extend(of_band(
-        found,
-        ["tension_before", "error_before"],
-        "belt tension at rest to set with it in mind",
-        &elongated.tension_before,
-    ));
-    quantities
 }

@@ -1,8 +1,8 @@
 //! The search for the smallest tension that has a margin.
 
 use super::setting::Setting;
-use crate::answers::check::{SlipMargin, judged};
-use crate::{Drive, GivenLosses, LoadCase, SolveError, SolveOptions};
+use crate::answers::check::{SlipMargin, slip_margin};
+use crate::{Drive, SolveError, SolveOptions};
 
 /// Most states of one search: a bracket of any width that is halved ends below rounding within these.
 const STATES: usize = 100;
@@ -47,19 +47,12 @@ pub(super) struct Found {
 
 /// How far a drive is from slip.
 pub(super) fn judge(drive: &Drive, options: &SolveOptions) -> Result<Judged, SolveError> {
-    let case = LoadCase {
-        name: String::new(),
-        share: None,
-        drive: drive.clone(),
-    };
-    match judged(&case, &GivenLosses::default(), options) {
-        Ok(found) => match found.slip_margin {
-            SlipMargin::Factor(margin) => Ok(Judged::Slips(margin.value)),
-            SlipMargin::NoLoad => Ok(Judged::Idle),
-            SlipMargin::NotFound => Err(SolveError::NotFound {
-                what: "load at which a pulley slips",
-            }),
-        },
+    match slip_margin(drive, options) {
+        Ok(SlipMargin::Factor(margin)) => Ok(Judged::Slips(margin.value)),
+        Ok(SlipMargin::NoLoad) => Ok(Judged::Idle),
+        Ok(SlipMargin::NotFound) => Err(SolveError::NotFound {
+            what: "load at which a pulley slips",
+        }),
         Err(
             SolveError::GrossSlip { load_factor, .. } | SolveError::Overloaded { load_factor, .. },
         ) => Ok(Judged::Slips(load_factor)),

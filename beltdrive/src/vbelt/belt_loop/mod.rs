@@ -27,5 +27,5 @@ mod state;
 mod tensioner;
 mod unknowns;
 
-pub(crate) use climb::Top;
+pub(crate) use climb::{Top, limit_accuracy};
 pub(crate) use solve::{LoopNeighbour, at_rest, solve, solve_from, solve_with_margins};

@@ -23,6 +23,9 @@ pub(crate) struct LoopNeighbour {
     at_rest: RestProblem,
     rest: Rest,
     solved: Solved<LoopProblem>,
+    /// Roughly, with one zone on every pulley, from which the load is raised; none if that is not found. With bristles
+    /// the state itself has one zone.
+    rough: Option<Box<Solved<LoopProblem>>>,
     /// That from which it was found.
     before: Option<Box<Solved<LoopProblem>>>,
     /// Force across each span at rest, as in [`SpanState::deflection_force`](crate::belt_loop::SpanState).
@@ -60,14 +63,17 @@ pub(crate) fn solve_from(
         return Ok(found);
     }
     let mut search = Search::new(drive, tolerance);
-    let found = search.search()?;
-    LoopNeighbour::of(
-        &mut search,
-        found.at_rest,
-        found.rest,
-        found.running.solved,
-        None,
-    )
+    let Found {
+        at_rest,
+        rest,
+        running,
+    } = search.search()?;
+    let rough = match drive.law {
+        FrictionLaw::Bristle { .. } => None,
+        _ => running.roughly(&mut search).ok().map(Box::new),
+    };
+    let (state, found) = LoopNeighbour::of(&mut search, at_rest, rest, running.solved, None)?;
+    Ok((state, LoopNeighbour { rough, ..found }))
 }
 
 impl LoopNeighbour {
@@ -87,6 +93,7 @@ impl LoopNeighbour {
             at_rest,
             rest,
             solved,
+            rough: None,
             before: None,
         };
         Ok((state, neighbour))
@@ -142,7 +149,10 @@ impl LoopNeighbour {
     /// How far all torques can be raised, found by raising them; as [`Search::load_limit`].
     pub(crate) fn load_limit(&self, tolerance: f64) -> Option<Top> {
         let mut search = Search::new(&self.drive, tolerance);
-        let rough = self.solved.clone();
+        let rough = match (self.drive.law, &self.rough) {
+            (FrictionLaw::Bristle { .. }, _) => self.solved.clone(),
+            (_, rough) => (**rough.as_ref()?).clone(),
+        };
         search.load_limit(&self.solved, rough).ok().flatten()
     }
 }
