@@ -130,6 +130,7 @@ pub use answers::sweep::{
 pub use answers::tension::{
     Elongated, OtherFriction, Set, Setting, Setup, SetupQuestion, Travel, tension,
 };
+pub use answers::uncertainty;
 pub use answers::verify::{self, Verification, verify};
 pub use belt::{Belt, BeltKind, NormalForce, VBelt};
 pub use drive::layout::{Layout, LayoutError, PlacedPulley, Sense, Side, Span};

@@ -14,6 +14,7 @@ mod shares;
 pub(crate) mod sweep;
 pub(crate) mod tension;
 mod trace;
+pub mod uncertainty;
 pub mod verify;
 
 pub use belt_loop::{solve, solve_to, solve_with_margins};

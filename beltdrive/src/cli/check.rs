@@ -1,7 +1,7 @@
 //! `beltdrive check`: whether a drive holds in each of its load cases.
 
-use super::{common::Common, failure::Failure};
-use beltdrive::{CheckedService, plot, quantity};
+use super::{common::Common, failure::Failure, samples::Samples};
+use beltdrive::{CheckedService, plot, quantity, uncertainty};
 use clap::Args;
 use std::path::Path;
 
@@ -11,7 +11,7 @@ Example:
   beltdrive check drive.toml
 
 The file states load cases in [[case]] tables and limits in [requirements]; without cases the drive is
-judged as it stands. --csv writes one row per case, --plot draws the layout of each.
+judged as it stands. What [uncertainty] says is not known exactly becomes bands of 95 %. --csv writes one row per case, --plot draws the layout of each.
 
 Exit status:
   0  every case meets the requirements
@@ -23,17 +23,25 @@ Exit status:
 pub(super) struct Check {
     #[command(flatten)]
     common: Common,
+    #[command(flatten)]
+    samples: Samples,
 }
 
 impl Check {
     pub(super) fn run(&self) -> Result<(), Failure> {
         let (file, origin) = self.common.file()?;
         let service = file.service().map_err(Failure::usage)?;
+        let samples = self.samples.of(&file)?;
         let options = self.common.options();
         let checked = self
             .common
             .with_progress(|progress| beltdrive::check(&service, &options, progress))?;
-        let answer = &quantity::check::answer(&checked);
+        let spread = self.common.with_progress(|progress| {
+            uncertainty::of_check(&file, &checked, samples, &options, progress)
+        });
+        let answer = quantity::check::answer(&checked);
+        let spread = spread.map_err(Failure::usage)?;
+        let answer = &quantity::uncertainty::told_in(answer, &spread, &service.cases);
         let draw = |directory: &Path, metadata: &str| {
             let drawn = quantity::check::drawn(&checked);
             plot::write_layouts(&drawn, directory, Some(metadata))

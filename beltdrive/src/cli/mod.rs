@@ -17,6 +17,7 @@ mod parquet;
 mod progress;
 mod read;
 mod report;
+mod samples;
 mod sections;
 mod solve;
 mod stability;

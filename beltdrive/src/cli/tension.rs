@@ -1,8 +1,8 @@
 //! `beltdrive tension`: how tight to set up a drive.
 
-use super::{common::Common, failure::Failure, origin::Origin};
+use super::{common::Common, failure::Failure, origin::Origin, samples::Samples};
 use beltdrive::input::{Argument, DriveFile};
-use beltdrive::{SetupQuestion, plot, quantity, tension};
+use beltdrive::{SetupQuestion, plot, quantity, tension, uncertainty};
 use clap::Args;
 use std::path::Path;
 
@@ -38,6 +38,8 @@ pub(super) struct Tension {
     /// Pulley whose centre is moved to tension the belt; the driver of two pulleys unless given
     #[arg(long = "move", value_name = "PULLEY")]
     moved: Option<String>,
+    #[command(flatten)]
+    samples: Samples,
 }
 
 impl Tension {
@@ -48,6 +50,7 @@ impl Tension {
 
     fn of(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
         let service = file.service().map_err(Failure::usage)?;
+        let samples = self.samples.of(file)?;
         let stated = service.requirements.smallest_slip_margin;
         let Some(slip_margin) = self.margin.or(stated) else {
             return Err(Failure::usage(
@@ -68,7 +71,12 @@ impl Tension {
         let found = self
             .common
             .with_progress(|progress| tension(&service, question, &options, progress))?;
-        let answer = &quantity::tension::answer(&found);
+        let spread = self.common.with_progress(|progress| {
+            uncertainty::of_tension(file, &found, samples, &options, progress)
+        });
+        let answer = quantity::tension::answer(&found);
+        let spread = spread.map_err(Failure::usage)?;
+        let answer = &quantity::uncertainty::told_in(answer, &spread, &service.cases);
         let draw = |directory: &Path, metadata: &str| {
             let drawn = quantity::check::drawn(&found.checked);
             plot::write_layouts(&drawn, directory, Some(metadata))

@@ -160,10 +160,15 @@ impl Argument<'_> {
 
 /// The key of the number at a path, unless it is a whole one, which does not vary, or does not change the steady state.
 fn key(path: &str) -> Option<FileKey> {
+    (!schema::is_of_service(path)).then(|| varied(path))?
+}
+
+/// The key of the number at a path, unless it is a whole one, which does not vary.
+pub(super) fn varied(path: &str) -> Option<FileKey> {
     let QuantityRule {
         dimension, range, ..
     } = schema::quantity_rule(path)?;
-    if matches!(range, schema::Range::Whole) || schema::is_of_service(path) {
+    if matches!(range, schema::Range::Whole) {
         return None;
     }
     Some(FileKey {

@@ -41,6 +41,7 @@ pub(crate) mod spelling;
 mod table;
 mod tensioner;
 mod traceable;
+mod uncertainty;
 mod unit;
 mod values;
 mod variants;
@@ -52,6 +53,7 @@ pub use key::Key;
 pub use measurements::{MeasuredRow, Measurements, Reading};
 pub use section::{FilledEntry, FilledIn, FilledValue};
 pub use table::TableHead;
+pub use uncertainty::{Spread, Uncertain};
 pub use variants::Variants;
 
 use crate::Drive;

@@ -37,6 +37,8 @@ pub(super) enum Kind {
     },
     /// Dotted paths of numbers of the file.
     Keys,
+    /// How far the number at the rest of the path may be from its value.
+    Spread,
     /// Nothing: the entry may not be given.
     Refused {
         /// Why.
@@ -103,8 +105,12 @@ pub(super) const CALIBRATED: &str = "calibration.free";
 pub(super) const PULLEY: &str = "pulley";
 /// The list of load cases.
 pub(super) const CASE: &str = "case";
+/// The table that has, under the paths of numbers of the file, how far they may be from their values.
+pub(super) const UNCERTAINTY: &str = "uncertainty";
+/// The ends of an interval there.
+pub(super) const ENDS: [&str; 2] = ["from", "to"];
 /// Tables of the service of a drive, which do not change its steady states.
-const SERVICE: [&str; 3] = [CASE, "requirements", "losses"];
+const SERVICE: [&str; 4] = [CASE, "requirements", "losses", UNCERTAINTY];
 /// How the normal force follows from the tension of a flat belt.
 pub(super) const NORMAL_FORCE: &str = "model.normal_force";
 
@@ -144,7 +150,17 @@ impl Rule {
 
 /// The rule for the entry at `path`.
 pub(super) fn rule(path: &str) -> Option<&'static Rule> {
-    RULES.iter().find(|rule| matches(rule.path, path))
+    let is_spread = uncertain(path).is_some();
+    let is_of = |rule: &&Rule| match is_spread {
+        true => matches!(rule.kind, Kind::Spread),
+        false => matches(rule.path, path),
+    };
+    RULES.iter().find(is_of)
+}
+
+/// The path of what is uncertain by the entry, or the tables, at `path`.
+pub(super) fn uncertain(path: &str) -> Option<&str> {
+    path.strip_prefix(UNCERTAINTY)?.strip_prefix('.')
 }
 
 /// Whether a path is one of a pattern, in which `*` stands for any name.
@@ -207,11 +223,17 @@ pub(super) fn is_of_service(path: &str) -> bool {
 
 /// Whether `path` is a table; the empty path is the top level.
 pub(super) fn is_table(path: &str) -> bool {
-    path.is_empty() || tables().any(|table| matches(table, path))
+    let is_of = |path: &str| tables().any(|table| matches(table, path));
+    path.is_empty()
+        || is_of(path)
+        || uncertain(path).is_some_and(|path| is_of(path) || quantity_rule(path).is_some())
 }
 
 /// The names in a table that may also be written as an array, in its order: a place or a pair of stops.
 pub(super) fn pair(table: &str) -> Option<[&'static str; 2]> {
+    if uncertain(table).is_some_and(|path| quantity_rule(path).is_some()) {
+        return Some(ENDS);
+    }
     match names(table)[..] {
         [one @ ("x" | "low"), other] => Some([one, other]),
         _ => None,
@@ -233,6 +255,10 @@ pub(super) fn header(table: &str) -> String {
 
 /// The names that may stand in a table, in order: keys and tables.
 pub(super) fn names(table: &str) -> Vec<&'static str> {
+    let table = match table {
+        UNCERTAINTY => "",
+        _ => uncertain(table).unwrap_or(table),
+    };
     let keys = RULES
         .iter()
         .filter(|rule| !rule.is_refused())
@@ -286,11 +312,13 @@ pub(super) fn nearest(path: &str) -> Option<&'static str> {
 }
 
 /// The path of the entry `name` of a table. A name that is no bare TOML key keeps its quotes, so
-/// that its points do not part tables; that of a pulley or of a load case has none.
+/// that its points do not part tables; that of a pulley or of a load case has none, nor has a path as a name of
+/// [`UNCERTAINTY`].
 pub(super) fn join(table: &str, name: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
     let is_named = [PULLEY, CASE, "case.*.pulley"].iter();
-    let is_named = { is_named }.any(|list| matches(list, table));
+    let of = uncertain(table).unwrap_or(table);
+    let is_named = { is_named }.any(|list| matches(list, of)) || table == UNCERTAINTY;
     let name = match is_named || name.chars().all(is_bare) && !name.is_empty() {
         true => name.to_owned(),
         false => format!("{name:?}"),
@@ -376,6 +404,7 @@ mod tests {
             "case",
             "requirements",
             "losses",
+            "uncertainty",
         ];
         assert_eq!(names(""), top);
     }

@@ -7,6 +7,7 @@ use super::{
     overrides,
     schema::{self, Kind, Rule},
     source::Source,
+    uncertainty,
 };
 use std::{collections::BTreeMap, ops::Range};
 
@@ -158,6 +159,9 @@ impl<'d> Values<'d> {
                 self.texts.insert(path, check::text(path, rule, entry)?);
             }
             Kind::Keys => check::keys(path, rule, entry)?,
+            Kind::Spread => {
+                uncertainty::spread(path, entry, source)?;
+            }
             Kind::Refused { reason, instead } => {
                 let message = format!("`{path}` {reason}");
                 let expected = check::one_of(&schema::names(schema::split(path).0));

@@ -25,6 +25,7 @@ pub mod stability;
 pub mod sweep;
 pub mod tension;
 pub mod two_pulleys;
+pub mod uncertainty;
 pub(crate) mod value;
 pub mod verification;
 mod warning;

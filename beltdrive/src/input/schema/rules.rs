@@ -297,4 +297,9 @@ const SERVICE: &[Rule] = &[
     ),
     share("losses.bending_damping", "\"20 %\""),
     quantity("losses.bearing_torque", "\"0.1 N*m\"", Dimension::TORQUE),
+    Rule {
+        path: "uncertainty.*",
+        example: "\"5 %\"",
+        kind: Kind::Spread,
+    },
 ];
