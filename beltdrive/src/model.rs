@@ -5,8 +5,8 @@ use crate::belt_loop::LoopState;
 use crate::input::Key;
 use crate::results::loop_state::RestState;
 use crate::{
-    BeltKind, Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState,
-    flat, vbelt,
+    BeltKind, Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, StateSummary,
+    SteadyState, flat, vbelt,
 };
 
 /// What is called with the share of the work that is done, from 0 to 1, and what is being done.
@@ -24,6 +24,21 @@ pub(crate) trait Model {
         drive: &Drive,
         options: &SolveOptions,
     ) -> Result<SteadyState, SolveError>;
+
+    /// The scalars of the steady state, sought from that of a neighbour, and the state from which the next one is sought,
+    /// where that helps.
+    fn summary(
+        &self,
+        neighbour: Option<&SteadyState>,
+        drive: &Drive,
+        options: &SolveOptions,
+    ) -> Result<(StateSummary, Option<SteadyState>), SolveError> {
+        let state = match neighbour {
+            Some(neighbour) => self.solve_from(neighbour, drive, options)?,
+            None => self.solve(drive, options)?,
+        };
+        Ok((StateSummary::from(&state), Some(state)))
+    }
 
     /// As [`crate::trace`].
     fn trace(

@@ -4,7 +4,7 @@ use crate::input::Key;
 use crate::model::model;
 use crate::{
     BeltKind, Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, SpanTension, Stability,
-    SteadyState,
+    StateSummary, SteadyState,
 };
 
 /// Finds the steady state of a drive, from nothing but the drive.
@@ -35,6 +35,17 @@ pub fn solve_from(
 ) -> Result<SteadyState, SolveError> {
     check(drive, options)?;
     model(drive.belt.kind).solve_from(neighbour, drive, options)
+}
+
+/// As [`solve_from`], or as [`solve`] without a neighbour, the scalars of the state alone, and the state from which the
+/// next one is sought, where that helps: a quarter of the work on flat belts, whose profiles are then not examined.
+pub(crate) fn summary(
+    neighbour: Option<&SteadyState>,
+    drive: &Drive,
+    options: &SolveOptions,
+) -> Result<(StateSummary, Option<SteadyState>), SolveError> {
+    check(drive, options)?;
+    model(drive.belt.kind).summary(neighbour, drive, options)
 }
 
 /// Traces the branch of steady states of a drive over one entry of the drive file, from the value

@@ -4,7 +4,10 @@ use crate::belt_loop::LoopState;
 use crate::input::Key;
 use crate::model::{Model, Neighbour, Progress};
 use crate::results::loop_state::RestState;
-use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
+use crate::{
+    Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, StateSummary,
+    SteadyState,
+};
 
 /// Flat belts: strings on the rims, in closed form.
 pub(crate) struct FlatBelts;
@@ -21,6 +24,15 @@ impl Model for FlatBelts {
         options: &SolveOptions,
     ) -> Result<SteadyState, SolveError> {
         self.solve(drive, options)
+    }
+
+    fn summary(
+        &self,
+        _: Option<&SteadyState>,
+        drive: &Drive,
+        options: &SolveOptions,
+    ) -> Result<(StateSummary, Option<SteadyState>), SolveError> {
+        Ok((super::solve::summary(drive, options)?, None))
     }
 
     fn trace(

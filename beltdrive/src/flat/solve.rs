@@ -2,9 +2,9 @@
 
 use super::closed_form::{ClosedForm, Refusal};
 use super::limits::largest_load;
-use super::state::steady_state;
+use super::state::{self, steady_state};
 use crate::input::Key;
-use crate::{Drive, SolveError, SolveOptions, SteadyState};
+use crate::{Drive, SolveError, SolveOptions, StateSummary, SteadyState};
 use web_time::Instant;
 
 /// The steady state of a flat-belt drive.
@@ -14,6 +14,16 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
     let mut state = steady_state(drive, &solved, start);
     state.convergence.tolerance = options.tolerance;
     state.verified().map(|()| state)
+}
+
+/// The scalars of the steady state of a flat-belt drive.
+pub(super) fn summary(drive: &Drive, options: &SolveOptions) -> Result<StateSummary, SolveError> {
+    let solved = ClosedForm::find(&drive.pair()).map_err(|refusal| refused(drive, refusal))?;
+    match state::summary(drive, &solved) {
+        Some(found) => Ok(found),
+        // The whole state says what is wrong.
+        None => Ok(StateSummary::from(&solve(drive, options)?)),
+    }
 }
 
 /// The reason in engineering words, with the largest load.

@@ -3,32 +3,81 @@
 use super::closed_form::ClosedForm;
 use super::{DRIVEN, DRIVER};
 use crate::friction::epp;
-use crate::friction::rim::contact::{Contact, Place};
+use crate::friction::rim::contact::Contact;
 use crate::friction::rim::profile::profile;
 use crate::results::possible;
+use crate::results::state_summary::speed_loss;
 use crate::results::warning::large_strain;
-use crate::{Check, Convergence, Drive, Entry, FrictionLaw, PulleyState, SteadyState};
+use crate::{
+    Check, Convergence, Drive, Entry, FrictionLaw, PulleyState, PulleySummary, StateSummary,
+    SteadyState,
+};
 use web_time::Instant;
 
 /// The whole steady state.
 pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -> SteadyState {
-    let belt = drive.belt;
-    let axial = belt.axial_stiffness;
-    let flow = belt.mass_per_length * solved.speed;
+    let integrals = Integrals::of_both(drive, solved);
+    let found = scalars(drive, solved, &integrals);
+    let tight = found.tight_tension;
+    let against_rims = solved.contact.iter().map(|contact| contact.strain);
+    let checks = checks(solved, &integrals, &found).to_vec();
+    let pulley = |index, summary| pulley_state(drive, solved, index, summary);
+    let mut state = SteadyState {
+        drive: drive.clone(),
+        mass_flow: found.mass_flow,
+        belt_length: found.belt_length,
+        slack_span: found.slack_span,
+        tight_span: found.tight_span,
+        slack_tension: found.slack_tension,
+        tight_tension: tight,
+        slack_tractive_tension: found.slack_tractive_tension,
+        tight_tractive_tension: found.tight_tractive_tension,
+        efficiency: found.efficiency,
+        friction_loss: found.friction_loss,
+        compression_power: found.compression_power,
+        driver: pulley(DRIVER, found.driver),
+        driven: pulley(DRIVEN, found.driven),
+        warnings: Vec::from_iter(large_strain(&drive.belt, drive.law, tight, against_rims)),
+        checks,
+        convergence: Convergence {
+            newton_iterations: solved.evaluations,
+            ..Convergence::default()
+        },
+        restart: None,
+    };
+    state.checks.extend(possible::checks(&state));
+    state.convergence.error_estimate = closing_error(solved);
+    state.convergence.seconds = start.elapsed().as_secs_f64();
+    state
+}
+
+/// The scalars of the steady state, a quarter of the work; `None` if the friction along the pulleys does not agree with
+/// them.
+pub(super) fn summary(drive: &Drive, solved: &ClosedForm) -> Option<StateSummary> {
+    let integrals = Integrals::of_both(drive, solved);
+    let found = scalars(drive, solved, &integrals);
+    let checks = checks(solved, &integrals, &found);
+    checks.iter().all(Check::holds).then_some(found)
+}
+
+/// The scalars of the steady state.
+fn scalars(drive: &Drive, solved: &ClosedForm, integrals: &[Integrals; 2]) -> StateSummary {
+    let axial = drive.belt.axial_stiffness;
+    let flow = drive.belt.mass_per_length * solved.speed;
     let share = 1.0 - flow * solved.speed / axial;
     let tractive = |tension: f64| tension * share - flow * solved.speed;
     let [slack, tight] = solved.tension;
-    let [driven, driver] = [DRIVEN, DRIVER].map(|pulley| pulley_state(drive, solved, pulley));
-    let powers = [&driven, &driver].map(|pulley| pulley.torque * pulley.angular_speed);
+    let [driven, driver] = [DRIVEN, DRIVER].map(|pulley| pulley_summary(drive, solved, pulley));
     let unstretched = |span: f64, tension: f64| span / (1.0 + tension / axial);
-    let on_pulleys = solved.contact.iter().map(|contact| {
-        let stretch = |place: &Place| 1.0 + contact.arc.belt.tension(place.traction) / axial;
-        contact.integral(|place| stretch(place).recip())
-    });
+    let on_pulleys = integrals.iter().map(|integrals| integrals.unstretched);
     let span = solved.geometry.span;
-    let against_rims = solved.contact.iter().map(|contact| contact.strain);
-    let mut state = SteadyState {
-        drive: drive.clone(),
+    let pair = drive.pair();
+    let at_pitch = |pulley: &PulleySummary, radius: f64| pulley.angular_speed * radius;
+    let rims = [
+        at_pitch(&driven, pair.driven_radius),
+        at_pitch(&driver, pair.driver_radius),
+    ];
+    StateSummary {
         mass_flow: flow,
         belt_length: on_pulleys.sum::<f64>() + unstretched(span, slack) + unstretched(span, tight),
         slack_span: span,
@@ -37,25 +86,50 @@ pub(super) fn steady_state(drive: &Drive, solved: &ClosedForm, start: Instant) -
         tight_tension: tight,
         slack_tractive_tension: tractive(slack),
         tight_tractive_tension: tractive(tight),
+        speed_loss: speed_loss(rims),
         // Both pulleys have the same friction force, so that the powers are as the speeds of the rims.
         efficiency: solved.rim_speed(DRIVEN) / solved.rim_speed(DRIVER),
-        friction_loss: powers[DRIVER] - powers[DRIVEN],
+        friction_loss: driver.power() - driven.power(),
         compression_power: 0.0,
         driver,
         driven,
-        warnings: Vec::from_iter(large_strain(&drive.belt, drive.law, tight, against_rims)),
-        checks: Vec::new(),
-        convergence: Convergence {
-            newton_iterations: solved.evaluations,
-            ..Convergence::default()
-        },
-        restart: None,
-    };
-    state.checks = checks(solved, &state);
-    state.checks.extend(possible::checks(&state));
-    state.convergence.error_estimate = closing_error(solved);
-    state.convergence.seconds = start.elapsed().as_secs_f64();
-    state
+        error_estimate: Some(closing_error(solved)),
+    }
+}
+
+/// What is integrated along the contact with a pulley.
+struct Integrals {
+    /// Length of the unstretched belt on it, m.
+    unstretched: f64,
+    /// Friction, N.
+    friction: f64,
+    /// Power that friction takes, W.
+    dissipated: f64,
+}
+
+impl Integrals {
+    fn of_both(drive: &Drive, solved: &ClosedForm) -> [Self; 2] {
+        let axial = drive.belt.axial_stiffness;
+        [DRIVEN, DRIVER].map(|pulley| Self::of(solved, pulley, axial))
+    }
+
+    fn of(solved: &ClosedForm, pulley: usize, axial: f64) -> Self {
+        let contact = &solved.contact[pulley];
+        let belt = &contact.arc.belt;
+        let rim = solved.rim_speed(pulley);
+        let [unstretched, friction, dissipated] = contact.integrals(|place| {
+            let stretch = 1.0 + belt.tension(place.traction) / axial;
+            // Friction works against the slip velocity |V − R ω|.
+            let slip = solved.speed * (1.0 + belt.strain(place.traction)) - rim;
+            let friction = place.friction;
+            [stretch.recip(), friction, friction * slip.abs()]
+        });
+        Self {
+            unstretched,
+            friction,
+            dissipated,
+        }
+    }
 }
 
 /// How far the tractions at the ends of both pulleys are off, relative; at least the rounding of
@@ -69,13 +143,13 @@ fn closing_error(solved: &ClosedForm) -> f64 {
     off(driven).max(off(driver)).max(4.0 * f64::EPSILON)
 }
 
-/// One pulley in SI units.
-fn pulley_state(drive: &Drive, solved: &ClosedForm, pulley: usize) -> PulleyState {
+/// The scalars of one pulley in SI units.
+fn pulley_summary(drive: &Drive, solved: &ClosedForm, pulley: usize) -> PulleySummary {
     let contact = &solved.contact[pulley];
     let arc = contact.arc;
     let pair = drive.pair();
     let radius = [pair.driven_radius, pair.driver_radius][pulley];
-    PulleyState {
+    PulleySummary {
         angular_speed: match pulley {
             DRIVER => pair.driver_speed,
             _ => solved.rim_speed(pulley) / radius,
@@ -96,17 +170,38 @@ fn pulley_state(drive: &Drive, solved: &ClosedForm, pulley: usize) -> PulleyStat
             },
         }),
         least_slip: None,
-        profile: profile(contact, drive.belt, radius, solved.speed),
+    }
+}
+
+/// One pulley with the belt along it.
+fn pulley_state(
+    drive: &Drive,
+    solved: &ClosedForm,
+    pulley: usize,
+    found: PulleySummary,
+) -> PulleyState {
+    let pair = drive.pair();
+    let radius = [pair.driven_radius, pair.driver_radius][pulley];
+    PulleyState {
+        angular_speed: found.angular_speed,
+        torque: found.torque,
+        wrap_angle: found.wrap_angle,
+        geometric_wrap_angle: found.geometric_wrap_angle,
+        max_penetration: found.max_penetration,
+        inclination: found.inclination,
+        zones: found.zones,
+        entry: found.entry,
+        least_slip: found.least_slip,
+        profile: profile(&solved.contact[pulley], drive.belt, radius, solved.speed),
     }
 }
 
 /// The invariants, from the friction law along the profile and not from the equations that were solved.
-fn checks(solved: &ClosedForm, state: &SteadyState) -> Vec<Check> {
-    let limit = possible::accuracy(state);
+fn checks(solved: &ClosedForm, integrals: &[Integrals; 2], found: &StateSummary) -> [Check; 3] {
+    let limit = possible::OF_CLOSED_FORM;
     let torque = |pulley: usize| {
-        let contact = &solved.contact[pulley];
-        let friction = contact.integral(|place| place.friction);
-        (friction - contact.arc.change).abs() / contact.arc.entry().max(contact.arc.exit())
+        let arc = &solved.contact[pulley].arc;
+        (integrals[pulley].friction - arc.change).abs() / arc.entry().max(arc.exit())
     };
     let driven = Check {
         name: "torque of the driven pulley from its friction",
@@ -118,20 +213,12 @@ fn checks(solved: &ClosedForm, state: &SteadyState) -> Vec<Check> {
         deviation: torque(DRIVER),
         limit,
     };
-    // Friction works against the slip velocity |V − R ω|.
-    let dissipated = |pulley: usize| {
-        let contact = &solved.contact[pulley];
-        let rim = solved.rim_speed(pulley);
-        let slip =
-            |place: &Place| solved.speed * (1.0 + contact.arc.belt.strain(place.traction)) - rim;
-        contact.integral(|place| place.friction * slip(place).abs())
-    };
-    let lost = dissipated(DRIVEN) + dissipated(DRIVER);
+    let lost = integrals[DRIVEN].dissipated + integrals[DRIVER].dissipated;
     let transmitted = solved.tension[1] * solved.speed;
     let power = Check {
         name: "friction loss from friction and slip",
-        deviation: (lost - state.friction_loss).abs() / transmitted,
+        deviation: (lost - found.friction_loss).abs() / transmitted,
         limit,
     };
-    vec![driven, driver, power]
+    [driven, driver, power]
 }

@@ -86,8 +86,8 @@ fn missing(values: &Values<'_>) -> Vec<&'static str> {
     ];
     let needed = of_all.iter().chain(of_belt).copied().chain(of_law);
     let is_given = |path: &str| {
-        let mut others = schema::alternatives(path).into_iter();
-        values.has(path) || others.any(|other| values.has(&other))
+        let is_other = |other: &String| values.has(other);
+        values.has(path) || schema::alternatives(path).iter().any(is_other)
     };
     needed.filter(|path| !is_given(path)).collect()
 }

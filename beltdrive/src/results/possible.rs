@@ -20,12 +20,14 @@ pub(crate) fn fault(state: &SteadyState) -> Option<Impossible> {
     faults.next().map(|(_, reason)| reason)
 }
 
-/// The relative accuracy of integrals along the belt: that of the profiles of V-belts, and of the quadrature
-/// over the closed form of flat belts, which has about eleven digits.
-pub(crate) fn accuracy(state: &SteadyState) -> f64 {
+/// The relative accuracy of the quadrature over the closed form of flat belts, which has about eleven digits.
+pub(crate) const OF_CLOSED_FORM: f64 = 1e-9;
+
+/// The relative accuracy of integrals along the belt.
+fn accuracy(state: &SteadyState) -> f64 {
     match state.drive.belt.kind {
         BeltKind::V(_) => 10.0 * state.convergence.tolerance,
-        BeltKind::Flat { .. } => 1e-9,
+        BeltKind::Flat { .. } => OF_CLOSED_FORM,
     }
 }
 

@@ -135,11 +135,7 @@ impl From<&SteadyState> for StateSummary {
             tight_tension: state.tight_tension,
             slack_tractive_tension: state.slack_tractive_tension,
             tight_tractive_tension: state.tight_tractive_tension,
-            speed_loss: if driver == 0.0 {
-                0.0
-            } else {
-                1.0 - driven / driver
-            },
+            speed_loss: speed_loss([driven, driver]),
             efficiency: state.efficiency,
             friction_loss: state.friction_loss,
             compression_power: state.compression_power,
@@ -151,6 +147,14 @@ impl From<&SteadyState> for StateSummary {
                     .max(convergence.slip_normalisation_effect),
             ),
         }
+    }
+}
+
+/// Speed loss of the driven pulley against the driver from the speeds of their rims, m/s.
+pub(crate) fn speed_loss([driven, driver]: [f64; 2]) -> f64 {
+    match driver == 0.0 {
+        true => 0.0,
+        false => 1.0 - driven / driver,
     }
 }
 

@@ -3,11 +3,12 @@
 use super::{Sweep, SweepQuestion, SweepRow, Swept};
 use crate::answers::belt_loop::closed_once;
 use crate::answers::check::check;
+use crate::answers::drive::summary;
 use crate::answers::limits;
 use crate::answers::map::line::Family;
 use crate::answers::members::{Refusal, Varied, load};
 use crate::input::{DriveFile, Key};
-use crate::{Drive, SolveError, StateSummary, SteadyState, solve, solve_from};
+use crate::{Drive, SolveError, SteadyState};
 
 /// The most rows of a line. Only its first is sought from nothing, which takes about twice as long; shorter lines share
 /// the rows of a chunk better among threads.
@@ -84,13 +85,9 @@ impl Sweep {
         near: &mut Option<SteadyState>,
     ) -> Result<Swept, Refusal> {
         let (drive, _) = family.stated(&row.values)?;
-        let state = match near {
-            Some(near) => solve_from(near, &drive, &self.options)?,
-            None => solve(&drive, &self.options)?,
-        };
-        let summary = StateSummary::from(&state);
-        *near = Some(state);
-        Ok(Swept::Drive(Box::new(summary)))
+        let (found, next) = summary(near.as_ref(), &drive, &self.options)?;
+        *near = next;
+        Ok(Swept::Drive(Box::new(found)))
     }
 
     /// What is found in each load case.

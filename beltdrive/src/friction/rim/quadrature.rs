@@ -39,15 +39,19 @@ impl Contact {
         shares
     }
 
-    /// The integral of a function of the place over the arc length of the whole contact.
-    pub(crate) fn integral(&self, function: impl Fn(&Place) -> f64) -> f64 {
-        self.zones
-            .iter()
-            .map(|zone| self.over(zone, &function))
-            .sum()
+    /// The integrals of functions of the place over the arc length of the whole contact.
+    pub(crate) fn integrals<const N: usize>(
+        &self,
+        functions: impl Fn(&Place) -> [f64; N],
+    ) -> [f64; N] {
+        let mut sums = [0.0; N];
+        for zone in &self.zones {
+            add(&mut sums, self.all_over(zone, &functions), 1.0);
+        }
+        sums
     }
 
-    /// As [`Self::integral`], over one zone.
+    /// The integral of a function of the place over one zone.
     pub(crate) fn over(&self, zone: &ContactZone, function: &impl Fn(&Place) -> f64) -> f64 {
         let [integral] = self.all_over(zone, &|place| [function(place)]);
         integral
