@@ -63,3 +63,38 @@ impl<'f> Variants<'f> {
         file::drive(&values).map_err(diagnosed)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::examples::EXAMPLES;
+
+    #[test]
+    fn a_variant_is_the_file_with_another_number() {
+        for example in EXAMPLES {
+            let file = DriveFile::read(example.name, example.text, &[]).unwrap();
+            let keys = file.keys();
+            let keys: Vec<_> = keys.iter().collect();
+            let given: Vec<_> = keys.iter().map(|key| file.value(key).unwrap()).collect();
+            let variants = Variants::new(&file, &keys).unwrap();
+            assert_eq!(variants.drive(given.clone()), file.drive());
+            for (index, key) in keys.iter().enumerate() {
+                for factor in [1.01, -1.0, 0.0, 1e6] {
+                    let mut numbers = given.clone();
+                    numbers[index] *= factor;
+                    let expected = file.with(key, numbers[index]).drive();
+                    let found = variants.drive(numbers);
+                    // Of a fault the message is the same, its excerpt may be that of another entry.
+                    let message = |error: Diagnostic| error.message().to_owned();
+                    assert_eq!(
+                        found.map_err(message),
+                        expected.map_err(message),
+                        "{} {} {factor}",
+                        example.name,
+                        key.path()
+                    );
+                }
+            }
+        }
+    }
+}
