@@ -12,7 +12,7 @@ pub struct Example {
 }
 
 /// Every shipped drive file.
-pub const EXAMPLES: [Example; 15] = [
+pub const EXAMPLES: [Example; 16] = [
     Example {
         name: "kim2009",
         text: include_str!("../examples/kim2009.toml"),
@@ -64,6 +64,10 @@ pub const EXAMPLES: [Example; 15] = [
     Example {
         name: "spb-fan",
         text: include_str!("../examples/spb-fan.toml"),
+    },
+    Example {
+        name: "fan-design",
+        text: include_str!("../examples/fan-design.toml"),
     },
     Example {
         name: "flat-bench",

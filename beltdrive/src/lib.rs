@@ -120,6 +120,9 @@ pub use answers::calibrate::{self, Calibration, calibrate};
 pub use answers::check::{
     CaseState, CheckedCase, CheckedService, Failing, OnPulley, SlipMargin, check,
 };
+pub use answers::design::{
+    Combination, DecidingLimit, DesignError, DesignLimit, Designed, LimitPlace, Unfit, design,
+};
 pub use answers::drive::{limit_curve, limits, solve, solve_from, stability, trace};
 pub use answers::losses::Losses;
 pub use answers::map::{MapAxis, MapState, OperatingMap, map};

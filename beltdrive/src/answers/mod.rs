@@ -4,6 +4,7 @@
 mod belt_loop;
 pub mod calibrate;
 pub(crate) mod check;
+pub(crate) mod design;
 pub(crate) mod drive;
 mod limit_curve;
 mod limits;

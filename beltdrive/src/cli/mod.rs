@@ -4,6 +4,7 @@ mod calibrate;
 mod check;
 mod common;
 mod completions;
+mod design;
 mod destinations;
 mod examples;
 mod failure;
@@ -69,6 +70,8 @@ enum Command {
     Sweep(sweep::Command),
     /// Find out whether small axial motions of a flat belt grow, and from which load on
     Stability(stability::Command),
+    /// Find the numbers and choices that make a drive best within its limits
+    Design(design::Design),
     /// Find numbers of the drive file, such as friction and stiffness, from measured rows
     Calibrate(calibrate::Calibrate),
     /// Recompute the published results that the program stands on
@@ -95,6 +98,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Map(command) => command.run(),
         Command::Sweep(command) => command.run(),
         Command::Stability(command) => command.run(),
+        Command::Design(command) => command.run(),
         Command::Calibrate(command) => command.run(),
         Command::Verify(command) => command.run(),
         Command::Sections(command) => command.run(),

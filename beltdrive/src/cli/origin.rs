@@ -52,6 +52,14 @@ impl Origin {
         }
     }
 
+    /// The origin of what is told of another drive than that of the file.
+    pub(super) fn with_filled_in(self, filled_in: Option<&FilledIn>) -> Self {
+        Self {
+            filled_in: filled_in.cloned(),
+            ..self
+        }
+    }
+
     /// An answer that tells what its drive file takes from a belt section, if it does.
     pub(super) fn told_in<'a>(&self, answer: &'a Answer) -> Cow<'a, Answer> {
         match &self.filled_in {

@@ -1,8 +1,11 @@
 //! Which numbers of a drive file a calibration finds.
 
 use super::{
-    Argument, Diagnostic, DriveFile, FileKey, check, diagnostic::Finding, document::Content,
-    schema::CALIBRATED, spelling,
+    Argument, Diagnostic, DriveFile, FileKey, check,
+    diagnostic::Finding,
+    document::{Content, Entry},
+    schema::CALIBRATED,
+    spelling,
 };
 
 impl DriveFile {
@@ -33,7 +36,7 @@ impl DriveFile {
     fn calibrated(&self) -> Result<Vec<FileKey>, Finding> {
         let entry = self.document.entries.get(CALIBRATED);
         let texts = entry.map(|entry| &entry.content);
-        let Some(Content::Texts(texts)) = texts else {
+        let Some(Content::List(texts)) = texts else {
             let end = self.document.end.clone();
             let message = "nothing says which numbers are to be found";
             return Err(Finding::new(end, message)
@@ -42,7 +45,10 @@ impl DriveFile {
         let known = self.keys();
         let paths = || known.iter().map(FileKey::path);
         let mut keys: Vec<FileKey> = Vec::new();
-        for (path, place) in texts {
+        for Entry { place, content, .. } in texts {
+            let Content::Text(path) = content else {
+                continue;
+            };
             let Some(key) = known.iter().find(|key| key.path() == path) else {
                 let message = format!("the drive file gives no number `{path}`");
                 return Err(Finding::new(place.clone(), message)

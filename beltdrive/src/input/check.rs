@@ -58,7 +58,12 @@ pub(super) fn text<'e>(path: &str, rule: &Rule, entry: &'e Entry) -> Result<&'e 
 /// Checks an array of keys. Whether the file has them is asked where they are used.
 pub(super) fn keys(path: &str, rule: &Rule, entry: &Entry) -> Result<(), Finding> {
     match &entry.content {
-        Content::Texts(texts) if !texts.is_empty() => Ok(()),
+        Content::List(keys)
+            if !keys.is_empty() && { keys.iter() }
+                .all(|key| matches!(key.content, Content::Text(_))) =>
+        {
+            Ok(())
+        }
         _ => Err(wrong_type(path, "an array of keys", entry).expected(rule.line())),
     }
 }
@@ -169,7 +174,8 @@ pub(super) fn one_of(words: &[&str]) -> String {
     format!("{several}`{}`", words.join("`, `"))
 }
 
-fn wrong_type(path: &str, expected: &str, entry: &Entry) -> Finding {
+/// The finding for a value of another type than expected.
+pub(super) fn wrong_type(path: &str, expected: &str, entry: &Entry) -> Finding {
     let found = entry.content.type_name();
     let place = match entry.content {
         Content::Table => &entry.key,

@@ -13,6 +13,8 @@ pub(super) struct Document {
     pub(super) pulleys: Vec<String>,
     /// The names of the load cases, in order.
     pub(super) cases: Vec<String>,
+    /// What a design may change, in order.
+    pub(super) designed: Vec<DesignEntry>,
     /// Where the file ends: the place of what it lacks.
     pub(super) end: Range<usize>,
 }
@@ -28,6 +30,17 @@ pub(super) struct Entry {
     pub(super) content: Content,
 }
 
+/// What a design may do to a key of the drive.
+#[derive(Clone, Debug)]
+pub(super) struct DesignEntry {
+    /// The table of `[design]` in which it stands: [`schema::FREE`] or [`schema::CHOOSE`].
+    pub(super) table: String,
+    /// The dotted path of the key of the drive.
+    pub(super) path: String,
+    /// Bounds, or values to choose from.
+    pub(super) entry: Entry,
+}
+
 /// What a drive file may hold under a key.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Content {
@@ -37,8 +50,8 @@ pub(super) enum Content {
     Text(String),
     /// An integer or a float.
     Number(f64),
-    /// An array of strings, each with its place.
-    Texts(Vec<(String, Range<usize>)>),
+    /// An array, whose elements are their own keys.
+    List(Vec<Entry>),
     /// Anything else, which is wrong everywhere: the name of its type.
     Other(&'static str),
 }
@@ -50,7 +63,7 @@ impl Content {
             Self::Table => "a table",
             Self::Text(_) => "a text",
             Self::Number(_) => "a number",
-            Self::Texts(_) => "an array",
+            Self::List(_) => "an array",
             Self::Other(name) => name,
         }
     }
@@ -65,9 +78,13 @@ impl Document {
             entries: BTreeMap::new(),
             pulleys: Vec::new(),
             cases: Vec::new(),
+            designed: Vec::new(),
             end: length..length,
         };
         document.insert_table("", root.get_ref())?;
+        document
+            .designed
+            .sort_by_key(|designed| designed.entry.key.start);
         Ok(document)
     }
 
@@ -85,6 +102,9 @@ impl Document {
                 _ if child == schema::PULLEY || child == schema::CASE => {
                     self.insert_list(&child, &entry, value.get_ref())?;
                     entry.content = Content::Table;
+                }
+                DeValue::Table(table) if schema::is_of_design(&child) => {
+                    self.insert_designed(&child, "", table);
                 }
                 DeValue::Table(table) if schema::is_table(&child) => {
                     self.insert_table(&child, table)?;
@@ -109,6 +129,30 @@ impl Document {
             self.entries.insert(child, entry);
         }
         Ok(())
+    }
+
+    /// Inserts what a table of `[design]` says of keys of the drive. Their paths may be dotted keys or quoted ones.
+    fn insert_designed(&mut self, list: &str, path: &str, table: &DeTable<'_>) {
+        for (key, value) in table {
+            let child = match path {
+                "" => key.get_ref().to_string(),
+                _ => format!("{path}.{}", key.get_ref()),
+            };
+            if let DeValue::Table(table) = value.get_ref() {
+                self.insert_designed(list, &child, table);
+                continue;
+            }
+            let entry = Entry {
+                key: key.span(),
+                place: value.span(),
+                content: content(value.get_ref()),
+            };
+            self.designed.push(DesignEntry {
+                table: list.to_owned(),
+                path: child,
+                entry,
+            });
+        }
     }
 
     /// Inserts the tables of a list, pulleys or load cases, each under its name, or its number if it has none.
@@ -198,12 +242,12 @@ fn content(value: &DeValue<'_>) -> Content {
         DeValue::Boolean(_) => Content::Other("a boolean"),
         DeValue::Datetime(_) => Content::Other("a date"),
         DeValue::Array(array) => {
-            let text = |value: &toml::Spanned<DeValue<'_>>| match value.get_ref() {
-                DeValue::String(text) => Some((text.clone().into_owned(), value.span())),
-                _ => None,
+            let element = |value: &toml::Spanned<DeValue<'_>>| Entry {
+                key: value.span(),
+                place: value.span(),
+                content: content(value.get_ref()),
             };
-            let texts: Option<Vec<_>> = array.iter().map(text).collect();
-            texts.map_or(Content::Other("an array"), Content::Texts)
+            Content::List(array.iter().map(element).collect())
         }
     }
 }

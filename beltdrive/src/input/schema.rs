@@ -109,8 +109,14 @@ pub(super) const CASE: &str = "case";
 pub(super) const UNCERTAINTY: &str = "uncertainty";
 /// The ends of an interval there.
 pub(super) const ENDS: [&str; 2] = ["from", "to"];
+/// What a design makes small.
+pub(super) const MINIMISE: &str = "design.minimise";
+/// The table of the numbers that a design may change within bounds.
+pub(super) const FREE: &str = "design.free";
+/// The table of the keys that a design may give one of several values.
+pub(super) const CHOOSE: &str = "design.choose";
 /// Tables of the service of a drive, which do not change its steady states.
-const SERVICE: [&str; 4] = [CASE, "requirements", "losses", UNCERTAINTY];
+const SERVICE: [&str; 5] = [CASE, "requirements", "losses", UNCERTAINTY, "design"];
 /// How the normal force follows from the tension of a flat belt.
 pub(super) const NORMAL_FORCE: &str = "model.normal_force";
 
@@ -219,6 +225,11 @@ pub(super) fn alternatives(path: &str) -> Vec<String> {
 pub(super) fn is_of_service(path: &str) -> bool {
     let (table, _) = path.split_once('.').unwrap_or((path, ""));
     SERVICE.contains(&table)
+}
+
+/// Whether `path` is a table of `[design]` that holds keys of the drive.
+pub(super) fn is_of_design(path: &str) -> bool {
+    [FREE, CHOOSE].contains(&path)
 }
 
 /// Whether `path` is a table; the empty path is the top level.
@@ -336,10 +347,11 @@ pub(super) fn split(path: &str) -> (&str, &str) {
 
 /// The tables of all depths, each at least once.
 fn tables() -> impl Iterator<Item = &'static str> {
-    RULES.iter().flat_map(|rule| {
+    let of_rules = RULES.iter().flat_map(|rule| {
         let ends = rule.path.match_indices('.').map(|(end, _)| end);
         ends.map(|end| &rule.path[..end])
-    })
+    });
+    of_rules.chain([FREE, CHOOSE])
 }
 
 #[cfg(test)]
@@ -405,6 +417,7 @@ mod tests {
             "requirements",
             "losses",
             "uncertainty",
+            "design",
         ];
         assert_eq!(names(""), top);
     }

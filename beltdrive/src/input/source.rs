@@ -59,6 +59,11 @@ impl Source {
         self.override_starts.iter().copied()
     }
 
+    /// The text of the file, without overrides.
+    pub(super) fn file(&self) -> &str {
+        &self.text[..self.file_length]
+    }
+
     /// The text of a range; empty for a range that is none of this source.
     pub(super) fn text(&self, range: Range<usize>) -> &str {
         self.text.get(range).unwrap_or_default()

@@ -37,6 +37,8 @@ pub enum Measure {
     Time,
     /// A mass flow.
     MassFlow,
+    /// A mass.
+    Mass,
     /// A mass per length.
     MassPerLength,
     /// A mass per area.
@@ -104,6 +106,7 @@ impl Measure {
             Self::Time => ("_s", 1.0),
             Self::Frequency => ("_Hz", 1.0),
             Self::MassFlow => ("_kg_per_s", 1.0),
+            Self::Mass => ("_kg", 1.0),
             Self::MassPerLength => ("_kg_per_m", 1.0),
             Self::MassPerArea => ("_kg_per_m2", 1.0),
             Self::ForcePerArea => ("_N_per_m2", 1.0),
@@ -150,6 +153,11 @@ impl Measure {
                 unit("kg/s", 1.0),
                 unit("kg/s", 1.0),
                 unit("lb/s", 1.0 / POUND_MASS),
+            ],
+            Self::Mass => [
+                unit("kg", 1.0),
+                unit("kg", 1.0),
+                unit("lb", 1.0 / POUND_MASS),
             ],
             Self::MassPerLength => [
                 unit("kg/m", 1.0),

@@ -9,6 +9,7 @@ pub mod belt_loop;
 pub mod branch;
 pub mod calibration;
 pub mod check;
+pub mod design;
 mod errors;
 pub(crate) mod events;
 pub mod limit_curve;

@@ -1,6 +1,6 @@
 //! Every entry of a drive file.
 
-use super::{CALIBRATED, Kind, NORMAL_FORCE, Range, Rule, TORQUE};
+use super::{CALIBRATED, Kind, MINIMISE, NORMAL_FORCE, Range, Rule, TORQUE};
 use crate::friction::ROWS;
 use crate::input::dimension::Dimension;
 use crate::sections;
@@ -302,4 +302,5 @@ const SERVICE: &[Rule] = &[
         example: "\"5 %\"",
         kind: Kind::Spread,
     },
+    text(MINIMISE, "\"hub_load\""),
 ];
