@@ -175,6 +175,136 @@ fn the_narrowest_catalogue_belt_that_creeps_little_enough_is_chosen() {
     );
 }
 
+#[test]
+fn an_optimum_where_both_pulleys_slip_at_once_has_its_price() {
+    // A larger driver has more wrap itself and leaves the driven pulley less: the tension is least where both slip.
+    let text = "
+[belt]
+type = \"flat\"
+mass_per_length = 0.2
+axial_stiffness = 1e10
+[friction]
+law = \"coulomb\"
+coefficient = 0.35
+[[pulley]]
+name = \"motor\"
+centre = [0, 0]
+radius = \"60 mm\"
+speed = \"1500 rpm\"
+friction_coefficient = 0.45
+[[pulley]]
+name = \"fan\"
+centre = [0.5, 0]
+radius = \"200 mm\"
+torque = \"40 N*m\"
+[load]
+span = \"motor\"
+span_tractive_tension = \"200 N\"
+[requirements]
+smallest_slip_margin = 1.5
+[design]
+minimise = \"load.span_tractive_tension\"
+[design.free]
+load.span_tractive_tension = [\"50 N\", \"1 kN\"]
+pulley.motor.radius = [\"40 mm\", \"180 mm\"]
+";
+    let found = designed(text, &[]);
+    // 0.45 (π − a) = 0.35 (π + a).
+    let half = 0.5 * PI * 0.1 / 0.8;
+    is_near(found.values[1], 0.2 - 0.5 * half.sin(), 1e-6);
+    let grip = (0.35 * (PI + 2.0 * half)).exp() - 1.0;
+    is_near(found.values[0], 1.5 * 40.0 / (0.2 * grip), 1e-7);
+    is_near(
+        price(&found, DesignLimit::SlipMargin),
+        found.values[0] / 1.5,
+        1e-4,
+    );
+    assert!(found.residual < 1e-4, "{}", found.residual);
+}
+
+#[test]
+fn the_least_tension_of_a_v_belt_is_that_of_the_command_tension() {
+    let text = example(
+        "v-power",
+        "[requirements]\nsmallest_slip_margin = 1.5\n[design]\nminimise = \"load.setup_tension\"\n[design.free]\n
+         load.setup_tension = [\"100 N\", \"1 kN\"]",
+    );
+    let found = designed(&text, &[]);
+    let service = found.file.service().unwrap();
+    let question = beltdrive::SetupQuestion {
+        slip_margin: 1.5,
+        elongation: 0.005,
+        moved: None,
+    };
+    let set = beltdrive::tension(&service, question, &SolveOptions::default(), &mut |_, _| {});
+    is_near(found.values[0], set.unwrap().tension, 3e-4);
+    assert!(found.is_feasible);
+}
+
+#[test]
+fn questions_with_little_to_choose_have_answers() {
+    let table = |rest: &str| {
+        example(
+            "back-side-idler",
+            &format!(
+                "[requirements]\nsmallest_slip_margin = 2\n[design]\nminimise = \"loss\"\n{rest}"
+            ),
+        )
+    };
+    // A list with one entry, and no number that is free.
+    let found = designed(
+        &table("[design.choose]\nload.setup_tension = [\"300 N\"]"),
+        &[],
+    );
+    assert!(found.is_feasible && found.combinations.len() == 1 && found.limits.is_empty());
+    let found = designed(
+        &table("[design.choose]\nload.setup_tension = [\"150 N\", \"200 N\"]"),
+        &[],
+    );
+    assert!(!found.is_feasible);
+    assert_eq!(found.chosen, [1]);
+    assert_eq!(found.limits[0].limit, DesignLimit::SlipMargin);
+    // Quoted paths, a number that changes nothing, and bounds that are both too small.
+    let found = designed(
+        &table(
+            "[design.free]\n\"load.setup_tension\" = [\"20 N\", \"40 N\"]\npulley.motor.speed = [\"100 rpm\", \"120 rpm\"]",
+        ),
+        &[],
+    );
+    assert!(!found.is_feasible && found.objective.is_none());
+    // Nowhere a belt that could be laid round the pulleys.
+    let text = table("[design.free]\npulley.fan.radius = [\"600 mm\", \"800 mm\"]");
+    let file = DriveFile::read("drive.toml", &text, &[]).unwrap();
+    let error = design(
+        &file,
+        &file.design().unwrap(),
+        &SolveOptions::default(),
+        &mut |_, _| {},
+    )
+    .unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("no drive that was tried has a steady state"),
+        "{error}"
+    );
+    // Two numbers that say the same: the sum of both is what counts.
+    let found = designed(
+        &table("[design.free]\nload.setup_tension = [\"100 N\", \"1 kN\"]\npulley.fan.centre.y = [\"30 mm\", \"60 mm\"]\n
+                pulley.idler.centre.y = [\"20 mm\", \"40 mm\"]"),
+        &[],
+    );
+    assert!(
+        found.is_feasible && found.residual < 1e-4,
+        "{}",
+        found.residual
+    );
+    // What nothing depends on is said.
+    let coulomb = table("[design.free]\nload.setup_tension = [\"100 N\", \"1 kN\"]\nfriction.velocity = [\"1 mm/s\", \"1 m/s\"]")
+        .replace("coefficient = 0.7", "coefficient = 0.7\nvelocity = 0.02");
+    assert_eq!(designed(&coulomb, &[]).idle, [1]);
+}
+
 /// An example with a table `[design]`.
 fn example(name: &str, design: &str) -> String {
     format!("{}\n{design}", examples::find(name).unwrap().text)
@@ -481,4 +611,41 @@ fn the_program_tells_the_design_and_writes_it() {
         &text.replace("\"20 N*m\"", "\"20 N*m\"\ncolour = 3"),
     );
     assert!(code == Some(2) && errors.contains("colour"), "{errors}");
+}
+
+#[test]
+#[ignore = "a survey of some minutes"]
+fn a_v_belt_drive_is_better_than_a_grid() {
+    let text = example(
+        "v-power",
+        "[requirements]\nsmallest_slip_margin = 1.5\nlargest_hub_load = \"1.2 kN\"\n[design]\nminimise = \"loss\"\n[design.free]\n
+         load.setup_tension = [\"150 N\", \"1 kN\"]\nlayout.centre_distance = [\"400 mm\", \"700 mm\"]",
+    );
+    let found = designed(&text, &[]);
+    assert!(found.is_feasible);
+    let file = DriveFile::read("drive.toml", &text, &[]).unwrap();
+    let question = file.design().unwrap();
+    let at = |free: usize, index: usize| {
+        let [low, high] = question.free[free].bounds;
+        low + (high - low) * index as f64 / 11.0
+    };
+    let mut best = f64::INFINITY;
+    for (x, y) in (0..12).flat_map(|x| (0..12).map(move |y| (x, y))) {
+        let changed = file
+            .with(&question.free[0].key, at(0, x))
+            .with(&question.free[1].key, at(1, y));
+        let service = changed.service().unwrap();
+        let checked = check(&service, &SolveOptions::default(), &mut |_, _| {}).unwrap();
+        if checked.failing() == 0 {
+            best = checked.cases[0]
+                .outcome
+                .as_ref()
+                .unwrap()
+                .losses
+                .total
+                .min(best);
+        }
+    }
+    println!("grid {best}");
+    assert!(best.is_finite() && found.objective.unwrap() < best * (1.0 + 2e-4));
 }

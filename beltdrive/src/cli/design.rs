@@ -14,7 +14,7 @@ Example:
 
 The table [design] of the file says what is to be small, which numbers are free within bounds, and which keys
 take one of several values; limits are those of [requirements], in every load case. --csv writes one row per
-combination of values, --plot draws the layout of each load case of the best drive.
+limit that decides, --plot draws the layout of each load case of the best drive.
 
 Exit status:
   0  the best drive was found

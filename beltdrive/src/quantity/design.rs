@@ -107,11 +107,7 @@ fn best(found: &Designed) -> Vec<Quantity> {
             found.objective,
             error,
         ),
-        Quantity::word(
-            "feasible",
-            "",
-            if found.is_feasible { "yes" } else { "no" }.to_owned(),
-        ),
+        Quantity::json("feasible", found.is_feasible),
     ]
 }
 
@@ -226,6 +222,21 @@ fn words(found: &Designed, limit: &DecidingLimit) -> (String, Measure) {
     )
 }
 
+/// The key of the drive file that states a limit; of an end of a range that of the number, and of a slip margin that
+/// is not required that of the one that could be.
+fn key(found: &Designed, limit: DesignLimit) -> String {
+    match limit {
+        DesignLimit::LowerBound(index) | DesignLimit::UpperBound(index) => {
+            return format!("design.free.{}", found.question.free[index].key.path());
+        }
+        DesignLimit::SlipMargin => "requirements.smallest_slip_margin",
+        DesignLimit::SpeedLoss => "requirements.largest_speed_loss",
+        DesignLimit::HubLoad => "requirements.largest_hub_load",
+        DesignLimit::SmallestDiameter => "belt.section",
+    }
+    .to_owned()
+}
+
 /// Where a limit is met, in words.
 fn at(found: &Designed, places: &[LimitPlace]) -> String {
     let cases = &found.checked.service.cases;
@@ -282,6 +293,7 @@ fn deciding(found: &Designed, limit: &DecidingLimit) -> Subject {
     let number = |key, value| Quantity::data(key, Measure::Number, Value::Number(Some(value)));
     let mut quantities = vec![
         Quantity::word("limit", "limit", name),
+        Quantity::word("key", "", key(found, limit.limit)),
         Quantity::word("at", "at", at(found, &limit.places)),
     ];
     if !found.is_feasible {

@@ -32,7 +32,7 @@ pub(super) fn least_distance(g: &[Vec<f64>], h: &[f64]) -> Option<(Vec<f64>, Vec
     Some((x, multipliers))
 }
 
-/// The weights w ≥ 0 with the least |Σ w_i column_i − target|.
+/// The weights, none of them negative, with which the columns add up to the target best, in least squares.
 fn nonnegative(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
     let count = columns.len();
     let mut weights = vec![0.0; count];
@@ -80,7 +80,7 @@ fn nonnegative(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
     weights
 }
 
-/// target − Σ w_i column_i.
+/// The target less the columns with their weights.
 fn residual(columns: &[Vec<f64>], weights: &[f64], target: &[f64]) -> Vec<f64> {
     let mut left = target.to_vec();
     for (column, weight) in columns.iter().zip(weights) {

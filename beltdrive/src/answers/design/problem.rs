@@ -43,6 +43,14 @@ pub(super) struct Limited {
 }
 
 impl Limited {
+    /// Which of several smooth functions decides: a slip margin is that of the pulley that slips first.
+    fn kind(&self) -> usize {
+        match (self.limit, self.place.pulley) {
+            (DesignLimit::SlipMargin, Some(pulley)) => pulley,
+            _ => SMOOTH,
+        }
+    }
+
     /// By how much the missed share grows with the allowed value.
     pub(super) fn missed_with_allowed(&self) -> f64 {
         let slope = self.found / self.allowed.powi(2);
@@ -117,26 +125,32 @@ impl Problem<'_> {
         Some(Values {
             pieces: pieces.iter().map(|piece| piece / self.unit).collect(),
             limits: limits.iter().map(share).collect(),
+            kinds: { pieces.iter().map(|_| SMOOTH) }
+                .chain(limits.iter().map(Limited::kind))
+                .collect(),
         })
     }
 
     /// All limits as what is to be small.
     pub(super) fn limits(&self, place: &[f64]) -> Option<Values> {
-        Some(Values {
-            pieces: self.functions(place)?.limits,
-            limits: Vec::new(),
-        })
+        let found = self.evaluate(place);
+        let (_, limits) = found.whole.as_ref()?;
+        Some(self.as_pieces(limits))
     }
 
     /// The slip margins as what is to be small.
     pub(super) fn margins(&self, place: &[f64]) -> Option<Values> {
         let found = self.evaluate(place);
-        let margins = found.margins.as_ref()?;
-        let share = |limited: &Limited| self.share(limited);
-        Some(Values {
-            pieces: margins.iter().map(share).collect(),
+        Some(self.as_pieces(found.margins.as_ref()?))
+    }
+
+    /// Limits as what is to be small.
+    fn as_pieces(&self, limits: &[Limited]) -> Values {
+        Values {
+            pieces: limits.iter().map(|limited| self.share(limited)).collect(),
             limits: Vec::new(),
-        })
+            kinds: limits.iter().map(Limited::kind).collect(),
+        }
     }
 
     /// By which share of it a limit is missed, with the share by which it is kept clear of. What is no result of a state
@@ -211,9 +225,21 @@ impl Problem<'_> {
                     SlipMargin::NotFound => None,
                 },
                 Err(
-                    SolveError::GrossSlip { load_factor, .. }
-                    | SolveError::Overloaded { load_factor, .. },
-                ) => Some((*load_factor, None)),
+                    SolveError::GrossSlip {
+                        load_factor,
+                        pulley,
+                        ..
+                    }
+                    | SolveError::Overloaded {
+                        load_factor,
+                        pulley,
+                        ..
+                    },
+                ) => {
+                    let mut pulleys = stated.drive.pulleys.iter();
+                    let pulley = pulleys.position(|known| known.name == *pulley);
+                    Some((*load_factor, pulley))
+                }
                 Err(_) => None,
             };
             let limited = margin.map(|(found, pulley)| Limited {
@@ -294,6 +320,9 @@ impl Problem<'_> {
         }
     }
 }
+
+/// The kind of a function that is smooth itself.
+const SMOOTH: usize = 0;
 
 /// Diameters may be off by rounding.
 const ROUNDING: f64 = 1e-9;

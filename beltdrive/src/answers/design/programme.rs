@@ -32,7 +32,7 @@ impl Linear {
     }
 }
 
-/// Minimises ½ dᵀBd + max_j (f_j + g_jᵀd) with c_i + a_iᵀd ≤ r and d in a box that contains 0.
+/// Minimises ½ dᵀBd + `max_j (f_j + g_jᵀd)` with `c_i + a_iᵀd ≤ r` and d in a box that contains 0.
 pub(super) struct Programme<'p> {
     /// B, positive semidefinite.
     pub(super) curvature: &'p [Vec<f64>],
@@ -256,7 +256,8 @@ mod tests {
         }
         .step()
         .unwrap();
-        assert!(step.change[0].abs() < 1e-12 && (step.change[1] - 1.0).abs() < 1e-12);
+        assert!(step.change[0].abs() < 1e-10, "{step:?}");
+        assert!((step.change[1] - 1.0).abs() < 1e-10, "{step:?}");
         assert!(
             (step.limits[0] - 1.0).abs() < 1e-10 && step.limits[1] == 0.0,
             "{step:?}"

@@ -25,6 +25,9 @@ pub(super) struct Values {
     pub(super) pieces: Vec<f64>,
     /// The functions that are not to be positive.
     pub(super) limits: Vec<f64>,
+    /// Which of several smooth functions each piece, then each limit, is the largest of; the same number everywhere for one
+    /// that is smooth itself.
+    pub(super) kinds: Vec<usize>,
 }
 
 /// Functions of numbers between 0 and 1; `None` where they have no value.
@@ -62,6 +65,12 @@ impl Values {
             .fold(f64::NEG_INFINITY, f64::max)
     }
 
+    /// A piece, or behind them a limit.
+    fn function(&self, index: usize) -> f64 {
+        let limit = index.checked_sub(self.pieces.len());
+        limit.map_or_else(|| self.pieces[index], |limit| self.limits[limit])
+    }
+
     /// By how much a limit is exceeded; 0 if none is.
     pub(super) fn excess(&self) -> f64 {
         self.limits.iter().copied().fold(0.0, f64::max)
@@ -84,6 +93,69 @@ struct Model {
     limits: Vec<Linear>,
 }
 
+/// A smooth function that took the place of another one nearby, as it is there.
+struct Cut {
+    /// Of which piece, or behind them of which limit.
+    function: usize,
+    kind: usize,
+    place: Vec<f64>,
+    linear: Linear,
+}
+
+/// The cuts that were met.
+#[derive(Default)]
+struct Cuts(Vec<Cut>);
+
+impl Cuts {
+    /// Keeps what decides at a place and did not where `beside` was found.
+    fn keep(&mut self, place: &[f64], model: &Model, kinds: &[usize], beside: &[usize]) {
+        let linear = model.pieces.iter().chain(&model.limits).enumerate();
+        for (function, linear) in linear {
+            let kind = kinds[function];
+            if kind == beside[function] {
+                continue;
+            }
+            let is_other = |cut: &Cut| (cut.function, cut.kind) != (function, kind);
+            self.0.retain(is_other);
+            self.0.push(Cut {
+                function,
+                kind,
+                place: place.to_vec(),
+                linear: linear.clone(),
+            });
+        }
+    }
+
+    /// A model with those functions that do not decide at its place, and the piece or limit to which each belongs.
+    fn beside(&self, model: &Model, place: &[f64], kinds: &[usize]) -> (Model, [Vec<usize>; 2]) {
+        let mut more = Model {
+            pieces: model.pieces.clone(),
+            limits: model.limits.clone(),
+        };
+        let mut owners = [Vec::new(), Vec::new()];
+        for cut in self.0.iter().filter(|cut| cut.kind != kinds[cut.function]) {
+            let change: Vec<_> = { place.iter().zip(&cut.place) }
+                .map(|(here, there)| here - there)
+                .collect();
+            let linear = Linear {
+                value: cut.linear.after(&change),
+                gradient: cut.linear.gradient.clone(),
+            };
+            match cut.function.checked_sub(model.pieces.len()) {
+                None => {
+                    more.pieces.push(linear);
+                    owners[0].push(cut.function);
+                }
+                Some(limit) => {
+                    more.limits.push(linear);
+                    owners[1].push(limit);
+                }
+            }
+        }
+        (more, owners)
+    }
+}
+
 impl Search<'_> {
     /// The minimum that is reached from a place with values; `None` if there are no derivatives at the first place.
     pub(super) fn minimum(&self, start: &[f64], values: Values) -> Option<Minimum> {
@@ -94,19 +166,20 @@ impl Search<'_> {
         let mut curvature: Option<Vec<Vec<f64>>> = None;
         let flat = vec![vec![0.0; size]; size];
         let (mut radius, mut penalty) = (FIRST_RADIUS, 0.0);
-        let mut last = None;
+        let (mut last, mut cuts) = (None, Cuts::default());
         for _ in 0..STEPS {
             let within: Vec<_> = { place.iter() }
                 .map(|at| [-at.min(radius), (1.0 - at).min(radius)])
                 .collect();
             let excess = values.excess();
+            let (all, owners) = cuts.beside(&model, &place, &values.kinds);
             let relaxed = match excess > 0.0 {
-                true => model.least_excess(&within, &flat),
+                true => all.least_excess(&within, &flat),
                 false => 0.0,
             };
             let bent = curvature.as_ref().unwrap_or(&flat);
             let of = |limits: &[Linear], relaxed: f64| {
-                let pieces = &model.pieces;
+                let pieces = &all.pieces;
                 Programme {
                     curvature: bent,
                     pieces,
@@ -116,12 +189,14 @@ impl Search<'_> {
                 }
                 .step()
             };
-            let step = of(&model.limits, relaxed).or_else(|| of(&model.limits, excess))?;
+            let highest = all.limits.iter().map(|limit| limit.value);
+            let highest = highest.fold(0.0, f64::max);
+            let step = of(&all.limits, relaxed).or_else(|| of(&all.limits, highest))?;
             let length = step
                 .change
                 .iter()
                 .fold(0.0, |most: f64, x| most.max(x.abs()));
-            let gain = model.gain(&step.change, bent);
+            let gain = all.gain(&step.change, bent, &values);
             penalty = f64::max(penalty, 2.0 * step.limits.iter().sum::<f64>());
             let predicted = gain.0 + penalty * gain.1;
             let is_enough = self
@@ -130,7 +205,7 @@ impl Search<'_> {
             let is_last = is_enough
                 || length <= self.accuracy.settled
                 || predicted <= self.accuracy.noise && excess <= self.accuracy.noise;
-            last = Some((step.clone(), place.clone()));
+            last = Some(End::new(&all, &owners, &step, &place));
             if is_last {
                 break;
             }
@@ -148,13 +223,17 @@ impl Search<'_> {
                 && here - merit(there) < LONGER * predicted
                 && there.excess() > excess.max(self.accuracy.noise)
             {
-                let limits: Vec<_> = { model.limits.iter().zip(&there.limits) }
+                // Only where the same smooth functions decide.
+                let is_same = there.kinds == values.kinds;
+                let limits: Vec<_> = { all.limits.iter().zip(&there.limits) }
                     .map(|(limit, value)| Linear {
                         value: value - dot(&limit.gradient, &step.change),
                         gradient: limit.gradient.clone(),
                     })
+                    .chain(all.limits.iter().skip(there.limits.len()).cloned())
                     .collect();
-                let corrected = of(&limits, relaxed).and_then(|step| tried(&step.change));
+                let corrected = is_same.then(|| of(&limits, relaxed)).flatten();
+                let corrected = corrected.and_then(|step| tried(&step.change));
                 if let Some((next, better)) = corrected
                     && merit(&better) < merit(there)
                 {
@@ -167,33 +246,48 @@ impl Search<'_> {
             match share {
                 Some(share) if share < SHORTER => radius = 0.5 * radius.min(length),
                 Some(share) if share > LONGER && length > 0.9 * radius => {
-                    radius = (2.0 * radius).min(1.0)
+                    radius = (2.0 * radius).min(1.0);
                 }
                 Some(_) => {}
                 None => radius = 0.25 * radius.min(length),
             }
-            if let (Some((next, there)), Some(share)) = (found, share)
-                && share >= ACCEPTED
-                && let Some(known) = self.model(&next, &there)
-            {
-                let change: Vec<_> = next
-                    .iter()
-                    .zip(&place)
-                    .map(|(new, old)| new - old)
-                    .collect();
-                let bend: Vec<_> = { known.lagrangian(&step).into_iter() }
-                    .zip(model.lagrangian(&step))
-                    .map(|(new, old)| new - old)
-                    .collect();
-                update(&mut curvature, &change, &bend);
-                (place, values, model) = (next, there, known);
-            } else {
+            let Some((next, there)) = found else {
+                continue;
+            };
+            let is_taken = share.is_some_and(|share| share >= ACCEPTED);
+            let is_other = there.kinds != values.kinds;
+            let known = match is_taken || is_other {
+                true => self.model(&next, &there),
+                false => None,
+            };
+            match known {
+                Some(known) if is_taken => {
+                    cuts.keep(&place, &model, &values.kinds, &there.kinds);
+                    let change: Vec<_> = { next.iter().zip(&place) }
+                        .map(|(new, old)| new - old)
+                        .collect();
+                    // A change of the slope at a kink is no curvature.
+                    if !is_other {
+                        let bend: Vec<_> = { known.lagrangian(&step).into_iter() }
+                            .zip(model.lagrangian(&step))
+                            .map(|(new, old)| new - old)
+                            .collect();
+                        update(&mut curvature, &change, &bend);
+                    }
+                    (place, values, model) = (next, there, known);
+                }
+                Some(known) => cuts.keep(&next, &known, &there.kinds, &values.kinds),
+                None => {}
+            }
+            if !is_taken {
                 radius = radius.min(0.5 * length);
             }
         }
-        let (multipliers, at) = last?;
-        let residual = model.residual(&multipliers, &at);
-        let slopes = model.lagrangian(&multipliers);
+        let End {
+            multipliers,
+            slopes,
+            residual,
+        } = last?;
         let all = || model.pieces.iter().chain(&model.limits);
         let idle = (0..size).map(|index| all().all(|of| of.gradient[index] == 0.0));
         Some(Minimum {
@@ -207,7 +301,7 @@ impl Search<'_> {
     }
 
     /// The functions with their gradients by differences: central ones, or of three places on one side at an end of the
-    /// range and where there is no value on the other.
+    /// range, where there is no value on the other side, and where another function decides there.
     fn model(&self, place: &[f64], values: &Values) -> Option<Model> {
         let at = |index: usize, times: f64| {
             let mut there = place.to_vec();
@@ -217,53 +311,58 @@ impl Search<'_> {
         };
         let sides = [1.0, -1.0];
         let near = each(2 * place.len(), |index| at(index / 2, sides[index % 2]));
-        let mut near = near.into_iter();
         let mut columns = Vec::new();
-        for (index, &step) in self.steps.iter().enumerate() {
-            let combine = |parts: &[(f64, &Values)]| {
-                let sum = |of: &dyn Fn(&Values) -> &Vec<f64>, index: usize| {
-                    let parts = parts
-                        .iter()
-                        .map(|(weight, values)| weight * of(values)[index]);
-                    parts.sum::<f64>() / step
+        for (index, near) in near.chunks(2).enumerate() {
+            // Where three places on a side are needed.
+            let is_partial = |other: &Option<Values>| {
+                let other = other.as_ref();
+                other.is_none_or(|other| other.kinds != values.kinds)
+            };
+            let far: Vec<_> = { near.iter().rev().zip(sides) }
+                .map(|(other, side)| is_partial(other).then(|| at(index, 2.0 * side)).flatten())
+                .collect();
+            let column = (0..values.kinds.len()).map(|function| {
+                let same = |there: &Option<Values>| {
+                    let there = there.as_ref();
+                    let there =
+                        there.filter(|there| there.kinds[function] == values.kinds[function]);
+                    there.map(|there| there.function(function))
                 };
-                let pieces =
-                    (0..values.pieces.len()).map(|index| sum(&|values| &values.pieces, index));
-                let limits =
-                    (0..values.limits.len()).map(|index| sum(&|values| &values.limits, index));
-                (pieces.collect::<Vec<_>>(), limits.collect::<Vec<_>>())
-            };
-            let column = match (near.next().flatten(), near.next().flatten()) {
-                (Some(above), Some(below)) => combine(&[(0.5, &above), (-0.5, &below)]),
-                (None, None) => return None,
-                (above, below) => {
-                    let (side, near) = match (above, below) {
-                        (Some(near), _) => (1.0, near),
-                        (_, Some(near)) => (-1.0, near),
-                        _ => return None,
-                    };
-                    match at(index, 2.0 * side) {
-                        Some(far) => combine(&[
-                            (-1.5 * side, values),
-                            (2.0 * side, &near),
-                            (-0.5 * side, &far),
-                        ]),
-                        None => combine(&[(-side, values), (side, &near)]),
-                    }
-                }
-            };
-            columns.push(column);
+                let any =
+                    |there: &Option<Values>| there.as_ref().map(|there| there.function(function));
+                let one_sided = |side: usize, near: f64| {
+                    let here = values.function(function);
+                    sides[side]
+                        * match same(&far[side]) {
+                            Some(far) => 2.0 * near - 1.5 * here - 0.5 * far,
+                            None => near - here,
+                        }
+                };
+                Some(
+                    match (same(&near[0]), same(&near[1])) {
+                        (Some(above), Some(below)) => 0.5 * (above - below),
+                        (Some(above), None) => one_sided(0, above),
+                        (None, Some(below)) => one_sided(1, below),
+                        (None, None) => match (any(&near[0]), any(&near[1])) {
+                            (Some(above), Some(below)) => 0.5 * (above - below),
+                            (Some(above), None) => one_sided(0, above),
+                            (None, below) => one_sided(1, below?),
+                        },
+                    } / self.steps[index],
+                )
+            });
+            columns.push(column.collect::<Option<Vec<_>>>()?);
         }
-        let linear = |values: &[f64], slope: fn(&(Vec<f64>, Vec<f64>), usize) -> f64| {
+        let linear = |from: usize, values: &[f64]| {
             let all = values.iter().enumerate().map(|(index, &value)| Linear {
                 value,
-                gradient: columns.iter().map(|column| slope(column, index)).collect(),
+                gradient: columns.iter().map(|column| column[from + index]).collect(),
             });
             all.collect()
         };
         Some(Model {
-            pieces: linear(&values.pieces, |column, index| column.0[index]),
-            limits: linear(&values.limits, |column, index| column.1[index]),
+            pieces: linear(0, &values.pieces),
+            limits: linear(values.pieces.len(), &values.limits),
         })
     }
 }
@@ -293,22 +392,18 @@ impl Model {
         left.fold(0.0, f64::max)
     }
 
-    /// By how much the model says that the largest piece and the excess fall.
-    fn gain(&self, change: &[f64], curvature: &[Vec<f64>]) -> (f64, f64) {
-        let most = |of: &[Linear], change: &[f64], least: f64| {
-            of.iter()
-                .map(|linear| linear.after(change))
-                .fold(least, f64::max)
-        };
-        let none = vec![0.0; change.len()];
+    /// By how much the model says that the largest piece and the excess fall from what they are.
+    fn gain(&self, change: &[f64], curvature: &[Vec<f64>], here: &Values) -> (f64, f64) {
         let bent: f64 = { curvature.iter().zip(change) }
             .map(|(row, part)| 0.5 * part * dot(row, change))
             .sum();
-        let pieces = |change: &[f64]| most(&self.pieces, change, f64::NEG_INFINITY);
-        let excess = |change: &[f64]| most(&self.limits, change, 0.0);
+        let after = |of: &[Linear], least: f64| {
+            let after = of.iter().map(|linear| linear.after(change));
+            after.fold(least, f64::max)
+        };
         (
-            pieces(&none) - pieces(change) - bent,
-            excess(&none) - excess(change),
+            here.largest_piece() - after(&self.pieces, f64::NEG_INFINITY) - bent,
+            here.excess() - after(&self.limits, 0.0),
         )
     }
 
@@ -341,6 +436,34 @@ impl Model {
             0.0
         } else {
             left / scale.max(f64::MIN_POSITIVE)
+        }
+    }
+}
+
+/// What a step tells of the place where it begins.
+struct End {
+    multipliers: Step,
+    slopes: Vec<f64>,
+    residual: f64,
+}
+
+impl End {
+    fn new(model: &Model, owners: &[Vec<usize>; 2], step: &Step, place: &[f64]) -> Self {
+        let mut multipliers = step.clone();
+        let [pieces, limits] = owners;
+        for (own, owners) in [
+            (&mut multipliers.pieces, pieces),
+            (&mut multipliers.limits, limits),
+        ] {
+            let of_cuts = own.split_off(own.len() - owners.len());
+            for (multiplier, &owner) in of_cuts.iter().zip(owners) {
+                own[owner] += multiplier;
+            }
+        }
+        Self {
+            multipliers,
+            slopes: model.lagrangian(step),
+            residual: model.residual(step, place),
         }
     }
 }
@@ -417,15 +540,15 @@ mod tests {
             Some(Values {
                 pieces: vec![-x[0] - x[1]],
                 limits: vec![x[0].hypot(x[1]) - 0.5],
+                kinds: vec![0; 2],
             })
         };
         let found = minimum(&functions, &[0.7, 0.1]);
+        // Along the circle the value changes by the square of the way: by 1e-13 at 3e-7.
         let at = 0.125_f64.sqrt();
-        assert!((found.place[0] - at).abs() < 1e-8, "{found:?}");
-        assert!(
-            (found.multipliers.limits[0] - 2.0_f64.sqrt()).abs() < 1e-6,
-            "{found:?}"
-        );
+        assert!((found.place[0] - at).abs() < 1e-6, "{found:?}");
+        let multiplier = found.multipliers.limits[0];
+        assert!((multiplier - 2.0_f64.sqrt()).abs() < 1e-6, "{found:?}");
         assert!(found.residual < 1e-6);
     }
 
@@ -438,6 +561,7 @@ mod tests {
             Some(Values {
                 pieces: vec![value],
                 limits: Vec::new(),
+                kinds: vec![0],
             })
         };
         let found = minimum(&functions, &[0.2, 0.75]);
@@ -451,6 +575,7 @@ mod tests {
             (x[0] * x[1] > 0.03).then(|| Values {
                 pieces: vec![x[0] * x[0] * x[1]],
                 limits: vec![1.0 - x[0] * x[1] / 0.04],
+                kinds: vec![0; 2],
             })
         };
         let found = minimum(&functions, &[0.9, 0.5]);
@@ -458,5 +583,29 @@ mod tests {
             (found.place[1] - 1.0).abs() < 1e-8 && (found.place[0] - 0.04).abs() < 1e-8,
             "{found:?}"
         );
+    }
+
+    #[test]
+    fn a_limit_that_is_the_larger_one_of_two_functions() {
+        // y is least at the kink of y ≥ max(x², 1 − x) shrunk by ½: x² = 1 − x for 2 x.
+        let functions = |p: &[f64]| {
+            let [x, y] = [2.0 * p[0], 2.0 * p[1]];
+            let sides = [x * x - y, 1.0 - x - y];
+            let kind = usize::from(sides[1] > sides[0]);
+            Some(Values {
+                pieces: vec![p[1]],
+                limits: vec![sides[kind]],
+                kinds: vec![0, kind],
+            })
+        };
+        let found = minimum(&functions, &[0.8, 0.9]);
+        let x = 0.5 * (5.0_f64.sqrt() - 1.0);
+        assert!((found.place[0] - 0.5 * x).abs() < 1e-8, "{found:?}");
+        // By y = 1 − x + d and y = x² + d with d the limit: half of it for p.
+        assert!(
+            (found.multipliers.limits[0] - 0.5).abs() < 1e-6,
+            "{found:?}"
+        );
+        assert!(found.residual < 1e-6, "{found:?}");
     }
 }
