@@ -17,7 +17,7 @@ const MOST_STARTS: usize = 3;
 const APART: f64 = 0.25;
 
 /// The bases of the Halton sequence, one for each number; further numbers repeat them, shifted.
-const BASES: [u32; 6] = [2, 3, 5, 7, 11, 13];
+const BASES: [usize; 6] = [2, 3, 5, 7, 11, 13];
 
 /// Places with what was found there, the best first and apart from each other.
 pub(super) fn starts(problem: &Problem<'_>) -> Vec<(Vec<f64>, Arc<Evaluated>)> {
@@ -84,7 +84,7 @@ fn places(problem: &Problem<'_>) -> Vec<Vec<f64>> {
         let value = problem.file.value(&free.key).unwrap_or(low);
         ((value - low) / (high - low)).clamp(0.0, 1.0)
     });
-    let count = (PLACES * (free.len() + 1)).min(MOST_PLACES) as u32;
+    let count = (PLACES * (free.len() + 1)).min(MOST_PLACES);
     let spread = (1..count - 1).map(|index| {
         (0..free.len())
             .map(|number| {
@@ -101,12 +101,12 @@ fn places(problem: &Problem<'_>) -> Vec<Vec<f64>> {
 }
 
 /// The digits of an index in a base, mirrored at the point.
-fn radical_inverse(mut index: u32, base: u32) -> f64 {
-    let (mut value, mut digit) = (0.0, 1.0 / f64::from(base));
+fn radical_inverse(mut index: usize, base: usize) -> f64 {
+    let (mut value, mut digit) = (0.0, 1.0 / base as f64);
     while index > 0 {
-        value += f64::from(index % base) * digit;
+        value += (index % base) as f64 * digit;
         index /= base;
-        digit /= f64::from(base);
+        digit /= base as f64;
     }
     value
 }
