@@ -229,7 +229,7 @@ fn the_least_tension_of_a_v_belt_is_that_of_the_command_tension() {
         "[requirements]\nsmallest_slip_margin = 1.5\n[design]\nminimise = \"load.setup_tension\"\n[design.free]\n
          load.setup_tension = [\"100 N\", \"1 kN\"]",
     );
-    let found = designed(&text, &[]);
+    let found = designed(&text, &["load.setup_tension=400 N"]);
     let service = found.file.service().unwrap();
     let question = beltdrive::SetupQuestion {
         slip_margin: 1.5,
@@ -414,6 +414,30 @@ fn limits_in_conflict_are_named_with_what_they_cost() {
         panic!()
     };
     assert!(share > 0.5 && share < 1.0, "{share}");
+}
+
+#[test]
+fn a_largest_tension_holds_a_design_back_and_fails_a_check() {
+    // More tension would do with less wrap: the tight span stands no more.
+    let text = STIFF.replace("smallest_slip_margin = 1.5", "smallest_slip_margin = 1.5\nlargest_tension = \"400 N\"")
+        + "[design]\nminimise = \"layout.centre_distance\"\n[design.free]\n
+           load.slack_tractive_tension = [\"20 N\", \"2 kN\"]\nlayout.centre_distance = [\"310 mm\", \"2 m\"]";
+    let found = designed(&text, &[]);
+    // The belt takes up m v² and pulls 200 N more in the tight span.
+    let taken_up = 0.2 * (0.1 * 1500.0 * PI / 30.0_f64).powi(2);
+    let slack = 400.0 - taken_up - 200.0;
+    is_near(found.values[0], slack, 1e-6);
+    let asked = f64::ln(1.0 + 1.5 * 200.0 / slack) / 0.4;
+    is_near(found.values[1], 0.1 / (0.5 * asked).cos(), 1e-5);
+    let names: Vec<_> = found.limits.iter().map(|limit| limit.limit).collect();
+    assert_eq!(names, [DesignLimit::SlipMargin, DesignLimit::Tension]);
+    let text = text.replace("400 N", "340 N");
+    let (code, out, errors) = run(&["check", "-"], &text);
+    assert_eq!(code, Some(3), "{errors}");
+    assert!(
+        out.contains("the belt tension behind pulley `driven` is"),
+        "{out}"
+    );
 }
 
 #[test]
@@ -621,9 +645,10 @@ fn a_v_belt_drive_is_better_than_a_grid() {
         "[requirements]\nsmallest_slip_margin = 1.5\nlargest_hub_load = \"1.2 kN\"\n[design]\nminimise = \"loss\"\n[design.free]\n
          load.setup_tension = [\"150 N\", \"1 kN\"]\nlayout.centre_distance = [\"400 mm\", \"700 mm\"]",
     );
-    let found = designed(&text, &[]);
+    let closed = ["load.setup_tension=400 N".to_owned()];
+    let found = designed(&text, &["load.setup_tension=400 N"]);
     assert!(found.is_feasible);
-    let file = DriveFile::read("drive.toml", &text, &[]).unwrap();
+    let file = DriveFile::read("drive.toml", &text, &closed).unwrap();
     let question = file.design().unwrap();
     let at = |free: usize, index: usize| {
         let [low, high] = question.free[free].bounds;

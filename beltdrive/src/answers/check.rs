@@ -89,6 +89,15 @@ pub enum Failing {
         /// Whether it is larger at rest than in motion.
         at_rest: bool,
     },
+    /// The belt tension is larger than required.
+    Tension {
+        /// What was found, N.
+        found: f64,
+        /// What is required, N.
+        required: f64,
+        /// The span by its index, if it is larger there in motion than at rest.
+        span: Option<usize>,
+    },
 }
 
 impl CheckedCase {
@@ -261,7 +270,20 @@ fn failures(found: &CaseState, required: &Requirements) -> Vec<Failing> {
             at_rest,
         })
     });
-    [slip, speed, hub].into_iter().flatten().collect()
+    let tension = required.largest_tension.and_then(|required| {
+        let state = &found.state;
+        let spans = state.spans.iter().map(|span| span.tension).enumerate();
+        let rest = (None, state.rest_tension);
+        let all = spans.map(|(span, tension)| (Some(span), tension));
+        let largest = { all.chain([rest]) }.max_by(|(_, one), (_, other)| one.total_cmp(other));
+        let (span, found) = largest.unwrap_or(rest);
+        (found > required).then_some(Failing::Tension {
+            found,
+            required,
+            span,
+        })
+    });
+    [slip, speed, hub, tension].into_iter().flatten().collect()
 }
 
 #[cfg(test)]

@@ -34,6 +34,8 @@ pub struct Requirements {
     pub largest_speed_loss: Option<f64>,
     /// Largest force of the belt on a hub, N, running or at rest.
     pub largest_hub_load: Option<f64>,
+    /// Largest belt tension, N, of a span in motion or at rest.
+    pub largest_tension: Option<f64>,
 }
 
 /// Losses of a drive that the model of the belt does not know, by numbers that were measured or that a

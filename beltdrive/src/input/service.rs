@@ -53,6 +53,7 @@ impl DriveFile {
                 smallest_slip_margin: values.number("requirements.smallest_slip_margin"),
                 largest_speed_loss: values.number("requirements.largest_speed_loss"),
                 largest_hub_load: values.number("requirements.largest_hub_load"),
+                largest_tension: values.number("requirements.largest_tension"),
             },
             given_losses: given_losses(&values).map_err(diagnosed)?,
         })

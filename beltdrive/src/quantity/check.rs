@@ -87,6 +87,7 @@ fn limits(requirements: &Requirements) -> Vec<Quantity> {
         smallest_slip_margin,
         largest_speed_loss,
         largest_hub_load,
+        largest_tension,
     } = *requirements;
     vec![
         limit(
@@ -106,6 +107,12 @@ fn limits(requirements: &Requirements) -> Vec<Quantity> {
             "largest hub load",
             Measure::Force,
             largest_hub_load,
+        ),
+        limit(
+            "largest_tension",
+            "largest belt tension",
+            Measure::Force,
+            largest_tension,
         ),
     ]
 }
@@ -192,6 +199,19 @@ fn reason(failing: &Failing, drive: &Drive, state: &CaseState) -> String {
             name(found),
             if at_rest { "at rest" } else { "in motion" },
             shown(Measure::Force, found.value, scale.error * scale.tension),
+            shown(Measure::Force, required, 0.0)
+        ),
+        Failing::Tension {
+            found,
+            required,
+            span,
+        } => format!(
+            "the belt tension {} is {}, at most {} is allowed",
+            span.map_or_else(
+                || "at rest".to_owned(),
+                |span| format!("behind pulley `{}`", drive.pulleys[span].name)
+            ),
+            shown(Measure::Force, found, scale.error * scale.tension),
             shown(Measure::Force, required, 0.0)
         ),
     }

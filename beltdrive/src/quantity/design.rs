@@ -202,6 +202,7 @@ fn words(found: &Designed, limit: &DecidingLimit) -> (String, Measure) {
         DesignLimit::SlipMargin => ("slip margin".to_owned(), Measure::Number),
         DesignLimit::SpeedLoss => ("speed loss".to_owned(), Measure::Share),
         DesignLimit::HubLoad => ("hub load".to_owned(), Measure::Force),
+        DesignLimit::Tension => ("belt tension".to_owned(), Measure::Force),
         DesignLimit::SmallestDiameter => {
             let section = found
                 .file
@@ -232,6 +233,7 @@ fn key(found: &Designed, limit: DesignLimit) -> String {
         DesignLimit::SlipMargin => "requirements.smallest_slip_margin",
         DesignLimit::SpeedLoss => "requirements.largest_speed_loss",
         DesignLimit::HubLoad => "requirements.largest_hub_load",
+        DesignLimit::Tension => "requirements.largest_tension",
         DesignLimit::SmallestDiameter => "belt.section",
     }
     .to_owned()

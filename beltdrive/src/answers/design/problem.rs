@@ -20,6 +20,8 @@ pub enum DesignLimit {
     SpeedLoss,
     /// The largest hub load that is required.
     HubLoad,
+    /// The largest belt tension that is required.
+    Tension,
     /// The smallest pulley that the belt section allows.
     SmallestDiameter,
 }
@@ -29,7 +31,7 @@ pub enum DesignLimit {
 pub struct LimitPlace {
     /// The index of the load case, if it is of one.
     pub case: Option<usize>,
-    /// The index of the pulley.
+    /// The index of the pulley; of a tension that of the one behind which the span is, and none at rest.
     pub pulley: Option<usize>,
 }
 
@@ -364,20 +366,32 @@ fn of_state(
         limit,
         place: LimitPlace {
             case: Some(case),
-            pulley: Some(pulley),
+            pulley,
         },
         found,
         allowed,
     };
     let speed = required.largest_speed_loss.into_iter().flat_map(|allowed| {
         speed_losses(service, case, state)
-            .map(move |(pulley, loss)| limited(DesignLimit::SpeedLoss, pulley, loss, allowed))
+            .map(move |(pulley, loss)| limited(DesignLimit::SpeedLoss, Some(pulley), loss, allowed))
     });
     let hub = required.largest_hub_load.into_iter().flat_map(|allowed| {
         let loads = hub_loads(state).enumerate();
-        loads.map(move |(index, load)| limited(DesignLimit::HubLoad, index / 2, load, allowed))
+        loads
+            .map(move |(index, load)| limited(DesignLimit::HubLoad, Some(index / 2), load, allowed))
     });
-    speed.chain(hub).collect()
+    let tension = required.largest_tension.into_iter().flat_map(|allowed| {
+        let spans = state
+            .state
+            .spans
+            .iter()
+            .map(|span| span.tension)
+            .enumerate();
+        let spans = spans.map(|(span, tension)| (Some(span), tension));
+        let all = spans.chain([(None, state.state.rest_tension)]);
+        all.map(move |(span, tension)| limited(DesignLimit::Tension, span, tension, allowed))
+    });
+    speed.chain(hub).chain(tension).collect()
 }
 
 /// The diameters of the pulleys in grooves against the smallest that the section of the belt allows.

@@ -102,6 +102,9 @@ struct Cut {
     linear: Linear,
 }
 
+/// The piece or limit to which each cut of a model belongs, and how far away it was met.
+type Owners = Vec<(usize, f64)>;
+
 /// The cuts that were met.
 #[derive(Default)]
 struct Cuts(Vec<Cut>);
@@ -126,8 +129,9 @@ impl Cuts {
         }
     }
 
-    /// A model with those functions that do not decide at its place, and the piece or limit to which each belongs.
-    fn beside(&self, model: &Model, place: &[f64], kinds: &[usize]) -> (Model, [Vec<usize>; 2]) {
+    /// A model with those functions that do not decide at its place, and the piece or limit to which each belongs with its
+    /// distance.
+    fn beside(&self, model: &Model, place: &[f64], kinds: &[usize]) -> (Model, [Owners; 2]) {
         let mut more = Model {
             pieces: model.pieces.clone(),
             limits: model.limits.clone(),
@@ -137,6 +141,7 @@ impl Cuts {
             let change: Vec<_> = { place.iter().zip(&cut.place) }
                 .map(|(here, there)| here - there)
                 .collect();
+            let distance = change.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
             let linear = Linear {
                 value: cut.linear.after(&change),
                 gradient: cut.linear.gradient.clone(),
@@ -144,11 +149,11 @@ impl Cuts {
             match cut.function.checked_sub(model.pieces.len()) {
                 None => {
                     more.pieces.push(linear);
-                    owners[0].push(cut.function);
+                    owners[0].push((cut.function, distance));
                 }
                 Some(limit) => {
                     more.limits.push(linear);
-                    owners[1].push(limit);
+                    owners[1].push((limit, distance));
                 }
             }
         }
@@ -205,9 +210,17 @@ impl Search<'_> {
             let is_last = is_enough
                 || length <= self.accuracy.settled
                 || predicted <= self.accuracy.noise && excess <= self.accuracy.noise;
-            last = Some(End::new(&all, &owners, &step, &place));
-            if is_last {
+            let end = End::new(&all, &owners, &step, &place);
+            let far = end.farthest_cut;
+            last = Some(end);
+            // The place follows from a cut with the square of its distance: it has to be met anew nearby.
+            if is_last && (is_enough || far * far <= self.accuracy.settled) {
                 break;
+            }
+            if is_last {
+                radius = far * far;
+                cuts.0.clear();
+                continue;
             }
             let merit = |values: &Values| values.largest_piece() + penalty * values.excess();
             let here = merit(&values);
@@ -276,17 +289,18 @@ impl Search<'_> {
                     }
                     (place, values, model) = (next, there, known);
                 }
-                Some(known) => cuts.keep(&next, &known, &there.kinds, &values.kinds),
-                None => {}
-            }
-            if !is_taken {
-                radius = radius.min(0.5 * length);
+                Some(known) => {
+                    cuts.keep(&next, &known, &there.kinds, &values.kinds);
+                    radius = radius.min(0.5 * length);
+                }
+                None => radius = radius.min(0.5 * length),
             }
         }
         let End {
             multipliers,
             slopes,
             residual,
+            ..
         } = last?;
         let all = || model.pieces.iter().chain(&model.limits);
         let idle = (0..size).map(|index| all().all(|of| of.gradient[index] == 0.0));
@@ -445,25 +459,32 @@ struct End {
     multipliers: Step,
     slopes: Vec<f64>,
     residual: f64,
+    /// How far away the farthest of the cuts with a multiplier was met.
+    farthest_cut: f64,
 }
 
 impl End {
-    fn new(model: &Model, owners: &[Vec<usize>; 2], step: &Step, place: &[f64]) -> Self {
+    fn new(model: &Model, owners: &[Owners; 2], step: &Step, place: &[f64]) -> Self {
         let mut multipliers = step.clone();
+        let mut farthest_cut = 0.0;
         let [pieces, limits] = owners;
         for (own, owners) in [
             (&mut multipliers.pieces, pieces),
             (&mut multipliers.limits, limits),
         ] {
             let of_cuts = own.split_off(own.len() - owners.len());
-            for (multiplier, &owner) in of_cuts.iter().zip(owners) {
+            for (multiplier, &(owner, distance)) in of_cuts.iter().zip(owners) {
                 own[owner] += multiplier;
+                if *multiplier > 0.0 {
+                    farthest_cut = distance.max(farthest_cut);
+                }
             }
         }
         Self {
             multipliers,
             slopes: model.lagrangian(step),
             residual: model.residual(step, place),
+            farthest_cut,
         }
     }
 }

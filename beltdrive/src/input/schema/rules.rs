@@ -290,6 +290,7 @@ const SERVICE: &[Rule] = &[
         "\"800 N\"",
         Dimension::FORCE,
     ),
+    quantity("requirements.largest_tension", "\"2 kN\"", Dimension::FORCE),
     quantity(
         "losses.bending_stiffness",
         "\"0.5 N*m^2\"",
