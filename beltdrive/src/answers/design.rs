@@ -10,8 +10,8 @@ mod starts;
 pub use problem::{DesignLimit, LimitPlace};
 
 use super::check::{CheckedService, check};
-use super::shares::each;
 use super::members::Refusal;
+use super::shares::each;
 use crate::input::{DesignQuestion, Diagnostic, DriveFile};
 use crate::{BeltKind, SolveError, SolveOptions};
 use problem::Problem;

@@ -242,7 +242,8 @@ impl DriveFile {
         let DesignEntry { path, entry, .. } = designed;
         let can_vary = |path: &str| {
             let rule = schema::rule(path);
-            let is_of_drive = |kind: &Kind| !matches!(kind, Kind::Keys | Kind::Spread | Kind::Refused { .. });
+            let is_of_drive =
+                |kind: &Kind| !matches!(kind, Kind::Keys | Kind::Spread | Kind::Refused { .. });
             path != "title"
                 && !schema::is_of_service(path)
                 && rule.is_some_and(|rule| is_of_drive(&rule.kind))
