@@ -136,3 +136,25 @@ fn a_browser_shows_all_figures() {
         );
     }
 }
+
+#[test]
+fn a_page_tells_how_far_numbers_may_be_from_their_values() {
+    let directory = directory("uncertain");
+    let spread = "uncertainty.friction.coefficient=10 %";
+    let arguments = ["--set", spread, "--samples", "20", "--html", "page.html"];
+    assert_eq!(
+        report("back-side-idler", &directory, &arguments)
+            .status
+            .code(),
+        Some(0)
+    );
+    let page = fs::read_to_string(directory.join("page.html")).unwrap();
+    for text in [
+        "95 % from",
+        "sampled from",
+        "100 % of the samples",
+        "--samples 20",
+    ] {
+        assert!(page.contains(text), "{text}");
+    }
+}

@@ -5,8 +5,10 @@ use super::destinations::Destinations;
 use super::failure::Failure;
 use super::output::{Units, note, write_text};
 use super::progress::with_bar;
+use super::samples::Samples;
 use super::stated::Stated;
 use beltdrive::page::{self, Made};
+use beltdrive::uncertainty;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -31,6 +33,8 @@ pub(super) struct Report {
     /// Units of the numbers
     #[arg(long, value_name = "SYSTEM", default_value = "engineering")]
     units: Units,
+    #[command(flatten)]
+    samples: Samples,
     /// Do not print the name of the written file
     #[arg(long)]
     quiet: bool,
@@ -47,10 +51,15 @@ impl Report {
         .check()?;
         let (file, origin) = self.stated.read()?;
         let service = file.service().map_err(Failure::usage)?;
+        let samples = self.samples.of(&file)?;
         let options = self.stated.options();
         let checked = with_bar(self.quiet, |progress| {
             beltdrive::check(&service, &options, progress)
         })?;
+        let spread = with_bar(self.quiet, |progress| {
+            uncertainty::of_check(&file, &checked, samples, &options, progress)
+        });
+        let spread = spread.map_err(Failure::usage)?;
         let (name, text) = origin.drive_file();
         let made = Made {
             name,
@@ -59,7 +68,7 @@ impl Report {
             filled_in: file.filled_in(),
             command_line: &origin.command_line(),
         };
-        let page = page::report(&checked, &made, self.units.into());
+        let page = page::report(&checked, &spread, &made, self.units.into());
         if let Some(path) = write_text(&to, &page)?
             && !self.quiet
         {

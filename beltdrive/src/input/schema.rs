@@ -303,7 +303,12 @@ const SYNONYMS: [(&str, &str); 10] = [
 pub(super) fn nearest(path: &str) -> Option<&'static str> {
     let (table, name) = split(path);
     let rules = || RULES.iter().filter(|rule| !rule.path.contains('*'));
-    let elsewhere = || rules().map(|rule| (split(rule.path).1, rule.meant()));
+    // What a load case may have is not found elsewhere.
+    let is_elsewhere = !path.starts_with("case.");
+    let elsewhere = || {
+        let rules = rules().filter(|_| is_elsewhere);
+        rules.map(|rule| (split(rule.path).1, rule.meant()))
+    };
     let is_called = |(synonym, _): &&(&str, &str)| synonym.eq_ignore_ascii_case(name);
     if let Some((_, meant)) = SYNONYMS.iter().find(is_called) {
         let near = names(table).into_iter().find(|name| name == meant);
@@ -432,5 +437,7 @@ mod tests {
         assert_eq!(nearest("mu"), Some("friction.coefficient"));
         assert_eq!(nearest("load.torqe"), Some("torque"));
         assert_eq!(nearest("normal_force"), Some(NORMAL_FORCE));
+        assert_eq!(nearest("case.idle.pulley.fan.diameter"), None);
+        assert_eq!(nearest("case.idle.pulley.fan.torqe"), Some("torque"));
     }
 }

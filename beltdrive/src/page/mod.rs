@@ -8,6 +8,7 @@ use crate::CheckedService;
 use crate::input::FilledIn;
 use crate::quantity::{self, UnitSystem, section};
 use crate::report::html::tables;
+use crate::uncertainty::Uncertainty;
 use case::case;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
@@ -28,10 +29,17 @@ pub struct Made<'a> {
     pub command_line: &'a str,
 }
 
-/// The load cases of a drive with their verdicts as a page in HTML, with numbers in the units of a system.
+/// The load cases of a drive with their verdicts, and how far their numbers may be from their values, as a page in HTML,
+/// with numbers in the units of a system.
 #[must_use]
-pub fn report(checked: &CheckedService, made: &Made<'_>, units: UnitSystem) -> String {
+pub fn report(
+    checked: &CheckedService,
+    spread: &Uncertainty,
+    made: &Made<'_>,
+    units: UnitSystem,
+) -> String {
     let answer = quantity::check::answer(checked);
+    let answer = quantity::uncertainty::told_in(answer, spread, &checked.service.cases);
     let answer = match made.filled_in {
         Some(filled_in) => section::told_in(answer, filled_in),
         None => answer,
