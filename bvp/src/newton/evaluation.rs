@@ -6,7 +6,7 @@ use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::all_finite;
 use crate::kernels::few::Few;
 use crate::kernels::parallel::Buffers;
-use crate::newton_matrix::derivative_states::ObservedRows;
+use crate::newton_matrix::derivative_states::ObservedJacobians;
 use crate::problem::equations::Equations;
 use crate::problem::held::Held;
 use crate::problem::problem::Segment;
@@ -18,7 +18,7 @@ pub(crate) struct StageBuffers {
     /// One state.
     y: Few,
     /// What the last Jacobians have shown.
-    pub(crate) observed: ObservedRows,
+    pub(crate) observed: ObservedJacobians,
 }
 
 impl StageBuffers {
@@ -26,7 +26,7 @@ impl StageBuffers {
         let n = segment.states;
         Self {
             y: Few::zeros(n),
-            observed: ObservedRows::new(n),
+            observed: ObservedJacobians::new(n),
         }
     }
 }

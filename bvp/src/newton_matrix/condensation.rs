@@ -20,14 +20,15 @@
 //! so only n systems with Mᵀ are solved per interval, whatever the number of parameters. Ascher,
 //! Mattheij & Russell (1995), section 5.6.
 //!
-//! Only the part of M that belongs to the free states is factored ([`OrderReduction`]). Where `C_c` times the
+//! Only the part of M that belongs to the free states is factored ([`StageReduction`]). Where `C_c` times the
 //! free state u is the derivative of order d of state c, its blocks are
 //!
 //! ```text
 //! M_vu = δ_vu I − Σ_c C_c diag(J_vc) h^(d+1) A^(d+1)      over all c whose highest derivative is u
 //! ```
 //!
-//! and det M is the determinant of this part.
+//! and det M is the determinant of this part. Quadratures, on which no right-hand side depends, are no free states
+//! either.
 //!
 //! There are many intervals with small matrices, so that loops cost more than arithmetic. The functions
 //! are therefore compiled for fixed numbers of stages, of states and for a single free state with the
@@ -41,7 +42,7 @@ use crate::kernels::lu::lu;
 use crate::kernels::parallel::{Buffers, for_each_run};
 use crate::kernels::room::make_room;
 use crate::kernels::specialise::specialise;
-use crate::newton_matrix::derivative_states::{ObservedRows, OrderReduction};
+use crate::newton_matrix::derivative_states::{ObservedJacobians, StageReduction};
 use crate::newton_matrix::stage_system::StageSystem;
 use std::convert::Infallible;
 use std::ops::Range;
@@ -67,7 +68,7 @@ pub(crate) struct Condensation {
     k: usize,
     size: usize,
     /// The free states, f of them, and the derivative states.
-    reduction: OrderReduction,
+    reduction: StageReduction,
     /// Unknowns of the stages of the free states, mf.
     free_size: usize,
     /// LU factors of M, (mf)² per interval, and their pivots, mf per interval; free states one after
@@ -88,7 +89,7 @@ impl Condensation {
             n,
             k,
             size: m * n,
-            reduction: OrderReduction::default(),
+            reduction: StageReduction::default(),
             free_size: 0,
             lu: vec![],
             pivots: vec![],
@@ -127,7 +128,7 @@ impl Condensation {
 
     /// Treats states whose rows are the same unit vector in all Jacobians as derivative states. To be
     /// called before [`condense`](Self::condense).
-    pub(crate) fn reduce_order(&mut self, observed: &ObservedRows) {
+    pub(crate) fn reduce_order(&mut self, observed: &ObservedJacobians) {
         if self.reduction.update(observed) {
             let free_size = self.reduction.free.len() * self.size / self.n;
             self.free_size = free_size;
@@ -276,7 +277,7 @@ fn condense_run(
         let adjoint = &mut adjoint[place * n * size..][..n * size];
         let transition = &mut transitions[place * n * columns..][..n * columns];
         system.fill_matrix(h, jacobians, lu);
-        system.fill_weights(h, rows);
+        system.fill_weights(h, jacobians, rows);
         lu::factor_and_solve_transposed(lu, free_size, pivots, rows, workspace).map_err(|_| i)?;
         system.expand(h, jacobians, rows, adjoint);
         transition.fill(0.0);
@@ -317,7 +318,7 @@ fn recover_run(
         system.apply(jacobians, dy, dp, r, stages);
         system.gather_free(h, jacobians, stages, free, known);
         lu::solve(lu, free_size, pivots, free);
-        system.scatter_free(h, free, stages);
+        system.scatter_free(h, jacobians, free, stages);
     }
 }
 

@@ -1,4 +1,4 @@
-//! Order reduction: states whose derivative is another state, in its units or in others.
+//! States whose slopes on an interval follow from those of others: derivative states and quadratures.
 //!
 //! An equation of order two or more is written as a first-order system with y' = z, z' = …, or y' = c z in
 //! other units, which are powers of two, so that c is one. Other factors, which may change from step to step
@@ -10,6 +10,10 @@
 //! on a derivative state of order d through C h^(d+1) A^(d+1), C the product of all d factors, as in the
 //! Runge-Kutta-Nyström form of the scheme (Hairer, Nørsett & Wanner, *Solving Ordinary Differential Equations
 //! I*, section II.14).
+//!
+//! A *quadrature* q is a state on which no right-hand side depends, its own included, such as an arc length or a lost
+//! energy: its column in the Jacobian is zero. Its slopes follow from those of the others, `K_q = known + Σ_c J_qc h A
+//! K_c`, so that it is no free state either.
 
 use crate::discretisation::tableau::POWERS;
 use crate::problem::in_units::power_of_two;
@@ -26,27 +30,34 @@ enum Row {
     Other,
 }
 
-/// Which rows of the Jacobian are the same multiple of a unit vector at all stages of a segment.
+/// Which rows of the Jacobian are the same multiple of a unit vector at all stages of a segment, and which columns are
+/// zero.
 #[derive(Clone, Debug)]
-pub(crate) struct ObservedRows {
+pub(crate) struct ObservedJacobians {
     rows: Vec<Row>,
+    /// The states whose columns have been zero so far, in order.
+    unused: Vec<usize>,
 }
 
-impl ObservedRows {
+impl ObservedJacobians {
     /// For n states.
     pub(crate) fn new(n: usize) -> Self {
         Self {
             rows: vec![Row::Unseen; n],
+            unused: (0..n).collect(),
         }
     }
 
     /// Forgets all observations.
     pub(crate) fn restart(&mut self) {
         self.rows.fill(Row::Unseen);
+        self.unused.clear();
+        self.unused.extend(0..self.rows.len());
     }
 
     /// Adds the observations of other intervals of the same segment.
     pub(crate) fn merge(&mut self, other: &Self) {
+        self.unused.retain(|state| other.unused.contains(state));
         for (seen, other) in self.rows.iter_mut().zip(&other.rows) {
             *seen = match (*seen, *other) {
                 (Row::Unseen, one) | (one, Row::Unseen) => one,
@@ -77,6 +88,20 @@ impl ObservedRows {
                 _ => Row::Other,
             };
         }
+        for row in jacobians.chunks_exact(columns) {
+            if self.unused.is_empty() {
+                break;
+            }
+            self.unused.retain(|&state| row[state] == 0.0);
+        }
+    }
+
+    /// The states that are quadratures. A derivative state needs no Jacobian as it is; and one state is always free.
+    fn quadratures(&self) -> impl Iterator<Item = usize> + '_ {
+        let is_one = |&&state: &&usize| self.rows[state] == Row::Other;
+        let found = self.unused.iter().filter(is_one).count();
+        let most = if found < self.rows.len() { found } else { 0 };
+        self.unused.iter().filter(is_one).take(most).copied()
     }
 }
 
@@ -106,20 +131,23 @@ fn is_multiple(row: &[f64], source: usize, factor: f64) -> bool {
     entries.fold(true, |all, (j, &x)| all & (x == expected(j)))
 }
 
-/// The free and the derivative states of a segment.
+/// The free states, the derivative states and the quadratures of a segment.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct OrderReduction {
+pub(crate) struct StageReduction {
     /// The observed rows that this reduction was made for.
     rows: Vec<Row>,
     /// The free states.
     pub(crate) free: Vec<usize>,
+    /// The quadratures; none of them is a derivative state or the source of one.
+    pub(crate) quadratures: Vec<usize>,
     /// Each derivative state with its source and its factor; a derivative state that is itself a source
     /// comes first.
     pub(crate) sources: Vec<(usize, usize, f64)>,
     /// For each state: the index in `free` of its highest derivative that is a state, and the order of that
-    /// derivative (0 for a free state).
+    /// derivative (0 for a free state). Of no meaning for a quadrature.
     pub(crate) highest: Vec<(usize, usize)>,
-    /// For each state: the product of the factors from it to its highest derivative (1 for a free state).
+    /// For each state: the product of the factors from it to its highest derivative (1 for a free state, 0 for a
+    /// quadrature).
     pub(crate) factors: Vec<f64>,
     /// For each free state: the range of `members` with the states whose highest derivative it is.
     pub(crate) groups: Vec<Range<usize>>,
@@ -128,21 +156,28 @@ pub(crate) struct OrderReduction {
     pub(crate) members: Vec<(usize, usize, f64)>,
 }
 
-impl OrderReduction {
+impl StageReduction {
     /// Adapts the reduction to what has been observed; returns whether it has changed.
-    pub(crate) fn update(&mut self, observed: &ObservedRows) -> bool {
-        if self.rows == observed.rows {
+    pub(crate) fn update(&mut self, observed: &ObservedJacobians) -> bool {
+        let quadratures = || observed.quadratures();
+        let is_the_same = self.rows == observed.rows;
+        if is_the_same && quadratures().eq(self.quadratures.iter().copied()) {
             return false;
         }
         let n = observed.rows.len();
         *self = Self {
             rows: observed.rows.clone(),
+            quadratures: quadratures().collect(),
             factors: vec![1.0; n],
             ..Self::default()
         };
         let mut highest = vec![None; n];
+        for &c in &self.quadratures {
+            highest[c] = Some((0, 0));
+            self.factors[c] = 0.0;
+        }
         for (c, (highest, row)) in highest.iter_mut().zip(&observed.rows).enumerate() {
-            if !matches!(row, Row::Multiple { source, .. } if *source != c) {
+            if highest.is_none() && !matches!(row, Row::Multiple { source, .. } if *source != c) {
                 *highest = Some((self.free.len(), 0));
                 self.free.push(c);
             }
@@ -170,7 +205,7 @@ impl OrderReduction {
         for place in 0..self.free.len() {
             let first = self.members.len();
             let states = self.highest.iter().enumerate();
-            let group = states.filter(|(_, (of, _))| *of == place);
+            let group = states.filter(|(c, (of, _))| *of == place && !self.quadratures.contains(c));
             self.members
                 .extend(group.map(|(c, &(_, order))| (c, order, self.factors[c])));
             self.groups.push(first..self.members.len());
@@ -191,20 +226,26 @@ mod tests {
         multiple(source, 1.0)
     }
 
-    fn reduction(rows: &[Row]) -> OrderReduction {
-        let observed = ObservedRows {
+    fn reduction(rows: &[Row]) -> StageReduction {
+        reduction_with(rows, &[])
+    }
+
+    fn reduction_with(rows: &[Row], unused: &[usize]) -> StageReduction {
+        let observed = ObservedJacobians {
             rows: rows.to_vec(),
+            unused: unused.to_vec(),
         };
-        let mut reduction = OrderReduction::default();
+        let mut reduction = StageReduction::default();
         assert!(reduction.update(&observed));
         assert!(!reduction.update(&observed));
-        assert_eq!(reduction.free.len() + reduction.sources.len(), rows.len());
+        let others = reduction.sources.len() + reduction.quadratures.len();
+        assert_eq!(reduction.free.len() + others, rows.len());
         reduction
     }
 
     #[test]
     fn equal_rows_with_one_entry_at_all_stages_are_observed() {
-        let mut observed = ObservedRows::new(3);
+        let mut observed = ObservedJacobians::new(3);
         observed.observe(
             &[0.0, 1.0, 0.0, 9.0, 0.0, 0.0, 4.0, 9.0, 1.0, 1.0, 0.0, 9.0],
             3,
@@ -229,7 +270,7 @@ mod tests {
             _ => [0.5; 4],
         };
         for (one, other) in rows.iter().flat_map(|a| rows.map(|b| (*a, b))) {
-            let [mut first, mut second, mut whole] = [(); 3].map(|()| ObservedRows::new(2));
+            let [mut first, mut second, mut whole] = [(); 3].map(|()| ObservedJacobians::new(2));
             for (observed, row) in [(&mut first, one), (&mut second, other)] {
                 if row != Row::Unseen {
                     observed.observe(&shown(row), 2, 2);
@@ -255,6 +296,23 @@ mod tests {
         assert_eq!(found.sources, [(1, 2, 3.0), (3, 1, 2.0), (0, 1, 1.0)]);
         assert_eq!(found.highest, [(0, 2), (0, 1), (0, 0), (0, 2), (1, 0)]);
         assert_eq!(found.factors, [3.0, 3.0, 1.0, 6.0, 1.0]);
+    }
+
+    #[test]
+    fn states_that_none_depends_on_are_quadratures() {
+        let mut observed = ObservedJacobians::new(3);
+        observed.observe(&[0.0, 0.0, 3.0, 0.0, 0.0, 0.5, 0.0, 0.0, 1.0], 3, 3);
+        assert_eq!(observed.unused, [0, 1]);
+        let mut other = ObservedJacobians::new(3);
+        other.observe(&[0.0, 2.0, 3.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0], 3, 3);
+        observed.merge(&other);
+        assert_eq!(observed.unused, [0]);
+        // A derivative state stays one, and of states that all are unused all are free.
+        let found = reduction_with(&[unit(1), Row::Other, Row::Other], &[0, 2]);
+        assert_eq!((found.free, found.quadratures), (vec![1], vec![2]));
+        assert_eq!(found.members, [(0, 1, 1.0), (1, 0, 1.0)]);
+        let found = reduction_with(&[Row::Other, Row::Other], &[0, 1]);
+        assert_eq!((found.free, found.quadratures), (vec![0, 1], vec![]));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The stages of one interval: the system of the free states, and the derivative states from them.
+//! The stages of one interval: the system of the free states, and the derivative states and quadratures from them.
 //!
 //! Notation of [`condensation`](crate::condensation).
 
@@ -6,7 +6,7 @@ use crate::discretisation::scheme::MAX_STAGES;
 use crate::discretisation::tableau::{POWERS, Tableau};
 use crate::kernels::dense::add_scaled;
 use crate::kernels::specialise::specialise;
-use crate::newton_matrix::derivative_states::OrderReduction;
+use crate::newton_matrix::derivative_states::StageReduction;
 
 /// Unit vectors.
 const IDENTITY: [[f64; MAX_STAGES]; MAX_STAGES] = {
@@ -24,7 +24,7 @@ const IDENTITY: [[f64; MAX_STAGES]; MAX_STAGES] = {
 #[derive(Clone, Copy)]
 pub(crate) struct StageSystem<'a> {
     t: &'a Tableau,
-    reduction: &'a OrderReduction,
+    reduction: &'a StageReduction,
     /// Stages m, states n, parameters k, free states f.
     pub(crate) m: usize,
     pub(crate) n: usize,
@@ -57,7 +57,7 @@ impl<'a> StageSystem<'a> {
     #[inline(always)]
     pub(crate) fn new(
         t: &'a Tableau,
-        reduction: &'a OrderReduction,
+        reduction: &'a StageReduction,
         [m, n, k, f]: [usize; 4],
     ) -> Self {
         Self {
@@ -104,26 +104,27 @@ impl<'a> StageSystem<'a> {
     }
 
     /// The states whose highest derivative is a given free state, with its order and their factors. These are
-    /// all states if there is only one free state.
+    /// all states if there is only one free state and no quadrature.
     #[inline(always)]
     fn members_of(&self, place: usize) -> &[(usize, usize, f64)] {
-        if self.f == 1 {
+        if self.f == 1 && self.reduction.quadratures.is_empty() {
             &self.reduction.members[..self.n]
         } else {
             &self.reduction.members[self.reduction.groups[place].clone()]
         }
     }
 
-    /// h (bᵀ ⊗ I) for the free states, n rows. A derivative state contributes through its highest derivative.
+    /// h (bᵀ ⊗ I) for the free states, n rows. A derivative state contributes through its highest derivative; in the row of
+    /// a quadrature, whose part of the solution is h b, stands h b times what it takes from the free states.
     #[inline(always)]
-    pub(crate) fn fill_weights(self, h: f64, rows: &mut [f64]) {
+    pub(crate) fn fill_weights(self, h: f64, jacobians: &[f64], rows: &mut [f64]) {
         let Self {
             t,
             reduction,
             m,
             n,
+            k,
             f,
-            ..
         } = self;
         let powers = powers_of(h);
         rows.fill(0.0);
@@ -133,6 +134,19 @@ impl<'a> StageSystem<'a> {
             let weights = &t.weights[order * m..][..m];
             add_scaled(of_free, factor * powers[order], weights);
         }
+        for &q in &reduction.quadratures {
+            let row = &mut rows[q * f * m..][..f * m];
+            for (place, of_free) in row.chunks_exact_mut(m).enumerate() {
+                for &(c, order, factor) in self.members_of(place) {
+                    let scale = h * factor * powers[order];
+                    let a = t.powers[order * m * m..][..m * m].chunks_exact(m);
+                    let slopes = jacobians[..m * n * (n + k)].chunks_exact(n * (n + k));
+                    for ((b, a), slopes) in t.b[..m].iter().zip(a).zip(slopes) {
+                        add_scaled(of_free, b * slopes[q * (n + k) + c] * scale, a);
+                    }
+                }
+            }
+        }
     }
 
     /// Xᵀ from its columns of the free states: for a derivative state c and all states d with source c
@@ -140,6 +154,8 @@ impl<'a> StageSystem<'a> {
     /// ```text
     /// x_c = h b + h Aᵀ ( Σ_v diag(J_vc) x_v + Σ_d J_dc x_d )      h b only in the row of c
     /// ```
+    ///
+    /// with the quadratures among the v, for which x = h b in their own row and 0 in others.
     #[inline(always)]
     pub(crate) fn expand(self, h: f64, jacobians: &[f64], rows: &[f64], adjoint: &mut [f64]) {
         let Self {
@@ -159,9 +175,21 @@ impl<'a> StageSystem<'a> {
                     adjoint[v] = *x;
                 }
             }
+            for &q in &reduction.quadratures {
+                let own = if q == row { h } else { 0.0 };
+                for (adjoint, b) in adjoint.chunks_exact_mut(n).zip(&t.b[..m]) {
+                    adjoint[q] = own * b;
+                }
+            }
             for &(c, _, _) in reduction.sources.iter().rev() {
                 let mut sums = [0.0; MAX_STAGES];
                 let sums = &mut sums[..m];
+                for &q in &reduction.quadratures {
+                    let adjoint = adjoint.chunks_exact(n);
+                    for ((sum, adjoint), slopes) in sums.iter_mut().zip(adjoint).zip(slopes()) {
+                        *sum += slopes[q * (n + k) + c] * adjoint[q];
+                    }
+                }
                 for (x, &v) in x_free.chunks_exact(m).zip(&reduction.free) {
                     for ((sum, x), slopes) in sums.iter_mut().zip(x).zip(slopes()) {
                         *sum += slopes[v * (n + k) + c] * x;
@@ -270,16 +298,17 @@ impl<'a> StageSystem<'a> {
         }
     }
 
-    /// The slopes of all states from those of the free ones and T of the others.
+    /// The slopes of all states from those of the free ones, T of the derivative states and ρ of the quadratures, for which
+    /// `K_q = ρ_q + Σ_c J_qc h A K_c`.
     #[inline(always)]
-    pub(crate) fn scatter_free(self, h: f64, free: &[f64], stages: &mut [f64]) {
+    pub(crate) fn scatter_free(self, h: f64, jacobians: &[f64], free: &[f64], stages: &mut [f64]) {
         let Self {
             t,
             reduction,
             m,
             n,
+            k,
             f,
-            ..
         } = self;
         let (powers, stages) = (powers_of(h), &mut stages[..m * n]);
         for (free, &v) in free.chunks_exact(m).zip(&reduction.free[..f]) {
@@ -294,6 +323,25 @@ impl<'a> StageSystem<'a> {
             let factor = reduction.factors[c] * powers[order - 1];
             for (stage, product) in stages.chunks_exact_mut(n).zip(products) {
                 stage[c] += factor * product;
+            }
+        }
+        if reduction.quadratures.is_empty() {
+            return;
+        }
+        let is_known = |c: &usize| !reduction.quadratures.contains(c);
+        for c in (0..n).filter(is_known) {
+            let mut slopes = [0.0; MAX_STAGES];
+            for (slope, stage) in slopes.iter_mut().zip(stages.chunks_exact(n)) {
+                *slope = stage[c];
+            }
+            let products = product(&t.columns, m, &slopes);
+            let jacobians = jacobians[..m * n * (n + k)].chunks_exact(n * (n + k));
+            for ((stage, product), jacobian) in
+                stages.chunks_exact_mut(n).zip(products).zip(jacobians)
+            {
+                for &q in &reduction.quadratures {
+                    stage[q] += jacobian[q * (n + k) + c] * h * product;
+                }
             }
         }
     }

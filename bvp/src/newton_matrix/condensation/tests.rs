@@ -19,7 +19,7 @@ fn the_sign_of_all_stage_determinants_is_known_in_small_and_large_systems() {
             stages.resize(intervals);
             let mut sign = 1.0;
             let mut mesh = vec![0.0];
-            let mut observed = ObservedRows::new(n);
+            let mut observed = ObservedJacobians::new(n);
             let all = stages.jacobians_mut().chunks_exact_mut(m * n * n);
             for (i, jacobians) in all.enumerate() {
                 // Intervals far too long for these equations.
@@ -46,4 +46,67 @@ fn the_sign_of_all_stage_determinants_is_known_in_small_and_large_systems() {
         }
     }
     assert_eq!(seen, [true, true]);
+}
+
+/// Corrections and transition blocks of two intervals with two parameters, with or without the structure of the
+/// Jacobians.
+fn condensed(
+    n: usize,
+    m: usize,
+    is_structured: bool,
+    entry: impl Fn(usize, usize) -> Option<f64>,
+) -> Vec<f64> {
+    let (k, mesh) = (2, [0.0, 0.3, 1.0]);
+    let t = Tableau::new(Scheme::Gauss { stages: m });
+    let mut condensation = Condensation::new(n, k, m);
+    condensation.resize(2);
+    let mut observed = ObservedJacobians::new(n);
+    let columns = n + k;
+    for (i, slope) in condensation.jacobians_mut().iter_mut().enumerate() {
+        let (row, column) = (i / columns % n, i % columns);
+        *slope = entry(row, column).unwrap_or_else(|| noise(i));
+    }
+    observed.observe(condensation.jacobians(), n, columns);
+    if !is_structured {
+        observed.observe(&vec![0.7; n * columns], n, columns);
+    }
+    condensation.reduce_order(&observed);
+    let mut transitions = vec![0.0; 2 * n * columns];
+    condensation.condense(&t, &mesh, &mut transitions).unwrap();
+    let numbers = |count: usize, from: usize| (from..from + count).map(noise).collect::<Vec<_>>();
+    let residual = SegmentIterate {
+        nodes: numbers(3 * n, 100),
+        stages: numbers(2 * m * n, 200),
+    };
+    let mut nodes = vec![0.0; 3 * n];
+    condensation.reduce(&residual, &mut nodes);
+    let mut correction = SegmentIterate {
+        nodes: numbers(3 * n, 300),
+        stages: vec![0.0; 2 * m * n],
+    };
+    condensation.recover(&t, &mesh, &residual, &mut correction, &[0.4, -1.3]);
+    [transitions, nodes, correction.stages].concat()
+}
+
+#[test]
+fn quadratures_and_derivative_states_change_no_result() {
+    for (n, m) in [(2, 4), (3, 5), (4, 1), (5, 6), (7, 5), (8, 7), (9, 4)] {
+        // Of the states, in order: a quadrature, a derivative state, and one from n = 5 on that is a quadrature again
+        // and depends on the derivative state.
+        let entry = |row: usize, column: usize| match (row, column) {
+            (_, 0) => Some(0.0),
+            (_, 4) if n > 4 => Some(0.0),
+            (1, 2) if n > 2 => Some(2.0),
+            (1, column) if n > 2 && column < n => Some(0.0),
+            _ => None,
+        };
+        let plain = condensed(n, m, false, entry);
+        let found = condensed(n, m, true, entry);
+        for (one, other) in plain.iter().zip(&found) {
+            assert!(
+                (one - other).abs() < 1e-11 * (1.0 + one.abs()),
+                "n = {n}, m = {m}: {one} {other}"
+            );
+        }
+    }
 }
