@@ -1,7 +1,7 @@
 //! From a solution to the steady state in SI units, with its checks.
 
 use super::carried::Carried;
-use super::laws::{ALLOWED, power_gained, wrong_friction};
+use super::laws::{ALLOWED, GAINED, power_gained, wrong_friction};
 use super::on_pulley::{Integrals, OnPulley, extend};
 use super::path::{Effort, Path, Solved};
 use super::{BeltProblem, DRIVEN, DRIVER, EndAngles, Regime};
@@ -166,6 +166,7 @@ fn checks(path: &Path<'_>, solved: &Solved, integrals: [Integrals; 2]) -> Vec<Ch
     ];
     if problem.has_direction() {
         let gained = power_gained(solved);
+        let limit = GAINED * path.tolerance;
         checks.push(check("friction against the slip", gained, limit));
     }
     if problem.has_zones() {

@@ -11,7 +11,7 @@
 
 use super::super::BeltProblem;
 use super::super::EndAngles;
-use super::super::laws::{ALLOWED, power_gained, wrong_friction};
+use super::super::laws::{ALLOWED, GAINED, power_gained, wrong_friction};
 use super::super::on_pulley::{Integrals, OnPulley};
 use super::super::path::Solved;
 use super::contacts::Touching;
@@ -101,7 +101,7 @@ impl Checked<'_> {
             checks.push(check(
                 "friction against the slip",
                 power_gained(solved),
-                limit,
+                GAINED * self.tolerance,
             ));
         }
         if solved.problem.has_zones() {

@@ -29,7 +29,7 @@ use std::f64::consts::LN_10;
 
 pub(super) use astray::Astray;
 use finish::RESOLVED;
-pub(super) use obeyed::{ALLOWED, power_gained, wrong_friction};
+pub(super) use obeyed::{ALLOWED, GAINED, power_gained, wrong_friction};
 
 /// Bristle stiffness of the start, κ R/μ: friction is fully developed after a thousandth of a
 /// radius of sliding, so that its layers are no finer than those of seating.

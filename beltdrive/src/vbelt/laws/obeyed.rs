@@ -9,6 +9,12 @@ use crate::vbelt::{BeltProblem, Law, Regime, limit_excess};
 /// accurate as its defect.
 pub(in crate::vbelt) const ALLOWED: f64 = 10.0;
 
+/// What is allowed of the share of [`power_gained`], in multiples of the tolerance. Near a load at which a zone
+/// appears, a state without that zone may pass for one with a little of its friction the wrong way round, and its error is
+/// larger than that share: 1.2e-5 of the driven speed at a share of 6.8e-7, 3.5e-5 at 3.4e-6. States with all of their
+/// zones have shares below 1e-14.
+pub(in crate::vbelt) const GAINED: f64 = 0.1;
+
 /// The contacts in grooves, with their pulleys.
 fn grooves<P: BeltProblem>(solved: &Solved<P>) -> impl Iterator<Item = (usize, OnPulley<'_>)> {
     let pulleys = 0..solved.problem.pulleys();
@@ -48,13 +54,13 @@ impl Gains {
     pub(super) fn obey_friction<P: BeltProblem>(&self, solved: &Solved<P>, tolerance: f64) -> bool {
         let limit = ALLOWED * tolerance;
         let is_right = !solved.problem.has_zones() || wrong_friction(solved) <= limit;
-        is_right && self.share() <= limit
+        is_right && self.share() <= GAINED * tolerance
     }
 
     /// The pulley of the same solution on which friction obeys its law least: where the belt gains the largest share of
     /// the power of friction, or if it gains none where friction is not of the kind that it is taken for.
     pub(super) fn astray<P: BeltProblem>(&self, solved: &Solved<P>, tolerance: f64) -> Astray {
-        let gains = self.share() > ALLOWED * tolerance;
+        let gains = self.share() > GAINED * tolerance;
         let wrong = grooves(solved).zip(&self.0).map(|((pulley, on), sum)| {
             let wrong = match gains {
                 true => sum.gained / (sum.friction + sum.gained),
