@@ -8,11 +8,11 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// A fresh directory of this test run with an example.
-fn directory(example: &str) -> PathBuf {
+/// A fresh directory with an example, of a name that no other use of it has: tests run at once.
+fn directory(name: &str, example: &str) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("parquet")
-        .join(example);
+        .join(name);
     let _ = fs::remove_dir_all(&path);
     fs::create_dir_all(&path).unwrap();
     let text = beltdrive::examples::find(example).unwrap().text;
@@ -75,7 +75,7 @@ fn compared(directory: &Path) -> [usize; 2] {
 
 #[test]
 fn a_map_is_as_in_csv_with_nulls_where_there_is_no_state() {
-    let directory = directory("kim2009-flat");
+    let directory = directory("map", "kim2009-flat");
     let speed = "pulleys.driver.speed=30 rad/s:150 rad/s:7";
     let load = "load.tight_tension=260 N:9 kN:5";
     let files = ["--csv", "rows.csv", "--parquet", "rows.parquet"];
@@ -117,7 +117,7 @@ fn every_command_with_csv_writes_the_same_rows() {
         ("serpentine-cases", &["check"]),
         ("serpentine", &["solve"]),
     ] {
-        let directory = directory(example);
+        let directory = directory(&format!("{}-{example}", command[0]), example);
         let files = [
             "drive.toml",
             "--csv",
@@ -135,7 +135,7 @@ fn every_command_with_csv_writes_the_same_rows() {
 
 #[test]
 fn bytes_go_to_standard_output_in_place_of_the_table() {
-    let directory = directory("kim2009-flat");
+    let directory = directory("standard-output", "kim2009-flat");
     let output = run(&directory, &["limits", "drive.toml", "--parquet", "-"]);
     assert!(output.status.success());
     assert!(output.stdout.starts_with(b"PAR1") && output.stdout.ends_with(b"PAR1"));
