@@ -135,6 +135,7 @@ pub use answers::tension::{
 };
 pub use answers::uncertainty;
 pub use answers::verify::{self, Verification, verify};
+pub use answers::{Solved, solve_any};
 pub use belt::{Belt, BeltKind, NormalForce, VBelt};
 pub use drive::layout::{Layout, LayoutError, PlacedPulley, Sense, Side, Span};
 pub use drive::{

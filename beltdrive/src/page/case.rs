@@ -3,7 +3,7 @@
 use crate::belt_loop::LoopState;
 use crate::plot::state_figures;
 use crate::quantity::{Answer, UnitSystem};
-use crate::report::html::tables;
+use crate::report::tables;
 use crate::{CheckedCase, LoadCase};
 use maud::{Markup, PreEscaped, html};
 

@@ -7,7 +7,7 @@ mod case;
 use crate::CheckedService;
 use crate::input::FilledIn;
 use crate::quantity::{self, UnitSystem, section};
-use crate::report::html::tables;
+use crate::report::tables;
 use crate::uncertainty::Uncertainty;
 use case::case;
 use maud::{DOCTYPE, Markup, PreEscaped, html};

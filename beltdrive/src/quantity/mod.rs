@@ -22,6 +22,7 @@ pub(crate) mod precision;
 mod scalars;
 mod scale;
 pub mod section;
+pub mod solved;
 pub mod stability;
 pub mod sweep;
 pub mod tension;

@@ -7,6 +7,23 @@ use maud::{Markup, html};
 /// Columns beside each other that fit a page of paper with labels and units.
 const COLUMNS: usize = 4;
 
+/// An answer as a piece of a page in HTML, in the units of a system: its first line as a heading, remarks, tables and
+/// notes, without a style.
+#[must_use]
+pub fn html(answer: &Answer, units: UnitSystem) -> String {
+    let mut heading = answer.heading.iter();
+    let piece = html! {
+        div.beltdrive {
+            @if let Some(title) = heading.next() { p { strong { (title) } } }
+            @for line in heading.filter(|line| !line.is_empty()) { p { (line) } }
+            @for remark in &answer.remarks { p.warning { "WARNING: " (remark) } }
+            (tables(answer, units))
+            @for note in &answer.notes { p { (note) } }
+        }
+    };
+    piece.into_string()
+}
+
 /// The groups of an answer as tables, in the units of a system: what a table for a terminal shows, without heading,
 /// remarks and notes.
 pub(crate) fn tables(answer: &Answer, units: UnitSystem) -> Markup {

@@ -1,0 +1,24 @@
+//! The native half of the Python package `beltdrive`: `beltdrive/*.py` is what its users see.
+
+mod answer;
+mod failure;
+mod numbers;
+mod questions;
+mod stated;
+
+use pyo3::prelude::*;
+
+#[pymodule]
+mod _native {
+    #[pymodule_export]
+    use super::answer::Answer;
+    #[pymodule_export]
+    use super::failure::{InputError, UnsolvedError};
+    #[pymodule_export]
+    use super::numbers::Numbers;
+    #[pymodule_export]
+    use super::questions::{
+        calibrate, check, design, example, examples, limits, map, report, sections, solve,
+        stability, tension, trace, verify,
+    };
+}
