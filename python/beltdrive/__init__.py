@@ -15,7 +15,7 @@ and returns an :class:`Answer`. Keys of answers end in their units: ``torque_N_m
 An :class:`InputError` says what is at fault, an :class:`UnsolvedError` why there is no steady state.
 """
 
-from ._native import InputError, UnsolvedError, example, examples
+from ._native import InputError, Table, UnsolvedError, example, examples
 from ._answer import Answer, Record
 from ._stated import Drive
 from ._questions import (
@@ -27,6 +27,7 @@ from ._questions import (
     report,
     sections,
     solve,
+    solve_table,
     stability,
     tension,
     trace,
@@ -38,6 +39,7 @@ __all__ = [
     "Drive",
     "InputError",
     "Record",
+    "Table",
     "UnsolvedError",
     "calibrate",
     "check",
@@ -49,6 +51,7 @@ __all__ = [
     "report",
     "sections",
     "solve",
+    "solve_table",
     "stability",
     "tension",
     "trace",

@@ -27,6 +27,25 @@ class Answer:
     def json(self) -> str: ...
     def csv(self) -> str: ...
 
+class Table:
+    """A table in Arrow, for any library that takes an object with `__arrow_c_stream__`: `pyarrow.table(table)`,
+    `polars.DataFrame(table)`, `pandas.DataFrame.from_arrow(table)`."""
+
+    @property
+    def num_rows(self) -> int:
+        """The number of rows."""
+    @property
+    def column_names(self) -> list[str]:
+        """The names of the columns."""
+    @property
+    def answered(self) -> int:
+        """The number of rows with an answer."""
+    @property
+    def refusals(self) -> dict[str, int]:
+        """How many rows have no answer, by reason."""
+    def __len__(self) -> int: ...
+    def __arrow_c_stream__(self, requested_schema: object = None) -> object: ...
+
 _Axis = Optional[tuple[str, str, str, int]]
 
 def solve(stated: Stated) -> Answer: ...
@@ -48,3 +67,4 @@ def examples() -> list[str]:
 
 def example(name: str) -> str:
     """The text of a drive file that comes with the package."""
+def solve_table(stated: Stated, table: object, question: str, keep: list[str]) -> Table: ...

@@ -7,11 +7,11 @@ import io
 import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, Optional, Union
+from typing import Any, Literal, Optional, Union
 
 from . import _native
 from ._answer import Answer, Units
-from ._native import InputError
+from ._native import InputError, Table
 from ._stated import Drive, Quantity, quantity, stated
 
 #: A number of the drive file by its dotted path, both ends of its range with their units, how many values it takes.
@@ -31,6 +31,31 @@ def solve(drive: Drive, *, tolerance: float = 1e-6, **overrides: Any) -> Answer:
     102.6994
     """
     return Answer(_native.solve(stated(drive, tolerance, overrides)))
+
+
+def solve_table(
+    drive: Drive,
+    table: Any,
+    *,
+    question: Literal["solve", "check", "limits"] = "solve",
+    keep: Iterable[str] = (),
+    tolerance: float = 1e-6,
+    **overrides: Any,
+) -> Table:
+    """The answers for many drives, which differ from one in some of its numbers.
+
+    ``table`` is any object with the PyCapsule interface of Arrow: a table of pyarrow, a data frame of polars or of
+    pandas. A column is a number of the drive file by its dotted path, with its unit in brackets where it is not SI,
+    ``"load.torque [N*m]"``; or by its name in the answers, ``"load_torque_N_m"``; or ``"load_factor"``. Columns named in
+    ``keep`` are carried over, whatever they hold.
+
+    The rows of the answer are those of the table, in their order and on all processors: ``row`` from 0, the numbers
+    that vary, the numbers of the answer under their keys with units, and ``status``: ``"answered"``, ``"no answer"`` or
+    ``"at fault"``, the last two with a ``reason`` and a ``description``. The metadata of its schema hold the drive file
+    and the version of the program. ``RAYON_NUM_THREADS`` bounds the processors.
+    """
+    keep = [keep] if isinstance(keep, str) else list(keep)
+    return _native.solve_table(stated(drive, tolerance, overrides), table, question, keep)
 
 
 def check(drive: Drive, *, samples: Optional[int] = None, tolerance: float = 1e-6, **overrides: Any) -> Answer:

@@ -5,6 +5,7 @@ mod failure;
 mod numbers;
 mod questions;
 mod stated;
+mod table;
 
 use pyo3::prelude::*;
 
@@ -21,4 +22,6 @@ mod _native {
         calibrate, check, design, example, examples, limits, map, report, sections, solve,
         stability, tension, trace, verify,
     };
+    #[pymodule_export]
+    use super::table::{Table, solve_table};
 }

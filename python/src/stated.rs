@@ -6,6 +6,7 @@ use beltdrive::SolveOptions;
 use beltdrive::input::DriveFile;
 use beltdrive::quantity::{self, section};
 use pyo3::prelude::*;
+use std::collections::HashMap;
 
 /// A drive file: its name, its text, its overrides as `KEY=VALUE`, and the relative tolerance of its states.
 #[derive(FromPyObject)]
@@ -21,6 +22,26 @@ impl Stated {
     pub(crate) fn file(&self) -> Result<DriveFile, Failure> {
         let Self(name, text, overrides, _) = self;
         Ok(DriveFile::read(name, text, overrides)?)
+    }
+
+    /// Where a table of answers comes from.
+    pub(crate) fn metadata(&self, question: &str) -> HashMap<String, String> {
+        let Self(name, text, overrides, tolerance) = self;
+        let tolerance = tolerance.to_string();
+        let set = overrides.join("\n");
+        let entries = [
+            ("program", "beltdrive"),
+            ("version", env!("CARGO_PKG_VERSION")),
+            ("answer", question),
+            ("tolerance", &tolerance),
+            ("drive_file.name", name),
+            ("drive_file.text", text),
+            ("set", &set),
+        ];
+        let entries = entries.into_iter();
+        entries
+            .map(|(key, value)| (key.to_owned(), value.to_owned()))
+            .collect()
     }
 
     /// How steady states are sought.

@@ -16,6 +16,14 @@ pub enum Varied {
     LoadFactor,
 }
 
+impl Varied {
+    /// What a column of a table varies: a number of the drive file, or the load factor without one.
+    #[must_use]
+    pub fn of(key: Option<&FileKey>) -> Self {
+        key.map_or(Self::LoadFactor, |key| Self::Key(key.clone()))
+    }
+}
+
 /// Why there is no state with a value.
 #[derive(Clone, Debug)]
 pub enum Refusal {

@@ -15,7 +15,7 @@ use super::members::{Refusal, Varied};
 use super::shares::each;
 use crate::belt_loop::LoopState;
 use crate::input::{Diagnostic, DriveFile};
-use crate::{Drive, Limits, Service, SolveOptions, StateSummary};
+use crate::{BeltKind, Drive, Limits, Service, SolveOptions, StateSummary};
 
 pub use grid::Grid;
 pub use latin_hypercube::LatinHypercube;
@@ -151,6 +151,16 @@ impl Sweep {
             told.collect::<Vec<_>>()
         });
         answers.into_iter().flatten().collect()
+    }
+
+    /// How many rows are best answered in one call, where their answers are written as they come: those of flat belts take
+    /// some tenths of a second, those of V-belts some seconds.
+    #[must_use]
+    pub fn usual_chunk(&self) -> usize {
+        match self.drive.belt.kind {
+            BeltKind::Flat { .. } => 10_000,
+            BeltKind::V(_) => 1000,
+        }
     }
 
     /// The drive as the file states it.

@@ -70,9 +70,7 @@ impl SweepTable {
     /// The numbers of its columns.
     #[must_use]
     pub fn varied(&self) -> Vec<Varied> {
-        let keys = self.head.keys();
-        keys.map(|key| key.map_or(Varied::LoadFactor, |key| Varied::Key(key.clone())))
-            .collect()
+        self.head.keys().map(Varied::of).collect()
     }
 
     /// The number of rows.

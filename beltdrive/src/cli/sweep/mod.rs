@@ -16,7 +16,7 @@ use super::stated::Stated;
 use beltdrive::input::DriveFile;
 use beltdrive::quantity::sweep::{Columns, answer};
 use beltdrive::report::{self, Head, RowFormat, RowWriter};
-use beltdrive::{BeltKind, Sweep, SweepQuestion, SweepSummary};
+use beltdrive::{Sweep, SweepQuestion, SweepSummary};
 use clap::{Args, ValueEnum};
 use outputs::{Output, Outputs, Wanted, cannot_write};
 use parts::{PartFormat, Parts, Shard};
@@ -35,9 +35,6 @@ Examples:
 All combinations are answered, those of the last --over one after another; or the rows of a sample or of a
 table. A row without an answer keeps its place, with status and reason. --out writes a file for each chunk of
 rows; the same command goes on where it was interrupted.";
-
-/// Rows of a chunk of flat belts, which take some tenths of a second, and of V-belts, which take some seconds.
-const CHUNKS: [usize; 2] = [10_000, 1000];
 
 /// The most rows of a chunk: all of them are in memory together.
 const LARGEST_CHUNK: u64 = 1_000_000;
@@ -199,12 +196,8 @@ impl Command {
 
     /// Rows of a chunk.
     fn chunk_size(&self, sweep: &Sweep) -> usize {
-        let usual = match sweep.drive().belt.kind {
-            BeltKind::Flat { .. } => CHUNKS[0],
-            BeltKind::V(_) => CHUNKS[1],
-        };
         let given = self.chunk.and_then(|size| usize::try_from(size).ok());
-        given.unwrap_or(usual)
+        given.unwrap_or(sweep.usual_chunk())
     }
 
     /// What tells this sweep from others.
