@@ -15,6 +15,8 @@
 //! Drives with any number of pulleys, a tensioner or another closure are answered by [`belt_loop`], which
 //! answers for those with two pulleys as well, with what it has more to tell: rest, hub loads, margins.
 //!
+//! [`simulate`](simulate()) follows a drive with a flat belt in time ([`transient`]).
+//!
 //! [`mod@verify`] computes published results again.
 //!
 //! # Conventions
@@ -114,6 +116,7 @@ pub mod quantity;
 pub mod report;
 mod results;
 pub mod sections;
+pub mod transient;
 mod vbelt;
 
 pub use answers::calibrate::{self, Calibration, calibrate};
@@ -126,6 +129,7 @@ pub use answers::design::{
 pub use answers::drive::{limit_curve, limits, solve, solve_from, stability, trace};
 pub use answers::losses::Losses;
 pub use answers::map::{MapAxis, MapState, OperatingMap, map};
+pub use answers::simulate::simulate;
 pub use answers::sweep::{
     Grid, LatinHypercube, Sweep, SweepError, SweepQuestion, SweepRow, SweepSummary, SweepTable,
     Swept, TableError, TableRows,

@@ -12,6 +12,7 @@ pub(crate) mod losses;
 pub(crate) mod map;
 mod members;
 mod shares;
+pub(crate) mod simulate;
 mod solved;
 pub(crate) mod sweep;
 pub(crate) mod tension;

@@ -209,6 +209,11 @@ impl Layout {
         Ok(())
     }
 
+    /// Sense in which the belt runs.
+    pub fn sense(&self) -> Sense {
+        self.sense
+    }
+
     /// The pulleys in belt order.
     pub fn pulleys(&self) -> &[PlacedPulley] {
         &self.pulleys

@@ -1,0 +1,78 @@
+//! A drive in time.
+
+use super::belt_loop::closed_once;
+use super::solve_to;
+use crate::model::model;
+use crate::transient::{History, Simulation, Start, TransientError, initial, run};
+use crate::{BeltKind, Closure, Drive, NormalForce, SolveOptions};
+
+/// Follows a drive with a flat belt in time.
+///
+/// `progress` is told the time in s and the share of the run that is done, at every sample; where it answers no, the
+/// run ends and keeps what it has.
+///
+/// ```
+/// use beltdrive::transient::{Axle, Cells, Load, Motion, Schedule, Simulation, Start, Until};
+/// use beltdrive::{examples, input, simulate};
+///
+/// let example = examples::find("kim2009-flat").expect("a shipped example");
+/// let drive = input::parse(example.name, example.text, &[])?;
+/// let speed = Schedule::ramp([0.0, 0.1], [0.0, 120.0]);
+/// let simulation = Simulation {
+///     axles: vec![
+///         Axle { inertia: 0.01, motion: Motion::Speed(speed) },
+///         Axle {
+///             inertia: 0.005,
+///             motion: Motion::Torques { motor: None, load: Load::new(Schedule::constant(5.0)) },
+///         },
+///     ],
+///     drive,
+///     axial_damping: 0.1,
+///     start: Start::Rest,
+///     cells: Cells::Total(60),
+///     until: Until::Time(0.12),
+///     interval: 0.01,
+///     instants: vec![],
+///     step: None,
+/// };
+/// let history = simulate(&simulation, &mut |_, _| true)?;
+/// let last = history.samples.last().expect("a sample at the end");
+/// assert!((last.pulleys[1].angular_speed - 120.0).abs() < 5.0);
+/// assert!(last.ledger.residual().abs() < 1e-5 * last.ledger.work);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Those of [`TransientError`], the statement first.
+pub fn simulate(
+    simulation: &Simulation,
+    progress: &mut dyn FnMut(f64, f64) -> bool,
+) -> Result<History, TransientError> {
+    initial::check(simulation)?;
+    // Finite strains and the momentum of the belt, as in time.
+    let stated = Drive {
+        belt: crate::Belt {
+            kind: BeltKind::Flat {
+                normal_force: NormalForce::Exact,
+            },
+            ..simulation.drive.belt
+        },
+        ..simulation.drive.clone()
+    };
+    let options = SolveOptions::default();
+    let drive = closed_once(&stated, &options)?;
+    let layout = drive.layout(0.0).map_err(crate::SolveError::from)?;
+    let system = initial::system(simulation, &drive, &layout)?;
+    let state = match (simulation.start, drive.closure) {
+        (Start::Running, _) => initial::running(&system, &solve_to(&drive, &options)?)?,
+        (Start::Rest, Closure::SetupTension(_) | Closure::UnstretchedLength(_)) => {
+            let rest = model(drive.belt.kind).at_rest(&drive, &options)?;
+            initial::at_rest(&system, rest.tension)
+        }
+        (Start::Rest, _) => {
+            let running = solve_to(&drive, &options)?;
+            initial::at_rest(&system, running.rest_tension)
+        }
+    };
+    run::run(simulation, (&system, &layout), state, progress)
+}

@@ -1,0 +1,225 @@
+//! What is told of a run over time.
+
+use super::events::TransientEvent;
+use super::ledger::Ledger;
+use super::rates::Rates;
+use super::slip::slipping;
+use crate::drive::layout::Layout;
+use nalgebra::Vector2;
+
+/// The history of a drive.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct History {
+    /// Names of the pulleys, in belt order.
+    pub pulleys: Vec<String>,
+    /// The drive at instants at equal intervals, the first at time 0.
+    pub samples: Vec<Sample>,
+    /// What happened, in the order of time.
+    pub events: Vec<TransientEvent>,
+    /// The belt along the loop at the instants asked for.
+    pub belts: Vec<BeltAlongLoop>,
+    /// How the run ended.
+    pub ending: Ending,
+    /// How it was computed.
+    pub effort: Effort,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ending {
+    /// At the time asked for.
+    Time,
+    /// In a steady state, as asked for.
+    Steady,
+    /// At the latest time, without the steady state that was asked for.
+    NotSteady,
+    /// Whoever watched the run ended it.
+    Interrupted,
+}
+
+/// How a run was computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
+pub struct Effort {
+    /// Cells of the mesh.
+    pub cells: usize,
+    /// Time steps.
+    pub steps: usize,
+    /// The shortest and the longest time step, s; those that end at a sample are no shorter than half the largest
+    /// stable one.
+    pub step: [f64; 2],
+    /// Time that it took, s.
+    pub seconds: f64,
+}
+
+/// A drive at an instant.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Sample {
+    /// Time, s.
+    pub time: f64,
+    /// The pulleys, in belt order.
+    pub pulleys: Vec<PulleySample>,
+    /// Tension EA (λ − 1) in the middle of each span, N; span i leaves pulley i. Axial damping adds `c_d` λ̇.
+    pub tensions: Vec<f64>,
+    /// Smallest tension EA (λ − 1) of the belt since the sample before, N.
+    pub smallest_tension: f64,
+    /// Where the energy went.
+    pub ledger: Ledger,
+}
+
+/// A pulley at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct PulleySample {
+    /// Angular speed ω, rad/s; positive along the motion of the belt.
+    pub angular_speed: f64,
+    /// Torque of the belt on the pulley, N·m; positive where it takes power out of the belt that runs forward.
+    pub torque: f64,
+    /// Torque of the axle on the pulley along the motion of the belt, N·m: of the motor less that of the load. With
+    /// a prescribed speed what keeps it.
+    pub axle_torque: f64,
+    /// Power that the belt gives to the pulley, W.
+    pub power: f64,
+    /// Arc on which the belt slips, rad.
+    pub slip_arc: f64,
+    /// Force of the belt on the hub, N.
+    pub hub_load: [f64; 2],
+}
+
+/// The belt along the loop at an instant; lists from where it meets the first pulley.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct BeltAlongLoop {
+    /// Time, s.
+    pub time: f64,
+    /// Coordinate σ of the loop, m.
+    pub position: Vec<f64>,
+    /// Tension EA (λ − 1), N.
+    pub tension: Vec<f64>,
+    /// Belt speed, m/s.
+    pub speed: Vec<f64>,
+    /// Friction per length on the belt against its motion, N/m; 0 on the spans.
+    pub friction: Vec<f64>,
+}
+
+/// What takes samples.
+pub(crate) struct Observer {
+    /// Unit vectors along the belt and towards the axis in the cells of each arc.
+    frames: Vec<Vec<[Vector2<f64>; 2]>>,
+    /// Energy at the start, J.
+    energy: f64,
+}
+
+impl Observer {
+    /// An observer of a drive with a layout that starts with an energy in J.
+    pub(crate) fn new(rates: &Rates<'_>, layout: &Layout, energy: f64) -> Self {
+        let mesh = &rates.system.mesh;
+        let frames = mesh.arcs.iter().enumerate().map(|(pulley, arc)| {
+            let placed = &layout.pulleys()[pulley];
+            let turns = placed.turns(layout.sense());
+            let [entering, _] = layout.spans_of(pulley);
+            let cell = mesh.lengths[arc.start];
+            let frame = |index: usize| {
+                let passed = (index as f64 + 0.5) * cell / placed.radius;
+                let (sine, cosine) = (entering.direction + turns * passed).sin_cos();
+                let along = Vector2::new(cosine, sine);
+                [along, turns * Vector2::new(-sine, cosine)]
+            };
+            (0..arc.len()).map(frame).collect()
+        });
+        Self {
+            frames: frames.collect(),
+            energy,
+        }
+    }
+
+    /// The drive at a time in s, with a state and its rates, and the smallest stretch since the sample before.
+    pub(crate) fn sample(
+        &self,
+        time: f64,
+        rates: &Rates<'_>,
+        state: &[f64],
+        least_stretch: f64,
+    ) -> Sample {
+        let system = rates.system;
+        let parts = &system.parts;
+        let count = system.wheels.len();
+        let pulley = |index: usize| {
+            let angular_speed = state[parts.speed.start + index];
+            let torque = rates.torque[index];
+            let bristles = &state[parts.bristle.clone()][system.mesh.bristles[index].clone()];
+            let cell = system.mesh.lengths[system.mesh.arcs[index].start];
+            let slips = slipping(bristles, rates.caps(index));
+            PulleySample {
+                angular_speed,
+                torque,
+                axle_torque: rates.shaft[index],
+                power: torque * angular_speed,
+                slip_arc: slips * cell / system.wheels[index].radius,
+                hub_load: self.hub_load(rates, state, index).into(),
+            }
+        };
+        let density = &state[parts.density.clone()];
+        let middle = |span: &std::ops::Range<usize>| {
+            let at = |cell: usize| system.tension(density[cell + 1]);
+            let middle = span.start + span.len() / 2;
+            match span.len() % 2 {
+                0 => 0.5 * (at(middle - 1) + at(middle)),
+                _ => at(middle),
+            }
+        };
+        Sample {
+            time,
+            pulleys: (0..count).map(pulley).collect(),
+            tensions: system.mesh.spans.iter().map(middle).collect(),
+            smallest_tension: system.tension(least_stretch.recip()),
+            ledger: Ledger::of(system, state, self.energy),
+        }
+    }
+
+    /// Force of the belt on a hub, N: of its pressure and its friction.
+    fn hub_load(&self, rates: &Rates<'_>, state: &[f64], pulley: usize) -> Vector2<f64> {
+        let system = rates.system;
+        let arc = system.mesh.arcs[pulley].clone();
+        let wheel = &system.wheels[pulley];
+        let bristles = &state[system.parts.bristle.clone()][system.mesh.bristles[pulley].clone()];
+        let cell = system.mesh.lengths[arc.start];
+        // The largest friction k_f b is μ n λ.
+        let per_cap = system.friction_stiffness / wheel.friction_coefficient;
+        let forces = arc.enumerate().map(|(index, of_loop)| {
+            let stretch = rates.stretches()[of_loop];
+            let [along, inward] = self.frames[pulley][index];
+            let pressure = per_cap * rates.caps(pulley)[index] / stretch;
+            let friction = system.friction_stiffness * bristles[index] / stretch;
+            cell * (pressure * inward + friction * along)
+        });
+        forces.sum()
+    }
+
+    /// The belt along the loop at a time in s, with a state and its rates.
+    pub(crate) fn belt(time: f64, rates: &Rates<'_>, state: &[f64]) -> BeltAlongLoop {
+        let system = rates.system;
+        let mesh = &system.mesh;
+        let density = &state[system.parts.density.clone()][1..];
+        let mut friction = vec![0.0; mesh.cells()];
+        let bristles = &state[system.parts.bristle.clone()];
+        for (arc, own) in mesh.arcs.iter().zip(&mesh.bristles) {
+            let forces = bristles[own.clone()].iter().zip(&density[arc.clone()]);
+            for (to, (bristle, density)) in friction[arc.clone()].iter_mut().zip(forces) {
+                *to = system.friction_stiffness * bristle * density;
+            }
+        }
+        BeltAlongLoop {
+            time,
+            position: mesh.middles().collect(),
+            tension: density
+                .iter()
+                .map(|&density| system.tension(density))
+                .collect(),
+            speed: rates.middles().to_vec(),
+            friction,
+        }
+    }
+}

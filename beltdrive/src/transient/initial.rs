@@ -1,0 +1,258 @@
+//! From the statement to the equations, and the state at time 0.
+
+use super::axle::{Axle, Motion, Motor};
+use super::mesh::{LEAST_ARC_CELLS, LEAST_SPAN_CELLS, Mesh, Stretch, even};
+use super::simulation::{Cells, Simulation, Start, TransientError, Until};
+use super::state::Parts;
+use super::system::{System, Wheel};
+use crate::drive::layout::Layout;
+use crate::results::loop_state::LoopState;
+use crate::{BeltKind, Drive, FrictionLaw, Pulley};
+
+/// Most cells of a mesh: a second of motion then takes an hour.
+const MOST_CELLS: usize = 10_000;
+
+/// Most samples of a history: far more than a figure shows, some hundred megabytes.
+const MOST_SAMPLES: f64 = 1e6;
+
+/// A prescribed speed is that of the steady state from which it starts to this, relative: a number that is stated
+/// with seven digits.
+const SAME_SPEED: f64 = 1e-6;
+
+fn refuse<T>(subject: &str, problem: impl Into<String>) -> Result<T, TransientError> {
+    Err(TransientError::Statement {
+        subject: subject.to_owned(),
+        problem: problem.into(),
+    })
+}
+
+/// The equations of a drive that is laid out.
+pub(crate) fn system(
+    simulation: &Simulation,
+    drive: &Drive,
+    layout: &Layout,
+) -> Result<System, TransientError> {
+    let FrictionLaw::Epp { stiffness } = drive.law else {
+        return refuse(
+            "friction",
+            format!(
+                "a simulation needs elastic/perfectly-plastic friction (`epp`), not `{}`",
+                drive.law.name()
+            ),
+        );
+    };
+    let wraps = layout.pulleys().iter().zip(layout.wraps());
+    let arcs = wraps.map(|(pulley, wrap)| pulley.radius * wrap);
+    let parts: Vec<_> = { arcs.zip(layout.spans()) }
+        .map(|(arc, span)| [arc, span.length])
+        .collect();
+    let without = |part: usize| parts.iter().position(|lengths| lengths[part] <= 0.0);
+    if let Some(pulley) = without(0) {
+        return refuse(
+            &drive.pulleys[pulley].name,
+            "the belt does not wrap round it",
+        );
+    }
+    if let Some(pulley) = without(1) {
+        return refuse(
+            &drive.pulleys[pulley].name,
+            "the span behind it has no length",
+        );
+    }
+    let stretches = match simulation.cells {
+        Cells::Total(cells) => even(&parts, cells),
+        Cells::Each { arc, span } => {
+            let cells = |&[arc_length, span_length]: &[f64; 2]| Stretch {
+                arc: arc_length,
+                arc_cells: arc,
+                span: span_length,
+                span_cells: span,
+            };
+            parts.iter().map(cells).collect()
+        }
+    };
+    let mesh = Mesh::new(&stretches);
+    let wheels = drive.pulleys.iter().zip(&simulation.axles);
+    let wheel = |(pulley, axle): (&Pulley, &Axle)| Wheel {
+        radius: pulley.radius,
+        friction_coefficient: pulley.friction_coefficient,
+        axle: axle.clone(),
+    };
+    Ok(System {
+        mass: drive.belt.mass_per_length,
+        axial_stiffness: drive.belt.axial_stiffness,
+        axial_damping: simulation.axial_damping,
+        friction_stiffness: stiffness,
+        wheels: wheels.map(wheel).collect(),
+        parts: Parts::new(&mesh),
+        mesh,
+    })
+}
+
+/// Refuses what is out of range, whatever the state at time 0.
+pub(crate) fn check(simulation: &Simulation) -> Result<(), TransientError> {
+    let drive = &simulation.drive;
+    if let BeltKind::V(_) = drive.belt.kind {
+        return refuse("belt", "only drives with flat belts can be simulated");
+    }
+    if let Some((pulley, _)) = drive.tensioner() {
+        let name = &drive.pulleys[pulley].name;
+        return refuse(name, "a drive with a tensioner cannot be simulated");
+    }
+    if simulation.axles.len() != drive.pulleys.len() {
+        return refuse("axles", "there must be one for every pulley");
+    }
+    let damping = simulation.axial_damping;
+    if !(damping >= 0.0 && damping.is_finite()) {
+        return refuse("axial damping", "it must not be negative");
+    }
+    let cells_are_in_range = match simulation.cells {
+        Cells::Total(cells) => (1..=MOST_CELLS).contains(&cells),
+        Cells::Each { arc, span } => {
+            let all = arc.saturating_add(span).saturating_mul(drive.pulleys.len());
+            arc >= LEAST_ARC_CELLS && span >= LEAST_SPAN_CELLS && all <= MOST_CELLS
+        }
+    };
+    if !cells_are_in_range {
+        return refuse(
+            "cells",
+            format!(
+                "there must be at least {LEAST_ARC_CELLS} on an arc, {LEAST_SPAN_CELLS} on a span and at most \
+                 {MOST_CELLS} in all"
+            ),
+        );
+    }
+    let positive = |value: f64| value > 0.0 && value.is_finite();
+    let (Until::Time(end) | Until::Steady { latest: end }) = simulation.until;
+    if !positive(end) {
+        return refuse("end", "its time must be positive");
+    }
+    if !positive(simulation.interval) || end / simulation.interval > MOST_SAMPLES {
+        return refuse(
+            "interval",
+            format!("it must be positive, with at most {MOST_SAMPLES:.0e} samples in all"),
+        );
+    }
+    if simulation.step.is_some_and(|step| !positive(step)) {
+        return refuse("step", "it must be positive");
+    }
+    let mut instants = simulation.instants.iter();
+    if !instants.all(|instant| (0.0..=end).contains(instant)) {
+        return refuse("instants", "they must lie between 0 and the end of the run");
+    }
+    let axles = drive.pulleys.iter().zip(&simulation.axles);
+    for (pulley, axle) in axles {
+        if let Some(problem) = of_axle(axle, simulation.start) {
+            return refuse(&pulley.name, problem);
+        }
+    }
+    Ok(())
+}
+
+/// What is wrong with an axle.
+fn of_axle(axle: &Axle, start: Start) -> Option<String> {
+    let inertia = axle.inertia;
+    match &axle.motion {
+        Motion::Speed(speed) => {
+            if !(inertia >= 0.0 && inertia.is_finite()) {
+                return Some("the moment of inertia must not be negative".to_owned());
+            }
+            if let Some(time) = speed.first_jump() {
+                return Some(format!("its speed must not jump, as it does at {time} s"));
+            }
+            let first = speed.at(0.0);
+            (start == Start::Rest && first != 0.0).then(|| {
+                format!(
+                    "a drive at rest cannot start with a speed of {first} rad/s: let it rise from 0"
+                )
+            })
+        }
+        Motion::Torques { motor, load } => {
+            if !(inertia > 0.0 && inertia.is_finite()) {
+                return Some(
+                    "the moment of inertia of a pulley without a prescribed speed must be positive"
+                        .to_owned(),
+                );
+            }
+            if let Some(Motor::Characteristic(over_speed)) = motor
+                && let Some(speed) = over_speed.first_jump()
+            {
+                return Some(format!(
+                    "the torque of its motor must not jump over the speed, as it does at {speed} rad/s"
+                ));
+            }
+            (!(load.per_speed >= 0.0 && load.per_speed.is_finite()))
+                .then(|| "the torque per speed of its load must not be negative".to_owned())
+        }
+    }
+}
+
+/// The belt at rest with a tension in N.
+pub(crate) fn at_rest(system: &System, tension: f64) -> Vec<f64> {
+    let stretch = 1.0 + tension / system.axial_stiffness;
+    system.parts.uniform(stretch.recip(), 0.0)
+}
+
+/// The steady state of the solver on the mesh, with the unstretched length that it has.
+pub(crate) fn running(system: &System, found: &LoopState) -> Result<Vec<f64>, TransientError> {
+    let parts = &system.parts;
+    let mut state = parts.uniform(1.0, 0.0);
+    let density = |tension: f64| (1.0 + tension / system.axial_stiffness).recip();
+    let densities = &mut state[parts.density.clone()][1..];
+    for (span, known) in system.mesh.spans.iter().zip(&found.spans) {
+        densities[span.clone()].fill(density(known.tension));
+    }
+    for (pulley, arc) in system.mesh.arcs.iter().enumerate() {
+        let profile = found.profile(pulley);
+        let cell = system.mesh.lengths[arc.start];
+        for (index, of_loop) in arc.clone().enumerate() {
+            let at = (index as f64 + 0.5) * cell;
+            let value = |list: &[f64]| interpolated(&profile.arc_length, list, at);
+            state[parts.density.start + 1 + of_loop] = density(value(&profile.tension));
+            let bristle = parts.bristle.start + system.mesh.bristles[pulley].start + index;
+            state[bristle] = value(&profile.displacement);
+        }
+    }
+    // As long as the belt of the steady state.
+    let share = found.unstretched_length / system.unstretched_length(&state);
+    for density in &mut state[parts.density.clone()] {
+        *density *= share;
+    }
+    parts.close(&mut state);
+    let lengths = &system.mesh.lengths;
+    for face in 0..lengths.len() {
+        let behind = lengths[(face + lengths.len() - 1) % lengths.len()];
+        let [before, after] = [0, 1].map(|cell| state[parts.density.start + face + cell]);
+        let density = (before * lengths[face] + after * behind) / (behind + lengths[face]);
+        state[parts.velocity.start + face] = found.unstretched_speed / density;
+    }
+    parts.close(&mut state);
+    for (pulley, known) in found.pulleys.iter().enumerate() {
+        if let Motion::Speed(given) = &system.wheels[pulley].axle.motion {
+            let (first, speed) = (given.at(0.0), known.angular_speed);
+            if (first / speed - 1.0).abs() > SAME_SPEED {
+                return refuse(
+                    &known.name,
+                    format!(
+                        "its speed starts with {first} rad/s, but the running drive has {speed} rad/s"
+                    ),
+                );
+            }
+        }
+        state[parts.speed.start + pulley] = known.angular_speed;
+    }
+    Ok(state)
+}
+
+/// The value of a list at a place between others that rise.
+fn interpolated(places: &[f64], values: &[f64], at: f64) -> f64 {
+    let next = places
+        .partition_point(|&place| place < at)
+        .clamp(1, places.len() - 1);
+    let [from, to] = [places[next - 1], places[next]];
+    let [first, last] = [values[next - 1], values[next]];
+    match to > from {
+        true => first + (at - from) / (to - from) * (last - first),
+        false => last,
+    }
+}

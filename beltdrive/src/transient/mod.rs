@@ -1,0 +1,50 @@
+//! Flat belt drives in time: start-up, load steps, slip and its end, the way to the steady state.
+//!
+//! The belt is a one-dimensional continuum that flows through a fixed mesh along the loop, with bristles on the arcs
+//! that it carries along; the pulleys turn with their inertia. [`simulate`](crate::simulate()) follows them; `docs/transient.md` has the equations, the scheme and its limits of validity.
+//!
+//! ```text
+//! mass       ∂ρ/∂t + ∂(ρ v)/∂σ = 0                                 ρ = 1/λ
+//! momentum   m (∂v/∂t + v ∂v/∂σ) = λ ∂T/∂σ − q                     T = EA (λ − 1) + c_d λ̇
+//! bristles   ∂b/∂t + v ∂b/∂σ = v − R ω,  b = 0 at the entry        |b| ≤ μ n λ/k_f
+//! friction   q = k_f b                                             n = max(EA (λ − 1) − m v²/λ, 0)/R
+//! pulleys    J dω/dt = R ∫ q ρ dσ + M
+//! ```
+//!
+//! Force and mass are per unstretched length, λ is the stretch. What stands still in these equations is the closed
+//! form of the steady drive with [`NormalForce::Exact`](crate::NormalForce::Exact), whatever the convention that
+//! the drive states.
+//!
+//! Every arc and every span has cells of one length, with faces on the tangent points, so that no cell ever enters
+//! or leaves a contact: the steady state is a fixed point of the scheme, of order two. Time steps are those of the
+//! classical Runge–Kutta method.
+//!
+//! Not modelled: V-belts, tensioners, motion across the spans, bending, friction laws other than
+//! elastic/perfectly-plastic. There is no implicit integrator: a time step is bound by the time in which a wave passes a
+//! cell, and what is stiffer than that, a light pulley on stiff bristles, makes it shorter.
+
+mod axle;
+mod bristle;
+mod events;
+mod explicit;
+mod history;
+pub(crate) mod initial;
+mod ledger;
+mod mesh;
+mod rates;
+pub(crate) mod run;
+mod schedule;
+mod simulation;
+mod slip;
+mod state;
+mod steady;
+mod system;
+#[cfg(test)]
+mod tests;
+
+pub use axle::{Axle, Load, Motion, Motor};
+pub use events::{TransientEvent, TransientEventKind};
+pub use history::{BeltAlongLoop, Effort, Ending, History, PulleySample, Sample};
+pub use ledger::Ledger;
+pub use schedule::Schedule;
+pub use simulation::{Cells, Simulation, Start, TransientError, Until};

@@ -1,0 +1,94 @@
+//! A quantity that is given over time.
+
+/// A number over time: straight lines between points, constant before the first and after the last one. Two points
+/// at one time are a jump.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Schedule {
+    /// Times in s that do not fall, with the values there.
+    points: Vec<[f64; 2]>,
+}
+
+impl Schedule {
+    /// The same value at all times.
+    #[must_use]
+    pub fn constant(value: f64) -> Self {
+        Self {
+            points: vec![[0.0, value]],
+        }
+    }
+
+    /// A jump from one value to another at a time in s.
+    #[must_use]
+    pub fn step(at: f64, [before, after]: [f64; 2]) -> Self {
+        Self {
+            points: vec![[at, before], [at, after]],
+        }
+    }
+
+    /// A straight line from one value to another between two times in s.
+    #[must_use]
+    pub fn ramp([from, to]: [f64; 2], [before, after]: [f64; 2]) -> Self {
+        Self {
+            points: vec![[from, before], [to, after]],
+        }
+    }
+
+    /// A value that another one takes the place of between two times in s.
+    #[must_use]
+    pub fn pulse([from, to]: [f64; 2], [usual, raised]: [f64; 2]) -> Self {
+        Self {
+            points: vec![[from, usual], [from, raised], [to, raised], [to, usual]],
+        }
+    }
+
+    /// Straight lines between points of time in s and value; `None` if there is no point, if times fall, or if a
+    /// number is not finite.
+    #[must_use]
+    pub fn table(points: Vec<[f64; 2]>) -> Option<Self> {
+        let rises = points.windows(2).all(|pair| pair[0][0] <= pair[1][0]);
+        let is_finite = points.iter().flatten().all(|number| number.is_finite());
+        (rises && is_finite && !points.is_empty()).then_some(Self { points })
+    }
+
+    /// The points, times in s with the values there.
+    pub fn points(&self) -> &[[f64; 2]] {
+        &self.points
+    }
+
+    /// The value at a time in s; at a jump that after it.
+    pub fn at(&self, time: f64) -> f64 {
+        self.on(self.line(time), time)[0]
+    }
+
+    /// The first time in s at which the value jumps.
+    pub fn first_jump(&self) -> Option<f64> {
+        let mut pairs = self.points.windows(2);
+        let jumps = |pair: &&[[f64; 2]]| pair[0][0] == pair[1][0] && pair[0][1] != pair[1][1];
+        pairs.find(jumps).map(|pair| pair[0][0])
+    }
+
+    /// The first corner after a time, s.
+    pub(crate) fn next_corner(&self, time: f64) -> f64 {
+        let mut times = self.points.iter().map(|point| point[0]);
+        times.find(|&corner| corner > time).unwrap_or(f64::INFINITY)
+    }
+
+    /// The straight line that holds at a time in s and just after it: the number of points passed.
+    pub(crate) fn line(&self, time: f64) -> usize {
+        self.points.partition_point(|point| point[0] <= time)
+    }
+
+    /// Value and slope at a time in s on a straight line of [`Self::line`], which holds beyond its ends.
+    pub(crate) fn on(&self, line: usize, time: f64) -> [f64; 2] {
+        let Some([start, before]) = line.checked_sub(1).map(|last| self.points[last]) else {
+            return [self.points[0][1], 0.0];
+        };
+        match self.points.get(line) {
+            Some([end, after]) => {
+                let slope = (after - before) / (end - start);
+                [before + slope * (time - start), slope]
+            }
+            None => [before, 0.0],
+        }
+    }
+}

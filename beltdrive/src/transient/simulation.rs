@@ -1,0 +1,116 @@
+//! What is simulated, and why it cannot be.
+
+use super::axle::Axle;
+use crate::{Drive, SolveError};
+
+/// A drive with a flat belt in time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Simulation {
+    /// The drive: flat belt, elastic/perfectly-plastic friction, pulleys at fixed centres. Its duties and loads only
+    /// decide where the run starts.
+    pub drive: Drive,
+    /// The axles of its pulleys, in belt order.
+    pub axles: Vec<Axle>,
+    /// Axial damping `c_d` of the belt, N·s: the tension is EA (λ − 1) + `c_d` λ̇. Not negative; 0 is no damping.
+    pub axial_damping: f64,
+    /// The state at time 0.
+    pub start: Start,
+    /// Cells of the mesh.
+    pub cells: Cells,
+    /// When the run ends.
+    pub until: Until,
+    /// Time between two samples of the history, s; positive.
+    pub interval: f64,
+    /// Instants at which the belt along the loop is kept, s.
+    pub instants: Vec<f64>,
+    /// Largest time step, s, no longer than the largest stable one, which is taken without.
+    pub step: Option<f64>,
+}
+
+/// The state at time 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// Nothing moves; the belt has the same tension everywhere, that of the drive at rest.
+    Rest,
+    /// The steady state of the drive.
+    Running,
+}
+
+/// Cells of the mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cells {
+    /// About so many in the whole loop, as long as each other but for short arcs and spans.
+    Total(usize),
+    /// So many on every arc, at least 4, and on every span, at least 2.
+    Each {
+        /// On every arc.
+        arc: usize,
+        /// On every span.
+        span: usize,
+    },
+}
+
+/// When a run ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Until {
+    /// At a time, s.
+    Time(f64),
+    /// When nothing changes any more: no tension by more than 1e-6 of itself in a second and no rim speed by more
+    /// than 1e-6 of the fastest one, in five samples one after the other, after the last corner of what is given
+    /// over time.
+    Steady {
+        /// The time at which it ends if that has not happened, s.
+        latest: f64,
+    },
+}
+
+/// Why there is no history.
+#[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TransientError {
+    /// A number of the statement is out of its range, or the parts of the statement do not belong together.
+    #[error("{subject}: {problem}")]
+    Statement {
+        /// Of which part: the name of a pulley, or the part itself.
+        subject: String,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// The drive has no state to start from.
+    #[error("no state to start from: {0}")]
+    Start(#[from] SolveError),
+    /// The step that was asked for is not stable.
+    #[error(
+        "a time step of {asked:.3e} s is unstable: the largest stable one is {stable:.3e} s at {time:.6} s"
+    )]
+    Unstable {
+        /// The step asked for, s.
+        asked: f64,
+        /// The largest stable step, s.
+        stable: f64,
+        /// When it is, s.
+        time: f64,
+    },
+    /// The belt was shortened to nothing or numbers grew beyond all bounds.
+    #[error("the belt has no possible state after {time:.6} s: {problem}")]
+    Impossible {
+        /// The last time at which it had one, s.
+        time: f64,
+        /// What became impossible.
+        problem: &'static str,
+    },
+    /// Energy was lost or won beside what the ledger accounts for.
+    #[error(
+        "the energy ledger does not close: {residual:.2e} J of {turnover:.2e} J are not accounted for at {time:.6} s, \
+         more than {:.0e} of them; take more cells",
+        super::ledger::BOUND
+    )]
+    Ledger {
+        /// What is missing, J.
+        residual: f64,
+        /// What the ledger is measured by, J.
+        turnover: f64,
+        /// When it was found, s.
+        time: f64,
+    },
+}

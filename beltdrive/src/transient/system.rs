@@ -1,0 +1,71 @@
+//! What the equations of motion are made of.
+
+use super::axle::Axle;
+use super::mesh::Mesh;
+use super::state::Parts;
+
+/// A flat belt on its pulleys.
+#[derive(Clone, Debug)]
+pub(crate) struct System {
+    /// Mass m per unstretched length, kg/m.
+    pub(crate) mass: f64,
+    /// Axial stiffness EA, N.
+    pub(crate) axial_stiffness: f64,
+    /// Axial damping `c_d`, N·s.
+    pub(crate) axial_damping: f64,
+    /// Stiffness `k_f` of friction per unstretched length, N/m².
+    pub(crate) friction_stiffness: f64,
+    /// The pulleys in belt order.
+    pub(crate) wheels: Vec<Wheel>,
+    /// The mesh.
+    pub(crate) mesh: Mesh,
+    /// Where the parts of a state stand.
+    pub(crate) parts: Parts,
+}
+
+/// A pulley.
+#[derive(Clone, Debug)]
+pub(crate) struct Wheel {
+    /// Radius R, m.
+    pub(crate) radius: f64,
+    /// Coefficient of friction μ.
+    pub(crate) friction_coefficient: f64,
+    /// What drives and what loads it.
+    pub(crate) axle: Axle,
+}
+
+impl System {
+    /// Tension EA (1/ρ − 1) without damping, N.
+    pub(crate) fn tension(&self, density: f64) -> f64 {
+        self.axial_stiffness * (density.recip() - 1.0)
+    }
+
+    /// Unstretched length of the belt, m.
+    pub(crate) fn unstretched_length(&self, state: &[f64]) -> f64 {
+        let densities = &state[self.parts.density.clone()][1..];
+        let lengths = self.mesh.lengths.iter();
+        lengths
+            .zip(densities)
+            .map(|(length, density)| length * density)
+            .sum()
+    }
+
+    /// Kinetic energy of pulleys and belt and strain energy of the belt, J.
+    pub(crate) fn energy(&self, state: &[f64]) -> f64 {
+        let speeds = self.wheels.iter().zip(&state[self.parts.speed.clone()]);
+        let pulleys = speeds.map(|(wheel, speed)| 0.5 * wheel.axle.inertia * speed * speed);
+        let lengths = &self.mesh.lengths;
+        let density = &state[self.parts.density.clone()];
+        let velocity = &state[self.parts.velocity.clone()];
+        let cells = lengths.len();
+        let belt = (0..cells).map(|cell| {
+            let before = lengths[(cell + cells - 1) % cells];
+            let on_face = 0.5 * (density[cell] * before + density[cell + 1] * lengths[cell]);
+            let strain = density[cell + 1].recip() - 1.0;
+            let elastic = 0.5 * self.axial_stiffness * strain * strain;
+            0.5 * self.mass * on_face * velocity[cell] * velocity[cell]
+                + elastic * density[cell + 1] * lengths[cell]
+        });
+        pulleys.sum::<f64>() + belt.sum::<f64>()
+    }
+}

@@ -1,0 +1,142 @@
+//! Gross slip, its end, slack, loads that hold and loads that do not.
+
+use super::{driver, follow, from_rest, kim, loaded};
+use beltdrive::simulate;
+use beltdrive::transient::{Ending, Load, Motion, Motor, Schedule, Start, TransientEventKind};
+
+#[test]
+fn a_pulse_of_load_makes_the_driven_pulley_slip_and_it_recovers() {
+    let axles = vec![
+        driver(Schedule::constant(120.0)),
+        loaded(
+            0.005,
+            Load::new(Schedule::pulse([0.02, 0.05], [30.0, 90.0])),
+        ),
+    ];
+    let mut simulation = from_rest(kim(2.0e8, 5.45e-3, 30.0), axles, 120, 0.3);
+    simulation.start = Start::Running;
+    simulation.axial_damping = 0.5;
+    let history = follow(&simulation);
+    let events = &history.events;
+    println!("{events:?}");
+    let of = |kind| {
+        let mut events = events.iter().filter(|event| event.kind == kind);
+        let event = events.next().expect("an event");
+        assert!(events.next().is_none(), "once");
+        event
+    };
+    let begin = of(TransientEventKind::GrossSlip(1));
+    let end = of(TransientEventKind::GrossSlipEnds(1));
+    assert!(
+        begin.time > 0.02 && begin.time < 0.05 && end.time > 0.05,
+        "{events:?}"
+    );
+    let speeds = |range: std::ops::Range<usize>| {
+        let samples = history.samples[range].iter();
+        samples
+            .map(|sample| sample.pulleys[1].angular_speed)
+            .fold(f64::INFINITY, f64::min)
+    };
+    // It falls while it slips, and is back at its creep in the end.
+    assert!(speeds(20..100) < 100.0);
+    assert!((history.samples[300].pulleys[1].angular_speed - 119.45).abs() < 2.0);
+    // While it slips the belt gives what its capacity is, not the load. The tension grows on both pulleys by the
+    // factor exp(μ φ) and keeps its mean along the belt, of which inertia takes m v². Waves ride on it.
+    let exponent = 1.2 * std::f64::consts::PI;
+    let low = (-exponent).exp();
+    let arc = 0.08125 * std::f64::consts::PI;
+    let mean = (0.25 * 0.5 * (1.0 + low) + arc * (1.0 - low) / exponent) / (0.25 + arc);
+    let inertia = 0.1036 * 9.75_f64.powi(2);
+    let capacity = 0.08125 * (80_068.0 * 5.45e-3 - inertia) * (1.0 - low) / mean;
+    let slipping = history
+        .samples
+        .iter()
+        .filter(|sample| sample.time > begin.time + 2e-3 && sample.time < end.time - 2e-3);
+    let slipping: Vec<_> = slipping.map(|sample| sample.pulleys[1]).collect();
+    let full = |arc: f64| (arc - std::f64::consts::PI).abs() < 1e-9;
+    assert!(slipping.iter().all(|pulley| full(pulley.slip_arc)));
+    let torques = slipping.iter().map(|pulley| pulley.torque);
+    let mean = torques.sum::<f64>() / slipping.len() as f64;
+    println!("{mean} N·m on average, capacity {capacity} N·m");
+    assert!((mean / capacity - 1.0).abs() < 0.02, "{mean} {capacity}");
+}
+
+#[test]
+fn a_load_holds_a_pulley_at_rest_unless_it_is_one_way() {
+    for (is_one_way, speed) in [(false, 0.0), (true, -1.0)] {
+        let load = Load {
+            is_one_way,
+            ..Load::new(Schedule::constant(20.0))
+        };
+        let axles = vec![driver(Schedule::constant(0.0)), loaded(0.005, load)];
+        let history = follow(&from_rest(kim(2.0e8, 5.45e-3, 20.0), axles, 60, 0.003));
+        let found = history.samples[1].pulleys[1].angular_speed;
+        assert_eq!(found.partial_cmp(&0.0), speed.partial_cmp(&0.0), "{found}");
+        // The load can be carried either way.
+        if !is_one_way {
+            assert!(
+                history
+                    .samples
+                    .iter()
+                    .all(|sample| sample.pulleys[1].torque == 0.0)
+            );
+        }
+    }
+}
+
+#[test]
+fn a_motor_settles_where_its_line_meets_the_load() {
+    let motor = Motor::line(120.0, 130.0);
+    let mut motors = loaded(0.02, Load::new(Schedule::constant(0.0)));
+    let Motion::Torques { motor: place, .. } = &mut motors.motion else {
+        panic!("torques")
+    };
+    *place = Some(motor);
+    let axles = vec![
+        motors,
+        loaded(
+            0.01,
+            Load {
+                per_speed: 0.2,
+                ..Load::new(Schedule::constant(10.0))
+            },
+        ),
+    ];
+    let mut simulation = from_rest(kim(2.0e8, 5.45e-3, 30.0), axles, 60, 0.5);
+    simulation.axial_damping = 0.5;
+    let history = follow(&simulation);
+    let [motor, driven] = history.samples.last().unwrap().pulleys[..] else {
+        panic!("two pulleys")
+    };
+    println!("{motor:?} {driven:?}");
+    let [drives, loads] = [
+        120.0 * (1.0 - motor.angular_speed / 130.0),
+        10.0 + 0.2 * driven.angular_speed,
+    ];
+    assert!((motor.axle_torque - drives).abs() < 1e-9 * drives);
+    assert!((driven.axle_torque + loads).abs() < 1e-9 * loads);
+    assert!((drives / loads - 1.0).abs() < 0.02, "{drives} {loads}");
+    assert!(driven.angular_speed < motor.angular_speed && driven.angular_speed > 80.0);
+}
+
+#[test]
+fn a_run_ends_where_it_is_told_to() {
+    let axles = vec![
+        driver(Schedule::ramp([0.0, 0.1], [0.0, 120.0])),
+        loaded(0.005, Load::new(Schedule::constant(2.0))),
+    ];
+    let simulation = from_rest(kim(2.0e8, 5.45e-3, 2.0), axles, 60, 0.02);
+    let mut told = vec![];
+    let history = simulate(&simulation, &mut |time, share| {
+        told.push([time, share]);
+        time < 0.01
+    });
+    let history = history.unwrap();
+    assert_eq!(history.ending, Ending::Interrupted);
+    assert_eq!(history.samples.len(), told.len());
+    for (sample, [time, share]) in history.samples.iter().zip(told) {
+        assert_eq!(sample.time, time);
+        assert!((share - time / 0.02).abs() < 1e-12);
+    }
+    assert!((history.samples.last().unwrap().time - 0.01).abs() < 1e-12);
+}
