@@ -1,6 +1,7 @@
 //! The native half of the Python package `beltdrive`: `beltdrive/*.py` is what its users see.
 
 mod answer;
+mod bvp;
 mod failure;
 mod numbers;
 mod questions;
@@ -13,6 +14,8 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use super::answer::Answer;
+    #[pymodule_export]
+    use super::bvp::{BvpSolution, solve_bvp};
     #[pymodule_export]
     use super::failure::{InputError, UnsolvedError};
     #[pymodule_export]

@@ -18,6 +18,12 @@ impl Numbers {
         let shape = vec![numbers.len()];
         Self { numbers, shape }
     }
+
+    /// A table, one row after the other.
+    pub(crate) fn table(numbers: Vec<f64>, [rows, columns]: [usize; 2]) -> Self {
+        let shape = vec![rows, columns];
+        Self { numbers, shape }
+    }
 }
 
 #[pymethods]

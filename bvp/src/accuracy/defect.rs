@@ -76,6 +76,29 @@ struct Along<'a> {
 }
 
 impl Along<'_> {
+    /// The right-hand side at all points of a run of intervals, if that takes one call.
+    #[inline(never)]
+    fn rhs_at_once(&self, [m, n]: [usize; 2], run: Range<usize>) -> Option<Vec<f64>> {
+        if !self.equations.is_vectorised() {
+            return None;
+        }
+        let (t, x) = (self.tableau, self.x);
+        let count = run.len() * (m + 1);
+        let mut places = Vec::with_capacity(count);
+        let [mut states, mut rhs] = [0.0, f64::NAN].map(|value| vec![value; count * n]);
+        for (i, states) in run.zip(states.chunks_exact_mut((m + 1) * n)) {
+            let ends = &self.nodes[i..i + 2];
+            let interval = Interval::new(&x.segments[self.index], [m, n], i, ends);
+            for (q, y) in states.chunks_exact_mut(n).enumerate() {
+                places.push(interval.place(t.defect_rule.points[q]));
+                interval.state(&t.defect_value[q * m..][..m], y);
+            }
+        }
+        self.equations
+            .evaluate_rhs_at(self.index, &places, &states, &x.p, &mut rhs);
+        Some(rhs)
+    }
+
     /// The defects of a run of intervals with m stages and n states, relative and local.
     #[inline(always)]
     fn defects(
@@ -95,6 +118,8 @@ impl Along<'_> {
         );
         let to_value = &t.defect_value[..(m + 1) * m];
         let to_slope = &t.defect_slope[..(m + 1) * m];
+        let at_once = self.rhs_at_once([m, n], run.clone());
+        let first = run.start;
         let samples = samples.chunks_exact_mut((m + 1) * n);
         let written = relative.iter_mut().zip(local).zip(samples);
         for (i, ((relative, local), samples)) in run.zip(written) {
@@ -105,8 +130,16 @@ impl Along<'_> {
                 let (s, weight) = (interval.place(points[q]), weights[q]);
                 interval.state(&to_value[q * m..][..m], y);
                 interval.slope(&to_slope[q * m..][..m], slope);
-                f.fill(f64::NAN);
-                self.equations.evaluate_rhs(self.index, s, y, &x.p, f);
+                match &at_once {
+                    Some(all) => {
+                        let place = (i - first) * (m + 1) + q;
+                        f.copy_from_slice(&all[place * n..][..n]);
+                    }
+                    None => {
+                        f.fill(f64::NAN);
+                        self.equations.evaluate_rhs(self.index, s, y, &x.p, f);
+                    }
+                }
                 if let Some(component) = f.iter().position(|f| !f.is_finite()) {
                     let segment = self.index;
                     return Err(NonFinite::Rhs {

@@ -6,6 +6,7 @@ pub(crate) mod direction;
 pub(crate) mod further_places;
 pub(crate) mod global_error;
 pub(crate) mod layers;
+mod looked_at;
 pub(crate) mod mesh_selection;
 pub(crate) mod rounding;
 mod segment_look;

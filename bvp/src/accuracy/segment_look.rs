@@ -1,5 +1,6 @@
 //! A look at the right-hand side on one segment, at places where no mesh has looked.
 
+use crate::accuracy::looked_at::{At, finite};
 use crate::discretisation::iterate::{Interval, Iterate};
 use crate::discretisation::powers::Powers;
 use crate::discretisation::tableau::Tableau;
@@ -9,6 +10,7 @@ use crate::problem::equations::Equations;
 use crate::problem::held::Held;
 use crate::result::stats::Stats;
 use crate::shares::{AIM, ONE_SAMPLE, SPACINGS, UNNOTICED};
+use std::slice::ChunksExact;
 
 /// A solution on one segment, what is allowed of its defect, and what is found.
 pub(super) struct SegmentLook<'a> {
@@ -35,10 +37,13 @@ impl<'a> SegmentLook<'a> {
         let slope = self.largest_slope(size);
         let mut values = Few::zeros(3 * size[1]);
         let mut at = At::new(size[1], &mut values);
+        let at_once = self.rhs_at_once(size, slope, places);
+        at.given = at_once.as_ref().map(|rhs| rhs.chunks_exact(size[1]));
         for i in 0..self.nodes.len() - 1 {
             let interval = self.interval(size, i);
             self.powers.expand(size, self.t, &interval);
-            let mut unseen = self.is_unseen_near_nodes(size, i, &interval, slope, &mut at);
+            let nearest = self.nearest(i, slope);
+            let mut unseen = self.is_unseen_near_nodes(size, (i, &interval), nearest, &mut at);
             let allowed = self.allowed(i, &interval);
             for &theta in places {
                 if self.is_unseen_at(size, &interval, allowed, theta, &mut at) {
@@ -52,17 +57,41 @@ impl<'a> SegmentLook<'a> {
         }
     }
 
-    /// Looks next to both nodes of interval i.
+    /// The right-hand side where [`everywhere`](Self::everywhere) looks, in its order, if that takes one call.
+    #[inline(never)]
+    fn rhs_at_once(&mut self, size: [usize; 2], slope: f64, places: &[f64]) -> Option<Vec<f64>> {
+        if !self.equations.is_vectorised() {
+            return None;
+        }
+        let intervals = self.nodes.len() - 1;
+        let count = intervals * (places.len() + 2);
+        let mut at = Vec::with_capacity(count);
+        let [mut states, mut rhs] = [0.0, f64::NAN].map(|value| vec![value; count * size[1]]);
+        let mut states_left = states.chunks_exact_mut(size[1]);
+        for i in 0..intervals {
+            let interval = self.interval(size, i);
+            self.powers.expand(size, self.t, &interval);
+            let nearest = self.nearest(i, slope);
+            let near = [nearest, 1.0 - nearest];
+            for (theta, y) in near.iter().chain(places).zip(states_left.by_ref()) {
+                at.push(interval.place(*theta));
+                self.powers.state(size, 2.0 * theta - 1.0, y);
+            }
+        }
+        self.equations
+            .evaluate_rhs_at(self.index, &at, &states, &self.x.p, &mut rhs);
+        Some(rhs)
+    }
+
+    /// Looks next to both nodes of interval i, at a distance of which its length is that share.
     #[inline(always)]
     fn is_unseen_near_nodes(
         &mut self,
         size: [usize; 2],
-        i: usize,
-        interval: &Interval<'_>,
-        slope: f64,
+        (i, interval): (usize, &Interval<'_>),
+        nearest: f64,
         at: &mut At<'_>,
     ) -> bool {
-        let nearest = self.nearest(i, slope);
         let first = self.t.defect_rule.points[0].max(2.0 * nearest);
         let mut unseen = false;
         for right in [false, true] {
@@ -175,7 +204,7 @@ impl<'a> SegmentLook<'a> {
     /// are larger or all smaller: the solution may touch the end of the domain of the right-hand side.
     #[inline(never)]
     fn is_finite_beside(&mut self, s: f64, at: &mut At<'_>) -> bool {
-        let At { y, f, slope } = at;
+        let At { y, f, slope, .. } = at;
         [1.0, -1.0].into_iter().any(|sign| {
             for (beside, y) in slope.iter_mut().zip(&**y) {
                 *beside = y + sign * self.tolerance * (1.0 + y.abs());
@@ -234,7 +263,7 @@ impl<'a> SegmentLook<'a> {
     fn unexplained(&mut self, interval: &Interval<'_>, theta: f64) -> [f64; 2] {
         let [m, n] = self.size();
         let mut values = Few::zeros(3 * n);
-        let At { y, f, slope } = At::new(n, &mut values);
+        let At { y, f, slope, .. } = At::new(n, &mut values);
         let u = 2.0 * theta - 1.0;
         self.powers.state([m, n], u, y);
         self.powers.slope([m, n], u, slope);
@@ -255,7 +284,7 @@ impl<'a> SegmentLook<'a> {
         largest.map(finite)
     }
 
-    /// The largest defect at a place of the interval relative to 1 + |y|.
+    /// The largest defect at a place of the interval relative to 1 + |y|. The right-hand side is the next one given.
     #[inline(always)]
     fn defect(
         &mut self,
@@ -264,47 +293,22 @@ impl<'a> SegmentLook<'a> {
         theta: f64,
         at: &mut At<'_>,
     ) -> f64 {
-        let At { y, f, slope } = at;
+        let At { y, f, slope, given } = at;
         let u = 2.0 * theta - 1.0;
         self.powers.state(size, u, y);
         self.powers.slope(size, u, slope);
-        f.fill(f64::NAN);
-        let s = interval.place(theta);
-        self.equations.evaluate_rhs(self.index, s, y, &self.x.p, f);
+        match given.as_mut().and_then(ChunksExact::next) {
+            Some(given) => f.copy_from_slice(given),
+            None => {
+                f.fill(f64::NAN);
+                let s = interval.place(theta);
+                self.equations.evaluate_rhs(self.index, s, y, &self.x.p, f);
+            }
+        }
         self.stats.rhs_evaluations += 1;
         let defects = slope.iter().zip(&**f).zip(&**y);
         defects.fold(0.0f64, |m, ((slope, f), y)| {
             max_or_nan(m, (slope - f).abs() / (1.0 + y.abs()))
         })
-    }
-}
-
-/// The size, or zero in the place of what is not finite: a segment may end at a singular place.
-fn finite(size: f64) -> f64 {
-    if size.is_finite() { size } else { 0.0 }
-}
-
-/// A state at one place, its right-hand side and its slope.
-struct At<'a> {
-    y: &'a mut [f64],
-    f: &'a mut [f64],
-    slope: &'a mut [f64],
-}
-
-impl<'a> At<'a> {
-    /// Room for n states in 3n numbers.
-    #[inline(always)]
-    fn new(n: usize, values: &'a mut [f64]) -> Self {
-        let (y, rest) = values.split_at_mut(n);
-        let (f, slope) = rest.split_at_mut(n);
-        let (y, f, slope) = (&mut y[..n], &mut f[..n], &mut slope[..n]);
-        Self { y, f, slope }
-    }
-
-    /// The largest |f| relative to 1 + |y|.
-    #[inline(always)]
-    fn rate(&self) -> f64 {
-        let rates = self.f.iter().zip(&*self.y);
-        rates.fold(0.0, |m, (f, y)| m.max(f.abs() / (1.0 + y.abs())))
     }
 }

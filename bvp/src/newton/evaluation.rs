@@ -74,6 +74,22 @@ impl<'a> SegmentAt<'a> {
         Interval::new(self.x, size, i, &self.mesh[i..i + 2])
     }
 
+    /// The places of all stages of a run of intervals with m stages and n states, and the states there.
+    #[inline(never)]
+    fn stages(&self, [m, n]: [usize; 2], run: Range<usize>) -> (Vec<f64>, Vec<f64>) {
+        let t = self.tableau;
+        let mut places = Vec::with_capacity(run.len() * m);
+        let mut states = vec![0.0; run.len() * m * n];
+        for (i, states) in run.zip(states.chunks_exact_mut(m * n)) {
+            let interval = self.interval([m, n], i);
+            for (j, y) in states.chunks_exact_mut(n).enumerate() {
+                places.push(interval.place(t.c[j]));
+                interval.state(&t.a[j * m..][..m], y);
+            }
+        }
+        (places, states)
+    }
+
     /// The residuals of the stages and of the continuity of a run of intervals with m stages and n states.
     #[inline(always)]
     pub(crate) fn residuals(
@@ -87,16 +103,27 @@ impl<'a> SegmentAt<'a> {
         let t = self.tableau;
         let (a, c) = (&t.a[..m * m], &t.c[..m]);
         let y = &mut buffers.y[..n];
+        let is_vectorised = self.equations.is_vectorised();
+        if is_vectorised {
+            stages.fill(f64::NAN);
+            let (s, y) = self.stages([m, n], run.clone());
+            self.equations
+                .evaluate_rhs_at(self.index, &s, &y, self.p, stages);
+        }
         let residuals = stages
             .chunks_exact_mut(m * n)
             .zip(continuity.chunks_exact_mut(n));
         for (i, (r, jump)) in run.zip(residuals) {
             let interval = self.interval([m, n], i);
-            r.fill(f64::NAN);
+            if !is_vectorised {
+                r.fill(f64::NAN);
+            }
             for (j, f) in r.chunks_exact_mut(n).enumerate() {
                 let s = interval.place(c[j]);
-                interval.state(&a[j * m..][..m], y);
-                self.equations.evaluate_rhs(self.index, s, y, self.p, f);
+                if !is_vectorised {
+                    interval.state(&a[j * m..][..m], y);
+                    self.equations.evaluate_rhs(self.index, s, y, self.p, f);
+                }
                 interval.stage_residual(j, f, self.index, s)?;
             }
             interval.continuity(t, jump);
@@ -119,22 +146,34 @@ impl<'a> SegmentAt<'a> {
         let (a, c) = (&t.a[..m * m], &t.c[..m]);
         let StageBuffers { y, observed } = buffers;
         let y = &mut y[..n];
+        let is_vectorised = self.equations.is_vectorised();
+        if is_vectorised {
+            stages.fill(f64::NAN);
+            jacobians.fill(f64::NAN);
+            let (s, y) = self.stages([m, n], run.clone());
+            self.equations
+                .rhs_jacobian_at(self.index, &s, &y, self.p, stages, jacobians);
+        }
         let residuals = stages
             .chunks_exact_mut(m * n)
             .zip(continuity.chunks_exact_mut(n))
             .zip(jacobians.chunks_exact_mut(m * n * columns));
         for (i, ((r, jump), jacobians)) in run.zip(residuals) {
             let interval = self.interval([m, n], i);
-            r.fill(f64::NAN);
-            jacobians.fill(f64::NAN);
+            if !is_vectorised {
+                r.fill(f64::NAN);
+                jacobians.fill(f64::NAN);
+            }
             let written = r
                 .chunks_exact_mut(n)
                 .zip(jacobians.chunks_exact_mut(n * columns));
             for (j, (f, jacobian)) in written.enumerate() {
                 let s = interval.place(c[j]);
-                interval.state(&a[j * m..][..m], y);
-                self.equations
-                    .rhs_jacobian(self.index, s, y, self.p, f, jacobian);
+                if !is_vectorised {
+                    interval.state(&a[j * m..][..m], y);
+                    self.equations
+                        .rhs_jacobian(self.index, s, y, self.p, f, jacobian);
+                }
                 interval.stage_residual(j, f, self.index, s)?;
             }
             if let Some(row) = non_finite_row(jacobians, columns) {

@@ -22,13 +22,19 @@ impl Collocation<'_> {
             let (f, jacobian) = rest.split_at_mut(n);
             let jacobian = &mut jacobian[..size];
             let known = self.stages[index].jacobians();
+            let at_once = self.jacobians_at_once(index, middle, x);
             let intervals = known.chunks_exact(t.stages * size).enumerate();
             for (pair, (i, known)) in self.mesh[index].windows(2).zip(intervals) {
-                let interval = Interval::new(&x.segments[index], [t.stages, n], i, pair);
-                interval.stage_state(t, middle, &mut y[..n]);
-                let s = interval.place(t.c[middle]);
-                self.equations
-                    .rhs_jacobian(index, s, &y[..n], &x.p, &mut f[..n], jacobian);
+                match &at_once {
+                    Some(all) => jacobian.copy_from_slice(&all[i * size..][..size]),
+                    None => {
+                        let interval = Interval::new(&x.segments[index], [t.stages, n], i, pair);
+                        interval.stage_state(t, middle, &mut y[..n]);
+                        let s = interval.place(t.c[middle]);
+                        self.equations
+                            .rhs_jacobian(index, s, &y[..n], &x.p, &mut f[..n], jacobian);
+                    }
+                }
                 stats.jacobian_evaluations += 1;
                 if !are_equal(jacobian, &known[middle * size..][..size], n + k) {
                     return false;
@@ -45,6 +51,27 @@ impl Collocation<'_> {
         self.equations
             .conditions_jacobian(at, &x.p, &mut residuals, &mut jacobian);
         are_equal(&jacobian, &self.conditions_jacobian, 2 * states + k)
+    }
+
+    /// The Jacobians at one stage of every interval of a segment, if they take one call.
+    fn jacobians_at_once(&self, index: usize, stage: usize, x: &Iterate) -> Option<Vec<f64>> {
+        if !self.equations.is_vectorised() {
+            return None;
+        }
+        let (t, n) = (&*self.tableau, self.equations.segments()[index].states);
+        let pairs = self.mesh[index].windows(2);
+        let mut places = Vec::with_capacity(pairs.len());
+        let mut states = vec![0.0; pairs.len() * n];
+        for (i, (pair, y)) in pairs.zip(states.chunks_exact_mut(n)).enumerate() {
+            let interval = Interval::new(&x.segments[index], [t.stages, n], i, pair);
+            interval.stage_state(t, stage, y);
+            places.push(interval.place(t.c[stage]));
+        }
+        let mut rhs = vec![0.0; states.len()];
+        let mut jacobians = vec![0.0; states.len() * (n + x.p.len())];
+        self.equations
+            .rhs_jacobian_at(index, &places, &states, &x.p, &mut rhs, &mut jacobians);
+        Some(jacobians)
     }
 }
 

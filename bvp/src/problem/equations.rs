@@ -54,6 +54,41 @@ pub trait Equations: Sync {
         jacobian: &mut [f64],
     );
 
+    /// Whether the solver shall evaluate many points in one call where it knows them before: where a call costs more than
+    /// what is done in it, as one of an interpreter does. By default it does not, which saves the room for the points.
+    fn is_vectorised(&self) -> bool {
+        false
+    }
+
+    /// The right-hand side at many points of a segment: `s` has a number, `y` and `dy` have n numbers for each, one point
+    /// after the other. By default the points are evaluated one by one.
+    fn evaluate_rhs_at(&self, segment: usize, s: &[f64], y: &[f64], p: &[f64], dy: &mut [f64]) {
+        let n = (y.len() / s.len().max(1)).max(1);
+        let points = y.chunks_exact(n).zip(dy.chunks_exact_mut(n));
+        for (&s, (y, dy)) in s.iter().zip(points) {
+            self.evaluate_rhs(segment, s, y, p, dy);
+        }
+    }
+
+    /// The right-hand side and its derivatives at many points of a segment, as for
+    /// [`evaluate_rhs_at`](Self::evaluate_rhs_at): `jacobians` has n × (n + k) numbers for each.
+    fn rhs_jacobian_at(
+        &self,
+        segment: usize,
+        s: &[f64],
+        y: &[f64],
+        p: &[f64],
+        dy: &mut [f64],
+        jacobians: &mut [f64],
+    ) {
+        let n = (y.len() / s.len().max(1)).max(1);
+        let points = y.chunks_exact(n).zip(dy.chunks_exact_mut(n));
+        let jacobians = jacobians.chunks_exact_mut(n * (n + p.len()));
+        for (&s, ((y, dy), jacobian)) in s.iter().zip(points.zip(jacobians)) {
+            self.rhs_jacobian(segment, s, y, p, dy, jacobian);
+        }
+    }
+
     /// `r` = g(ends, p), one number per condition.
     fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]);
 

@@ -211,6 +211,31 @@ impl Equations for Held<'_> {
         }
     }
 
+    /// In pieces and in units the points are evaluated one by one.
+    fn is_vectorised(&self) -> bool {
+        self.as_stated.is_some_and(Equations::is_vectorised)
+    }
+
+    fn evaluate_rhs_at(&self, piece: usize, t: &[f64], y: &[f64], p: &[f64], dy: &mut [f64]) {
+        if let Some(equations) = self.as_stated {
+            equations.evaluate_rhs_at(piece, t, y, p, dy);
+        }
+    }
+
+    fn rhs_jacobian_at(
+        &self,
+        piece: usize,
+        t: &[f64],
+        y: &[f64],
+        p: &[f64],
+        dy: &mut [f64],
+        jacobians: &mut [f64],
+    ) {
+        if let Some(equations) = self.as_stated {
+            equations.rhs_jacobian_at(piece, t, y, p, dy, jacobians);
+        }
+    }
+
     fn evaluate_conditions(&self, at: Ends<'_, f64>, p: &[f64], r: &mut [f64]) {
         let (own, rest) = r.split_at_mut(self.own);
         let (continuity, held) = rest.split_at_mut(self.pieces.continuity());
