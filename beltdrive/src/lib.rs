@@ -129,6 +129,7 @@ pub use answers::design::{
 pub use answers::drive::{limit_curve, limits, solve, solve_from, stability, trace};
 pub use answers::losses::Losses;
 pub use answers::map::{MapAxis, MapState, OperatingMap, map};
+pub use answers::rating::{RatedLoad, Rating, RatingEnd, RatingQuestion, RatingStretch, rating};
 pub use answers::simulate::simulate;
 pub use answers::sweep::{
     Grid, LatinHypercube, Sweep, SweepError, SweepQuestion, SweepRow, SweepSummary, SweepTable,
@@ -152,6 +153,7 @@ pub use results::branch::{
 };
 pub use results::error::{LoadedState, SolveError, SolveOptions};
 pub use results::impossible::Impossible;
+pub use results::largest_load::LoadEnd;
 pub use results::limit_curve::{LimitCurve, LimitCurvePoint};
 pub use results::limits::{Limit, LimitReason, Limits, RangeEnd};
 pub use results::measured::Measured;

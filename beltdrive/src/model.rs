@@ -3,6 +3,7 @@
 
 use crate::belt_loop::LoopState;
 use crate::input::Key;
+use crate::results::largest_load::LargestLoad;
 use crate::results::loop_state::RestState;
 use crate::{
     BeltKind, Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, StateSummary,
@@ -96,6 +97,17 @@ pub(crate) trait Model {
         options: &SolveOptions,
     ) -> Result<(LoopState, Neighbour), SolveError>;
 
+    /// The factor on all torques, expected to be about `expected`, up to which the loop has a steady state at its
+    /// closure; fast from that at another speed of the driver, with what the next one is found from. Pulleys have
+    /// torques, not powers.
+    fn largest_load(
+        &self,
+        belt_loop: &Drive,
+        near: Option<&NearLargest>,
+        expected: f64,
+        options: &SolveOptions,
+    ) -> Result<(LargestLoad, NearLargest), SolveError>;
+
     /// As [`crate::belt_loop::solve_with_margins`].
     fn solve_with_margins(
         &self,
@@ -111,6 +123,15 @@ pub(crate) enum Neighbour {
     Flat,
     /// The solution.
     V(Box<vbelt::belt_loop::LoopNeighbour>),
+}
+
+/// What the largest load at another speed is found from.
+#[derive(Clone, Debug)]
+pub(crate) enum NearLargest {
+    /// In closed form there is nothing to begin with.
+    Flat,
+    /// A state below it.
+    V(Box<vbelt::belt_loop::NearLargestLoad>),
 }
 
 /// The model of a kind of belt.

@@ -149,6 +149,29 @@ fn the_margin_is_that_of_torques_however_the_load_is_stated() {
     }
 }
 
+/// Near lift-off a driver that slips grossly slows the belt, centrifugal force falls, and there are states up to a
+/// hundred times the load. The margin is that to the load at which the driver slips by a twentieth.
+#[test]
+fn near_lift_off_the_margin_is_that_to_gross_slip() {
+    let at = |torque: f64| {
+        let torque = format!("load.torque={torque} N*m");
+        let overrides = ["pulleys.driver.speed=11000 rpm", "load.power=", &torque];
+        checked("v-power", &overrides, 1e-6)
+    };
+    let margin =
+        |checked: &CheckedService| match checked.cases[0].outcome.as_ref().unwrap().slip_margin {
+            SlipMargin::Factor(found) => found.value,
+            other => panic!("{other:?}"),
+        };
+    let base = margin(&at(1.75));
+    assert!((30.0..40.0).contains(&base), "{base}");
+    // The same load from another one, and from beyond it.
+    for share in [0.5, 0.9, 1.1] {
+        let found = share * margin(&at(1.75 * share * base));
+        assert!((found - 1.0).abs() < 1e-3, "{share}: {found}");
+    }
+}
+
 #[test]
 fn a_case_without_a_state_fails_and_the_others_are_judged() {
     let too_much = "case.idle.pulley.steering.power=300 kW";

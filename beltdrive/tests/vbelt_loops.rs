@@ -4,6 +4,7 @@
 mod random_numbers;
 
 use beltdrive::belt_loop::{LoopState, solve, solve_to, solve_with_margins};
+use beltdrive::quantity::two_pulleys::as_drive;
 use beltdrive::{
     Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, Pulley, Sense, Side,
     SolveError, SolveOptions, Tensioner, TensionerLoad, VBelt, Warning, ZoneKind, examples, input,
@@ -102,6 +103,41 @@ fn two_pulleys_are_the_drive_with_two_pulleys() {
             let deepest = groove.max_penetration / known.max_penetration;
             assert!((deepest - 1.0).abs() < 1e-3, "{name} {deepest}");
         }
+    }
+}
+
+/// The displacement of scalar EPP friction in a groove grows from the slack tension as the closure states it: the speed
+/// of a drive that is closed by the length of its belt was once shown with two values, 1.6 and 7 % below the pitch circles'.
+#[test]
+fn a_loop_of_two_pulleys_is_shown_as_the_drive_that_it_is() {
+    let options = SolveOptions { tolerance: 1e-6 };
+    let base = as_loop(&thesis("epp", 700.0), 130.0);
+    let closures = [
+        Closure::UnstretchedLength(4.322),
+        Closure::SpanTension {
+            span: 0,
+            tension: 195.0,
+        },
+        base.closure,
+    ];
+    for closure in closures {
+        let drive = Drive {
+            closure,
+            ..base.clone()
+        };
+        let state = solve_with_margins(&drive, &options).unwrap();
+        let shown = as_drive(&drive, &state).unwrap();
+        let shown = beltdrive::solve(&shown, &options).unwrap();
+        let name = format!("{closure:?}");
+        let driven = &state.pulleys[1];
+        close(
+            &name,
+            shown.driven.angular_speed,
+            driven.angular_speed,
+            1e-6,
+        );
+        close(&name, shown.belt_length, state.unstretched_length, 1e-6);
+        close(&name, shown.driven.torque, driven.torque, 1e-6);
     }
 }
 

@@ -4,7 +4,7 @@ use super::belt_loop::{closed_once, solve_to};
 use crate::belt_loop::LoopState;
 use crate::input::{Diagnostic, DriveFile, FileKey};
 use crate::quantity::Measure;
-use crate::{BeltKind, Drive, Duty, SolveError, SolveOptions};
+use crate::{BeltKind, Drive, SolveError, SolveOptions};
 use std::fmt;
 
 /// What varies.
@@ -138,7 +138,7 @@ impl<'f> Members<'f> {
             return Ok(drive);
         };
         let mut drive = closed_once(&drive, self.options)?.into_owned();
-        load(&mut drive, value);
+        drive.multiply_load(value);
         Ok(drive)
     }
 
@@ -185,15 +185,6 @@ impl<'f> Members<'f> {
         match self.varied {
             Varied::Key(key) => self.file.value(key).unwrap_or(f64::NAN),
             Varied::LoadFactor => 1.0,
-        }
-    }
-}
-
-/// Multiplies the torques and powers of all pulleys.
-pub(super) fn load(drive: &mut Drive, factor: f64) {
-    for pulley in &mut drive.pulleys {
-        if let Duty::Torque(load) | Duty::Power(load) = &mut pulley.duty {
-            *load *= factor;
         }
     }
 }

@@ -270,7 +270,7 @@ fn loaded(drive: &Drive, options: &SolveOptions) -> Result<Drive, SolveError> {
 }
 
 /// Whether no pulley has a torque.
-fn is_idle(drive: &Drive) -> bool {
+pub(super) fn is_idle(drive: &Drive) -> bool {
     let mut pulleys = drive.pulleys.iter();
     pulleys.all(|pulley| pulley.duty.torque_at(1.0) == 0.0)
 }
@@ -285,7 +285,7 @@ fn with_friction(drive: &Drive, factor: f64) -> Drive {
 }
 
 /// The drive with a belt of an unstretched length, near a coordinate of its tensioner.
-fn with_length(drive: &Drive, length: f64, coordinate: f64) -> Drive {
+pub(super) fn with_length(drive: &Drive, length: f64, coordinate: f64) -> Drive {
     let mut drive = drive.clone();
     drive.closure = Closure::UnstretchedLength(length);
     for pulley in &mut drive.pulleys {

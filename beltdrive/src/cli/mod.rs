@@ -16,6 +16,7 @@ mod output;
 mod parameter;
 mod parquet;
 mod progress;
+mod rating;
 mod read;
 mod report;
 mod samples;
@@ -60,6 +61,8 @@ enum Command {
     Report(report::Report),
     /// Find the smallest setup tension at which a drive holds in all load cases
     Tension(tension::Tension),
+    /// Find the largest torque and power against speed, with the reason of every limit
+    Rating(rating::Rating),
     /// Trace the branch of steady states over one entry of the drive file
     Trace(trace::Trace),
     /// Find the smallest and the largest load that a drive carries, and why the range ends there
@@ -93,6 +96,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Check(command) => command.run(),
         Command::Report(command) => command.run(),
         Command::Tension(command) => command.run(),
+        Command::Rating(command) => command.run(),
         Command::Trace(command) => command.run(),
         Command::Limits(command) => command.run(),
         Command::Map(command) => command.run(),

@@ -66,6 +66,15 @@ impl Drive {
         }
     }
 
+    /// Multiplies the torques and powers of all pulleys.
+    pub(crate) fn multiply_load(&mut self, factor: f64) {
+        for pulley in &mut self.pulleys {
+            if let Duty::Torque(load) | Duty::Power(load) = &mut pulley.duty {
+                *load *= factor;
+            }
+        }
+    }
+
     /// Whether its belt is at rest as that of another drive, as far as the statement says: they differ in speeds, torques
     /// and powers alone.
     pub(crate) fn is_at_rest_as(&self, other: &Self) -> bool {
@@ -111,6 +120,19 @@ impl Drive {
         let mut pulleys = self.pulleys.iter();
         let driver = pulleys.position(|pulley| matches!(pulley.duty, Duty::Driver(_)));
         driver.unwrap_or(0)
+    }
+
+    /// Angular speed of the driver, rad/s.
+    pub(crate) fn driver_speed(&self) -> f64 {
+        match self.pulleys[self.driver()].duty {
+            Duty::Driver(speed) => speed,
+            Duty::Torque(_) | Duty::Power(_) | Duty::Driven => 0.0,
+        }
+    }
+
+    /// Radius of the driver, m.
+    pub(crate) fn driver_radius(&self) -> f64 {
+        self.pulleys[self.driver()].radius
     }
 
     /// Circumferential speed R ω of the driver, m/s.

@@ -2,7 +2,8 @@
 
 use crate::belt_loop::LoopState;
 use crate::input::Key;
-use crate::model::{Model, Neighbour, Progress};
+use crate::model::{Model, NearLargest, Neighbour, Progress};
+use crate::results::largest_load::LargestLoad;
 use crate::results::loop_state::RestState;
 use crate::{
     Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, StateSummary,
@@ -93,6 +94,17 @@ impl Model for FlatBelts {
     ) -> Result<(LoopState, Neighbour), SolveError> {
         let state = super::belt_loop::solve(drive)?;
         Ok((state, Neighbour::Flat))
+    }
+
+    fn largest_load(
+        &self,
+        drive: &Drive,
+        _: Option<&NearLargest>,
+        _: f64,
+        _: &SolveOptions,
+    ) -> Result<(LargestLoad, NearLargest), SolveError> {
+        let found = super::belt_loop::largest_load(drive)?;
+        Ok((found, NearLargest::Flat))
     }
 
     fn solve_with_margins(

@@ -9,6 +9,7 @@ mod numbers;
 mod occupied;
 mod panel;
 mod profiles;
+mod rating;
 mod residuals;
 mod rows;
 mod sheet;
@@ -19,7 +20,7 @@ mod zones;
 
 use crate::quantity::Answer;
 use crate::report::write_file;
-use crate::{Calibration, OperatingMap, Stability};
+use crate::{Calibration, OperatingMap, Rating, Stability};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -159,6 +160,20 @@ pub fn write_map(
 ) -> Result<Vec<PathBuf>, Error> {
     let figure = contours::figure(map);
     write(std::iter::once(("map.svg", figure)), directory, metadata)
+}
+
+/// Writes `rating.svg`, the largest torque and power of a drive against speed with the reasons of the limit, into a
+/// directory, as [`write_state`] does.
+///
+/// # Errors
+/// As [`write_state`].
+pub fn write_rating(
+    rating: &Rating,
+    directory: &Path,
+    metadata: Option<&str>,
+) -> Result<Vec<PathBuf>, Error> {
+    let figure = rating::figure(rating);
+    write(std::iter::once(("rating.svg", figure)), directory, metadata)
 }
 
 fn write<N: AsRef<Path>>(

@@ -5,7 +5,9 @@ use super::scale::{HUB_LOAD, Scale};
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value, warning, words};
 use crate::belt_loop as loops;
 use crate::input::Key;
-use crate::{BeltKind, Drive, Duty, Load, PulleyState, SpanTension, SteadyState};
+use crate::{
+    BeltKind, Closure, Drive, Duty, FrictionLaw, Load, PulleyState, SpanTension, SteadyState,
+};
 use std::f64::consts::PI;
 
 /// The groups `pulleys`, `spans` and `loop` of a steady state. That of a flat belt is solved again as a loop,
@@ -84,13 +86,23 @@ pub fn as_drive(drive: &Drive, state: &loops::LoopState) -> Option<Drive> {
         return None;
     };
     let driver = drive.driver();
-    let [slack, tight] = [driver, 1 - driver].map(|span| state.spans[span].tractive_tension);
-    let mut drive = drive.with_load(Load {
-        slack: SpanTension::Tractive(slack),
-        tight: SpanTension::Tractive(tight),
+    let spans = [driver, 1 - driver].map(|span| &state.spans[span]);
+    // In a groove the displacement of scalar EPP friction grows from the slack tension as it is stated.
+    let is_tractive = match (drive.law, drive.belt.kind, drive.closure) {
+        (FrictionLaw::Epp { .. }, BeltKind::V(_), closure) => {
+            matches!(closure, Closure::SpanTractiveTension { .. })
+        }
+        _ => true,
+    };
+    let [slack, tight] = spans.map(|span| match is_tractive {
+        true => SpanTension::Tractive(span.tractive_tension),
+        false => SpanTension::Belt(span.tension),
     });
+    let mut drive = drive.with_load(Load { slack, tight });
     drive.pulleys[1 - driver].duty = Duty::Driven;
-    drive.two_pulleys().filter(|_| slack <= tight)?;
+    drive
+        .two_pulleys()
+        .filter(|_| slack.value() <= tight.value())?;
     Some(drive)
 }
 

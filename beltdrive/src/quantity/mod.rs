@@ -19,6 +19,7 @@ pub mod map;
 mod measure;
 mod parameter;
 pub(crate) mod precision;
+pub mod rating;
 mod scalars;
 mod scale;
 pub mod section;

@@ -286,7 +286,8 @@ pub struct TensionerState {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LoadLimit {
-    /// Factor on all torques at which the first pulley slips grossly; above 1.
+    /// Factor on all torques at which the first pulley slips grossly; below 1 where one does already, which near lift-off
+    /// V-belts go on with.
     pub factor: f64,
     /// The index of that pulley.
     pub pulley: usize,

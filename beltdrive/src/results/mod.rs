@@ -4,6 +4,7 @@ pub(crate) mod branch;
 pub(crate) mod difficulty;
 pub(crate) mod error;
 pub(crate) mod impossible;
+pub(crate) mod largest_load;
 pub(crate) mod limit_curve;
 pub(crate) mod limits;
 pub(crate) mod loop_state;

@@ -2,7 +2,8 @@
 
 use crate::belt_loop::LoopState;
 use crate::input::Key;
-use crate::model::{Model, Neighbour, Progress};
+use crate::model::{Model, NearLargest, Neighbour, Progress};
+use crate::results::largest_load::LargestLoad;
 use crate::results::loop_state::RestState;
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
 
@@ -86,6 +87,22 @@ impl Model for VBelts {
         });
         let (state, near) = super::belt_loop::solve_from(drive, near, options.tolerance)?;
         Ok((state, Neighbour::V(Box::new(near))))
+    }
+
+    fn largest_load(
+        &self,
+        drive: &Drive,
+        near: Option<&NearLargest>,
+        expected: f64,
+        options: &SolveOptions,
+    ) -> Result<(LargestLoad, NearLargest), SolveError> {
+        let near = near.and_then(|near| match near {
+            NearLargest::V(near) => Some(&**near),
+            NearLargest::Flat => None,
+        });
+        let (found, near) =
+            super::belt_loop::largest_load(drive, near, expected, options.tolerance)?;
+        Ok((found, NearLargest::V(Box::new(near))))
     }
 
     fn solve_with_margins(

@@ -1,6 +1,5 @@
 //! The largest load on a line of a map, beyond which no state is sought.
 
-use crate::answers::members::load;
 use crate::vbelt::belt_loop::Top;
 use crate::{Closure, Drive, SolveError};
 
@@ -31,11 +30,12 @@ impl Limit {
             return None;
         }
         let mut of = stated.clone();
-        load(&mut of, *factor);
+        of.multiply_load(*factor);
         let top = Top {
             factor: *load_factor,
             pulley: of.pulleys.iter().position(|of| of.name == *pulley)?,
             overhangs: *overhangs,
+            is_last: true,
         };
         Some(Self { of, top })
     }
@@ -53,7 +53,7 @@ pub(super) fn beyond(
     }
     let Limit { of, top } = limit?;
     let mut closed = stated.clone();
-    load(&mut closed, *factor);
+    closed.multiply_load(*factor);
     let load_factor = top.factor / closed.load_factor_over(of)?;
     (load_factor * (1.0 + BEYOND) < 1.0).then(|| SolveError::Overloaded {
         pulley: stated.pulleys[top.pulley].name.clone(),

@@ -4,7 +4,7 @@ use super::MapState;
 use super::limit::{Limit, beyond};
 use crate::answers::belt_loop::closed_once;
 use crate::answers::check::{OnPulley, SlipMargin, case_state};
-use crate::answers::members::{Refusal, Varied, load};
+use crate::answers::members::{Refusal, Varied};
 use crate::belt_loop::LoopState;
 use crate::input::{Diagnostic, DriveFile, Variants};
 use crate::model::{Neighbour, model};
@@ -112,7 +112,7 @@ impl<'f> Family<'f> {
             None => (closed_once(&stated, options)?.into_owned(), None),
         };
         if factor != 1.0 {
-            load(&mut closed, factor);
+            closed.multiply_load(factor);
         }
         let neighbour = near.map(|near| &near.neighbour);
         let model = model(closed.belt.kind);

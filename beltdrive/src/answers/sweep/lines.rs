@@ -6,7 +6,7 @@ use crate::answers::check::check;
 use crate::answers::drive::summary;
 use crate::answers::limits;
 use crate::answers::map::line::Family;
-use crate::answers::members::{Refusal, Varied, load};
+use crate::answers::members::{Refusal, Varied};
 use crate::input::{DriveFile, Key};
 use crate::{Drive, SolveError, SteadyState};
 
@@ -99,7 +99,7 @@ impl Sweep {
         for (_, &factor) in pairs.filter(|(varied, _)| **varied == Varied::LoadFactor) {
             for case in &mut service.cases {
                 case.drive = closed_once(&case.drive, &self.options)?.into_owned();
-                load(&mut case.drive, factor);
+                case.drive.multiply_load(factor);
             }
         }
         let checked = check(&service, &self.options, &mut |_, _| {})?;

@@ -4,6 +4,7 @@ mod checks;
 mod closing;
 mod elongation;
 mod equations;
+mod largest_load;
 mod limit;
 mod loads;
 mod problem;
@@ -12,5 +13,6 @@ mod results;
 mod running;
 mod solve;
 
+pub(crate) use largest_load::largest_load;
 pub(crate) use rest::at_rest;
-pub(crate) use solve::solve;
+pub(crate) use solve::{solve, unloaded_tension};

@@ -45,27 +45,13 @@ impl Problem<'_> {
     /// Coordinate of the tensioner in the running loop without torques, whose tension is uniform, and the belt
     /// there; an error if the belt lifts off.
     pub(super) fn unloaded(&self) -> Result<(f64, Layout), SolveError> {
-        let belt = self.drive.belt;
-        let rim = self.rim;
-        let tractive = |layout: &Layout| {
-            let strain = match self.target {
-                Target::Unstretched { length, elongation } => {
-                    let elongation = layout.length() - length + elongation;
-                    elongation / (layout.length() - elongation)
-                }
-                Target::Tension { tension, .. } => tension / belt.axial_stiffness,
-                Target::TractiveTension { tension, .. } => return tension,
-            };
-            let flow = belt.mass_per_length * rim / (1.0 + strain);
-            belt.axial_stiffness * strain - flow * rim
-        };
         let presses = |layout: &Layout| {
-            let tractive_tension = tractive(layout);
+            let tractive_tension = self.unloaded_tension(layout);
             match tractive_tension > 0.0 {
                 true => Ok(()),
                 false => Err(SolveError::LiftsOff {
                     tractive_tension,
-                    speed: rim,
+                    speed: self.rim,
                     is_loaded: false,
                 }),
             }
@@ -75,12 +61,27 @@ impl Problem<'_> {
             self.start.clone(),
             self.towards,
             "without load",
-            |layout| Ok([tractive(layout), self.tension_per_length()]),
+            |layout| Ok([self.unloaded_tension(layout), self.tension_per_length()]),
         );
         match found {
             Ok(found) => presses(&found.1).map(|()| found),
             Err(error) => Err(presses(&self.start.1).err().unwrap_or(error)),
         }
+    }
+
+    /// Tractive tension of the belt without torques in a layout, N.
+    pub(super) fn unloaded_tension(&self, layout: &Layout) -> f64 {
+        let (belt, rim) = (self.drive.belt, self.rim);
+        let strain = match self.target {
+            Target::Unstretched { length, elongation } => {
+                let elongation = layout.length() - length + elongation;
+                elongation / (layout.length() - elongation)
+            }
+            Target::Tension { tension, .. } => tension / belt.axial_stiffness,
+            Target::TractiveTension { tension, .. } => return tension,
+        };
+        let flow = belt.mass_per_length * rim / (1.0 + strain);
+        belt.axial_stiffness * strain - flow * rim
     }
 
     /// The loop under its torques multiplied by a factor; sought from a neighbouring state, if there is one.

@@ -5,7 +5,7 @@ use super::closing::Target;
 use super::limit::{judged, largest, load_limit, slips};
 use super::loads::Loads;
 use super::problem::{Loaded, Problem};
-use super::rest::rest_of_closure;
+use super::rest::{Rest, rest_of_closure};
 use super::results::{Found, state};
 use super::running::RunningBelt;
 use crate::mechanics::tensioner::{Towards, within_travel};
@@ -76,9 +76,29 @@ pub(crate) fn solve(drive: &Drive) -> Result<LoopState, SolveError> {
     })
 }
 
-/// The steady state of a belt loop with given torques; the final one has its load factor limit and its
-/// checks.
-fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopState, SolveError> {
+/// Tractive tension of a loop without torques, N; not positive where the belt lifts off.
+///
+/// # Errors
+/// As [`solve`], but for lift-off.
+pub(crate) fn unloaded_tension(drive: &Drive) -> Result<f64, SolveError> {
+    let (_, problem) = stated(drive, &vec![0.0; drive.pulleys.len()])?;
+    match problem.unloaded() {
+        Ok((coordinate, layout)) => {
+            within_travel(drive, coordinate)?;
+            Ok(problem.unloaded_tension(&layout))
+        }
+        Err(SolveError::LiftsOff {
+            tractive_tension, ..
+        }) => Ok(tractive_tension),
+        Err(error) => Err(error),
+    }
+}
+
+/// A loop with given torques, and its state at rest where that closes it.
+fn stated<'d>(
+    drive: &'d Drive,
+    torques: &[f64],
+) -> Result<(Option<Rest>, Problem<'d>), SolveError> {
     let start = drive.start_coordinate();
     let layout = drive.layout(start)?;
     let (rest, target) = match drive.closure {
@@ -94,7 +114,7 @@ fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopSt
             (Some(rest), Target::Unstretched { length, elongation })
         }
     };
-    let mut problem = Problem {
+    let problem = Problem {
         drive,
         loads: Loads::new(drive, torques),
         target,
@@ -112,6 +132,13 @@ fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopSt
             None => Towards::Newton,
         },
     };
+    Ok((rest, problem))
+}
+
+/// The steady state of a belt loop with given torques; the final one has its load factor limit and its
+/// checks.
+fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopState, SolveError> {
+    let (rest, mut problem) = stated(drive, torques)?;
     problem.start = problem.unloaded()?;
     let rigid = problem.loaded(1.0, FrictionLaw::Coulomb, None)?;
     let rest = match rest {

@@ -6,6 +6,7 @@ use super::super::path::{Effort, Solved};
 use super::levelling::Levelling;
 use super::problem::LoopProblem;
 use super::rising::Rising;
+use super::slipping::Slipping;
 use super::solve::Search;
 use super::unknowns::FLOW;
 use crate::SolveError;
@@ -29,7 +30,7 @@ const STEPS: usize = 300;
 
 /// ε of Coulomb friction with which a limit is found once more, from the last state below it: friction is too small by
 /// about ε²/2 of the slip squared. With 10⁻³, the largest load of a small pulley was 3 % too low.
-const SHARPER: f64 = 1e-4;
+pub(super) const SHARPER: f64 = 1e-4;
 
 /// Largest load factor that is tried: beyond it the torques are but rounding errors of the driver's.
 const LARGEST_FACTOR: f64 = 1e9;
@@ -38,10 +39,19 @@ const LARGEST_FACTOR: f64 = 1e9;
 pub(super) enum Climbed {
     /// At the load that was asked for.
     Reached(Box<Solved<LoopProblem>>),
-    /// At the largest load, and the last state on the way with an ε that is worth a smaller one, if there is one.
-    Limit(Top, Option<Box<Solved<LoopProblem>>>),
+    /// At the largest load.
+    Limit(Box<Limit>),
     /// It was not followed farther than to this factor.
     Lost { reached: f64, cause: &'static str },
+}
+
+/// The end of a climb at the largest load.
+pub(super) struct Limit {
+    pub(super) top: Top,
+    /// The last state, at the largest load but for a share of it that is not shown.
+    pub(super) at: Solved<LoopProblem>,
+    /// The states on the way, in order.
+    pub(super) below: Vec<Solved<LoopProblem>>,
 }
 
 /// The largest load of a loop.
@@ -53,6 +63,8 @@ pub(crate) struct Top {
     pub(crate) pulley: usize,
     /// Whether the belt overhangs itself there instead of slipping.
     pub(crate) overhangs: bool,
+    /// Whether there is no state under more load, or else a pulley that slips ever more.
+    pub(crate) is_last: bool,
 }
 
 /// Relative accuracy of a limit, if states are solved to this tolerance.
@@ -61,8 +73,8 @@ pub(crate) fn limit_accuracy(tolerance: f64) -> f64 {
 }
 
 impl Search<'_> {
-    /// How far all torques of a state can be raised, found by raising them from a rough solution of it; `None` if that
-    /// is not at all, or farther than anything that was tried.
+    /// How far all torques of a state can be raised until a pulley slips grossly, found by raising them from a rough
+    /// solution of it; `None` if that is not at all, or farther than anything that was tried.
     pub(super) fn load_limit(
         &mut self,
         state: &Solved<LoopProblem>,
@@ -74,10 +86,11 @@ impl Search<'_> {
         }
         let problem = rough.problem.with_torques(state.solution.parameters());
         let (mut here, mut to) = (Solved { problem, ..rough }, 2.0);
+        let mut slipping = Some(Slipping::default());
         while to < LARGEST_FACTOR {
-            match self.climb(&here, to) {
+            match self.climb(&here, to, &mut slipping) {
                 Climbed::Reached(solved) => here = *solved,
-                Climbed::Limit(top, _) => return Ok(Some(top)),
+                Climbed::Limit(limit) => return Ok(Some(limit.top)),
                 Climbed::Lost { reached, cause } => {
                     return Err(SolveError::Unreached { reached, cause });
                 }
@@ -88,13 +101,28 @@ impl Search<'_> {
     }
 
     /// Raises the load from a state to a factor on all torques, above that of the state; near the largest load with a
-    /// smaller ε, if the direction of friction is normalised.
-    pub(super) fn climb(&mut self, from: &Solved<LoopProblem>, to: f64) -> Climbed {
-        match self.climb_as_it_is(from, to) {
-            Climbed::Limit(blunt, Some(below)) => {
-                let sharper = self.smooth_less(*below, SHARPER, Effort::Rough);
-                match sharper.map(|sharper| self.climb_as_it_is(&sharper, to)) {
-                    Err(_) | Ok(Climbed::Lost { .. }) => Climbed::Limit(blunt, None),
+    /// smaller ε, if the direction of friction is normalised. With what is known of the curve before, it ends where a
+    /// pulley begins to slip grossly if no limit point comes, else nowhere before a limit point.
+    pub(super) fn climb(
+        &mut self,
+        from: &Solved<LoopProblem>,
+        to: f64,
+        slipping: &mut Option<Slipping>,
+    ) -> Climbed {
+        match self.climb_as_it_is(from, to, slipping) {
+            Climbed::Limit(mut blunt) if blunt.top.is_last => {
+                let last = blunt.below.last();
+                let Some(last) = last.filter(|last| last.problem.smoothing() > SHARPER) else {
+                    return Climbed::Limit(blunt);
+                };
+                let sharper = self.smooth_less(last.clone(), SHARPER, Effort::Rough);
+                match sharper.map(|sharper| self.climb_as_it_is(&sharper, to, slipping)) {
+                    Err(_) | Ok(Climbed::Lost { .. }) => Climbed::Limit(blunt),
+                    Ok(Climbed::Limit(mut sharp)) => {
+                        blunt.below.append(&mut sharp.below);
+                        sharp.below = blunt.below;
+                        Climbed::Limit(sharp)
+                    }
                     Ok(climbed) => climbed,
                 }
             }
@@ -103,7 +131,12 @@ impl Search<'_> {
     }
 
     /// As [`Search::climb`], with the same ε.
-    fn climb_as_it_is(&mut self, from: &Solved<LoopProblem>, to: f64) -> Climbed {
+    fn climb_as_it_is(
+        &mut self,
+        from: &Solved<LoopProblem>,
+        to: f64,
+        slipping: &mut Option<Slipping>,
+    ) -> Climbed {
         let p = from.solution.parameters();
         let begin = from.problem.factor(p);
         let free = from.problem.clone().with_unknown_factor();
@@ -131,25 +164,30 @@ impl Search<'_> {
             branch = branch.event(move |_, point| point.z[point.z.len() - 1 - unknown + index]);
         }
         let (mut reached, mut levelling) = (begin, Levelling::default());
-        let is_blunt = free.smoothing() > SHARPER;
-        let mut below = None;
+        let mut below = Vec::new();
         while let Some(point) = branch.next() {
             let factor = point.lambda();
             let solution = || branch.system().solution(&point.z);
-            let top = |factor| {
-                let (problem, solution) = (free.clone(), solution());
-                top(&Solved { problem, solution }, &point, factor)
+            let here = || Solved {
+                problem: free.clone().with_factor(point.lambda()),
+                solution: solution(),
+            };
+            let limit = |factor, slips, below| {
+                let at = here();
+                let top = match slips {
+                    None => top(&at, &point, factor),
+                    Some(pulley) => Top {
+                        factor,
+                        pulley,
+                        overhangs: false,
+                        is_last: true,
+                    },
+                };
+                Climbed::Limit(Box::new(Limit { top, at, below }))
             };
             match point.kind {
-                Kind::LimitPoint => return Climbed::Limit(top(factor), below),
-                Kind::Event(index) => {
-                    let top = Top {
-                        factor,
-                        pulley: moving[index].0,
-                        overhangs: false,
-                    };
-                    return Climbed::Limit(top, below);
-                }
+                Kind::LimitPoint => return limit(factor, None, below),
+                Kind::Event(index) => return limit(factor, Some(moving[index].0), below),
                 Kind::Bound if factor == to => {
                     let solution = solution();
                     self.stats.newton_steps += solution.stats().newton_steps;
@@ -165,14 +203,16 @@ impl Search<'_> {
                 }
                 _ => {
                     if let Some(factor) = levelling.top(&point, factor) {
-                        return Climbed::Limit(top(factor), below);
+                        return limit(factor, None, below);
+                    }
+                    let here = here();
+                    if let Some(slipping) = slipping
+                        && slipping.has_slowed(&here)
+                    {
+                        return Climbed::Limit(Box::new(self.gross_slip(slipping, from)));
                     }
                     reached = factor;
-                    if is_blunt {
-                        let problem = free.clone().with_factor(factor);
-                        let solution = solution();
-                        below = Some(Box::new(Solved { problem, solution }));
-                    }
+                    below.push(here);
                 }
             }
         }
@@ -224,6 +264,7 @@ fn top(solved: &Solved<LoopProblem>, point: &Point, factor: f64) -> Top {
         factor,
         pulley: steep.unwrap_or(slips),
         overhangs: steep.is_some(),
+        is_last: true,
     }
 }
 

@@ -69,7 +69,7 @@ pub(super) fn tractive_tensions(
         (Target::Tractive { span, tension }, _, _) => tension - offsets[span],
         (Target::Length(_), None, _) => f64::NAN,
         (Target::Length(_), Some(rest), Some((idler, _))) => rest.tension - offsets[idler],
-        (Target::Length(_), Some(rest), None) => {
+        (Target::Length(length), Some(rest), None) => {
             let [mut by_tension, mut by_pressure, mut moment] = [0.0; 3];
             let grooves = groove_compliances(drive, layout);
             for (index, pulley) in drive.pulleys.iter().enumerate() {
@@ -83,7 +83,9 @@ pub(super) fn tractive_tensions(
                 by_pressure += sinking;
                 moment += span * offsets[index] + (arc + sinking) * mean;
             }
-            rest.tension - (moment + by_tension * centrifugal) / (by_tension + by_pressure)
+            // A belt that lifts off does not sink: its pitch line is where centrifugal force takes up all.
+            let unsunk = belt.axial_stiffness * (layout.length() - length) / length;
+            rest.tension * (1.0 - centrifugal / unsunk) - moment / (by_tension + by_pressure)
         }
     };
     offsets.iter().map(|offset| level + offset).collect()

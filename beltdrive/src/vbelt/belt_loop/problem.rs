@@ -109,6 +109,21 @@ impl LoopProblem {
         self
     }
 
+    /// The same loop under torques at another circumferential speed of the driver, m/s, in units with another force, N.
+    pub(super) fn at_speed(mut self, rim: f64, force: f64) -> Self {
+        let factor = force / self.units.force;
+        (self.units.speed, self.units.force) = (rim, force);
+        for seat in &mut self.seats {
+            seat.set_units(self.units, factor);
+        }
+        for load in &mut self.loads {
+            if let Load::Torque(torque) = load {
+                *torque /= factor;
+            }
+        }
+        self
+    }
+
     /// The same loop with torques in place of powers: those of its state with these parameters.
     pub(super) fn with_torques(mut self, p: &[f64]) -> Self {
         for pulley in 0..self.loads.len() {

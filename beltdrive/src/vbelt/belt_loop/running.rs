@@ -22,7 +22,7 @@ const SHARES: [f64; 6] = [0.5, 0.2, 0.05, 0.01, 1e-3, 0.0];
 /// Where the belt leaves a pulley more steeply than this, or a pulley loses more than this share of its
 /// speed, a state may lie beyond the largest load.
 const STEEP: f64 = 1.3;
-const SLOW: f64 = 0.5;
+pub(super) const SLOW: f64 = 0.5;
 
 /// A running loop.
 pub(super) struct Running<'l> {
@@ -145,17 +145,21 @@ pub(super) fn neighbouring<'s>(
 }
 
 /// Whether a belt between fixed centres presses on its pulleys without torques. Where it hardly presses
-/// it does not sink either: the tension of its pitch line decides.
-fn presses(search: &Search<'_>, target: Target, layout: &Layout) -> Result<(), SolveError> {
+/// it does not sink either: the tractive tension of its pitch line decides, in N, where it can be told.
+pub(super) fn presses(
+    search: &Search<'_>,
+    target: Target,
+    layout: &Layout,
+) -> Result<Option<f64>, SolveError> {
     let (Target::Length(length), None) = (target, search.drive.tensioner()) else {
-        return Ok(());
+        return Ok(None);
     };
     let (belt, rim) = (search.drive.belt, search.drive.rim_speed());
     let strain = (layout.length() - length) / length;
     let flow = belt.mass_per_length * rim / (1.0 + strain);
     let tractive_tension = belt.axial_stiffness * strain - flow * rim;
     match tractive_tension > 0.0 {
-        true => Ok(()),
+        true => Ok(Some(tractive_tension)),
         false => Err(SolveError::LiftsOff {
             tractive_tension,
             speed: rim,
@@ -169,19 +173,19 @@ fn raise(
     search: &mut Search<'_>,
     from: &Solved<LoopProblem>,
 ) -> Result<Solved<LoopProblem>, SolveError> {
-    match search.climb(from, 1.0) {
+    match search.climb(from, 1.0, &mut None) {
         Climbed::Reached(raised) => Ok(*raised),
-        Climbed::Limit(top, _) => Err(SolveError::Overloaded {
-            pulley: search.drive.pulleys[top.pulley].name.clone(),
-            load_factor: top.factor,
-            overhangs: top.overhangs,
+        Climbed::Limit(limit) => Err(SolveError::Overloaded {
+            pulley: search.drive.pulleys[limit.top.pulley].name.clone(),
+            load_factor: limit.top.factor,
+            overhangs: limit.top.overhangs,
         }),
         Climbed::Lost { reached, cause } => Err(SolveError::Unreached { reached, cause }),
     }
 }
 
 /// Whether the state may lie beyond the largest load.
-fn may_be_beyond(solved: &Solved<LoopProblem>) -> bool {
+pub(super) fn may_be_beyond(solved: &Solved<LoopProblem>) -> bool {
     let p = solved.solution.parameters();
     let ends = solved.round(|round| round.end_angles());
     let mut pulleys = 0..solved.problem.pulleys();
@@ -190,7 +194,7 @@ fn may_be_beyond(solved: &Solved<LoopProblem>) -> bool {
 }
 
 /// Whether the belt pulls in all spans, turns every pulley forwards and touches it.
-fn is_drive(solved: &Solved<LoopProblem>) -> bool {
+pub(super) fn is_drive(solved: &Solved<LoopProblem>) -> bool {
     let p = solved.solution.parameters();
     let Solved { problem, solution } = solved;
     p[FLOW] > 0.0

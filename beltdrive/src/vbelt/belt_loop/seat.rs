@@ -53,6 +53,21 @@ impl Seat {
         }
     }
 
+    /// Scales it by other units, whose force is a factor times the one before.
+    pub(super) fn set_units(&mut self, units: Units, factor: f64) {
+        match self {
+            Self::Groove(groove) => {
+                groove.strand = units.strand();
+                groove.radial_stiffness /= factor;
+            }
+            Self::Back(back) => back.strand = units.strand(),
+            Self::Idle => {}
+        }
+        if let Some(Law::Vector { stiffness, .. }) = self.law_mut() {
+            *stiffness /= factor;
+        }
+    }
+
     /// The friction law, where there is friction.
     pub(super) fn law_mut(&mut self) -> Option<&mut Law> {
         match self {

@@ -1,0 +1,301 @@
+//! The rating of a V-belt, whose limit is solved at some speeds.
+
+mod nodes;
+
+use super::range::{RatingEnd, Speeds};
+use super::{LOCATED, RatedLoad, Rating, at_lift_off, is_at_end, places};
+use crate::SolveError;
+use crate::answers::shares::each;
+use crate::mechanics::maximum;
+use crate::model::NearLargest;
+use crate::results::largest_load::LoadEnd;
+use nodes::{Node, Nodes};
+use std::f64::consts::PI;
+use std::sync::Mutex;
+
+/// Speeds at which the limit is solved at first, an odd number.
+const FIRST: usize = 5;
+
+/// Most rounds of further speeds.
+const ROUNDS: usize = 5;
+
+/// The polynomials are good enough once they predict further limits to this, relative: no friction is known better.
+const GOOD: f64 = 5e-4;
+
+/// How near to lift-off the limit is solved, as a share of the square of the speed there: nearer, where less than a fifth
+/// of the tension is left, states are so hard to find that one takes as long as all others.
+const NEAREST: f64 = 0.8;
+
+/// How near to lift-off it is looked whether a load is still the largest, as a share of the square of the speed there.
+const PROBED: f64 = 0.95;
+
+/// Where a speed is as near to a solved one as this, as a share of the range, another says little more.
+const SAME: f64 = 0.02;
+
+/// How nearly the last speed with a largest load is found, relative.
+const NEAR: f64 = 5e-3;
+
+/// A limit that was solved, and what others are found from.
+type Solved = (Node, NearLargest);
+
+/// Who is told of progress.
+type Told<'s> = &'s mut (dyn FnMut(f64, &str) + Send);
+
+/// The search for the limits.
+struct Fit<'s> {
+    speeds: &'s Speeds<'s>,
+    range: [f64; 2],
+    /// Whether the belt lifts off at the end of the range.
+    lifts_off: bool,
+    /// How many speeds were tried, and who is told.
+    done: Mutex<(f64, Told<'s>)>,
+    solved: Vec<Solved>,
+    /// The lowest speed at which no load is the largest, and the pulley that slips ever more.
+    ceiling: Option<(f64, usize)>,
+    missing: Vec<(f64, SolveError)>,
+}
+
+pub(super) fn rating(
+    speeds: &Speeds<'_>,
+    range: [f64; 2],
+    end: RatingEnd,
+    stated: f64,
+    progress: &mut (dyn FnMut(f64, &str) + Send),
+) -> Result<Rating, SolveError> {
+    let mut fit = Fit {
+        speeds,
+        range,
+        lifts_off: matches!(end, RatingEnd::LiftsOff { .. }),
+        done: Mutex::new((0.0, progress)),
+        solved: Vec::new(),
+        ceiling: None,
+        missing: Vec::new(),
+    };
+    fit.first()?;
+    for _ in 0..ROUNDS {
+        let nodes = fit.nodes();
+        let optimum = fit.optimum(&nodes)?;
+        let asked = std::iter::once(optimum).chain(nodes.changes());
+        let asked = asked.chain(nodes.doubtful(GOOD));
+        let width = range[1] - range[0];
+        let asked = asked.filter(|speed| !nodes.has(*speed, SAME * width));
+        let asked: Vec<f64> = asked.chain(fit.middle()).collect();
+        if asked.is_empty() {
+            break;
+        }
+        let from = fit.solved.len();
+        fit.solve(&asked);
+        for (node, _) in &mut fit.solved[from..] {
+            let predicted = nodes.at(node.load.speed, node.tension);
+            node.off = (predicted.factor / node.load.factor - 1.0).abs();
+        }
+        if fit.nodes().error() < GOOD && fit.middle().is_none() {
+            break;
+        }
+    }
+    let nodes = fit.nodes();
+    let (range, end) = match fit.ceiling {
+        Some((_, pulley)) => {
+            let speed = nodes.last();
+            (
+                [range[0], speed],
+                RatingEnd::SlipsEverMore { speed, pulley },
+            )
+        }
+        None => (range, end),
+    };
+    let [optimum, stated] = fit.loads([fit.optimum(&nodes)?, stated]);
+    let optimum = optimum?;
+    let own = fit.solved.iter().map(|(node, _)| node.load.error);
+    let own = own.fold(0.0, f64::max);
+    let points = places(range).filter_map(|speed| match &end {
+        RatingEnd::LiftsOff { speed: last } if speed == *last => Some(at_lift_off(speed, speeds)),
+        _ => fit.load(&nodes, speed, own),
+    });
+    let points: Vec<_> = points.collect();
+    Ok(Rating {
+        drive: speeds.drive.clone(),
+        error: points.iter().map(|point| point.error).fold(own, f64::max),
+        points,
+        optimum_at_end: is_at_end(&optimum, range),
+        optimum,
+        stated,
+        stretches: nodes.stretches(range),
+        end,
+        missing: fit.missing,
+    })
+}
+
+impl Fit<'_> {
+    /// The limit at a speed, from a solved one.
+    fn limit(&self, speed: f64, near: Option<&Solved>) -> Result<Solved, (f64, SolveError)> {
+        let found = self.speeds.pressing(speed).and_then(|tension| {
+            let expected = match near {
+                Some((node, _)) => node.load.factor * tension / node.tension,
+                None => self.speeds.expected(speed)?,
+            };
+            let near = near.map(|(_, near)| near);
+            let (load, near) = self.speeds.largest(speed, near, expected)?;
+            let off = f64::INFINITY;
+            Ok((Node { load, tension, off }, near))
+        });
+        if let Ok(mut done) = self.done.lock() {
+            done.0 += 1.0;
+            // Usually there are two speeds more, the optimum, and that of the drive file.
+            let share = done.0 / (FIRST as f64 + 5.0);
+            (done.1)(share.min(1.0), "speeds");
+        }
+        found.map_err(|error| (speed, error))
+    }
+
+    fn keep(&mut self, found: impl IntoIterator<Item = Result<Solved, (f64, SolveError)>>) {
+        for found in found {
+            match found {
+                Ok((Node { load, .. }, _)) if let LoadEnd::SlipsEverMore(pulley) = load.end => {
+                    if self.ceiling.is_none_or(|(speed, _)| load.speed < speed) {
+                        self.ceiling = Some((load.speed, pulley));
+                    }
+                }
+                Ok(solved) => self.solved.push(solved),
+                Err(failed) => self.missing.push(failed),
+            }
+        }
+    }
+
+    fn nodes(&self) -> Nodes {
+        let nodes = self.solved.iter().map(|(node, _)| node.clone());
+        Nodes::new(nodes.filter(|node| self.is_below(node.load.speed)))
+    }
+
+    /// Whether there may be a largest load at a speed.
+    fn is_below(&self, speed: f64) -> bool {
+        self.ceiling.is_none_or(|(ceiling, _)| speed < ceiling)
+    }
+
+    /// The middle between the last speed with a largest load and the first without one, until they are near.
+    fn middle(&self) -> Option<f64> {
+        let (ceiling, _) = self.ceiling?;
+        let speeds = self.solved.iter().map(|(node, _)| node.load.speed);
+        let last = speeds
+            .filter(|speed| *speed < ceiling)
+            .fold(self.range[0], f64::max);
+        (ceiling - last > NEAR * ceiling).then(|| f64::midpoint(last, ceiling))
+    }
+
+    /// The limits at Chebyshev's places in the square of the speed, from the middle one to both ends.
+    fn first(&mut self) -> Result<(), SolveError> {
+        let [low, high] = self.range.map(|speed| speed * speed);
+        let high = match self.lifts_off {
+            true => high * NEAREST,
+            false => high,
+        };
+        let place = |index: usize| {
+            let angle = PI * (index as f64 + 0.5) / FIRST as f64;
+            (f64::midpoint(low, high) - 0.5 * (high - low) * angle.cos()).sqrt()
+        };
+        let middle = FIRST / 2;
+        let first = self.limit(place(middle), None);
+        let begin = first.as_ref().ok();
+        let both = each(2, |side| {
+            let mut near = begin.cloned();
+            let steps = 1..=middle;
+            let line = steps.map(|step| {
+                let index = if side == 0 {
+                    middle - step
+                } else {
+                    middle + step
+                };
+                let next = self.limit(place(index), near.as_ref());
+                if let Ok(next) = &next {
+                    near = Some(next.clone());
+                }
+                next
+            });
+            line.collect::<Vec<_>>()
+        });
+        self.keep(std::iter::once(first).chain(both.into_iter().flatten()));
+        if self.lifts_off {
+            self.solve(&[PROBED.sqrt() * self.range[1]]);
+        }
+        match (self.solved.is_empty(), self.missing.first()) {
+            (true, Some((_, error))) => Err(error.clone()),
+            _ => Ok(()),
+        }
+    }
+
+    /// Solves the limits at speeds, each from the nearest one.
+    fn solve(&mut self, asked: &[f64]) {
+        let found = each(asked.len(), |index| {
+            self.limit(asked[index], self.nearest(asked[index]))
+        });
+        self.keep(found);
+    }
+
+    fn nearest(&self, speed: f64) -> Option<&Solved> {
+        let distance = |(node, _): &Solved| (node.load.speed - speed).abs();
+        let solved = self.solved.iter();
+        solved.min_by(|one, other| distance(one).total_cmp(&distance(other)))
+    }
+
+    /// The speed of the largest power, as the nodes tell it.
+    fn optimum(&self, nodes: &Nodes) -> Result<f64, SolveError> {
+        if nodes.last() == 0.0 {
+            return Err(SolveError::NotFound {
+                what: "largest load",
+            });
+        }
+        let last = match self.ceiling {
+            Some(_) => nodes.last(),
+            None => f64::INFINITY,
+        };
+        let power = |speed: f64| match self.speeds.pressing(speed) {
+            Ok(tension) if speed <= last => speed * nodes.at(speed, tension).torque,
+            _ => 0.0,
+        };
+        let speeds: Vec<f64> = places(self.range).collect();
+        let powers: Vec<f64> = speeds.iter().map(|speed| power(*speed)).collect();
+        let best = (0..speeds.len()).max_by(|one, other| powers[*one].total_cmp(&powers[*other]));
+        let best = best.unwrap_or(0);
+        let beside = [best.saturating_sub(1), (best + 1).min(speeds.len() - 1)];
+        let located = maximum::between(power, beside.map(|index| speeds[index]), LOCATED);
+        match power(located) > powers[best] {
+            true => Ok(located),
+            false => Ok(speeds[best]),
+        }
+    }
+
+    /// The limits at two speeds, solved.
+    fn loads(&self, speeds: [f64; 2]) -> [Result<RatedLoad, SolveError>; 2] {
+        let mut loads = each(2, |index| {
+            let speed = speeds[index];
+            match self.nearest(speed) {
+                Some((node, _)) if node.load.speed == speed => Ok(node.load.clone()),
+                near => {
+                    let found = self.limit(speed, near);
+                    found.map(|(node, _)| node.load).map_err(|(_, error)| error)
+                }
+            }
+        });
+        let last = loads.pop();
+        [loads.pop(), last].map(|load| {
+            load.unwrap_or(Err(SolveError::NotFound {
+                what: "largest load",
+            }))
+        })
+    }
+
+    /// The limit at a speed by the nodes, whose own relative error is this.
+    fn load(&self, nodes: &Nodes, speed: f64, own: f64) -> Option<RatedLoad> {
+        let tension = self.speeds.pressing(speed).ok()?;
+        let predicted = nodes.at(speed, tension);
+        Some(RatedLoad {
+            speed,
+            factor: predicted.factor,
+            torque: predicted.torque,
+            power: speed * predicted.torque,
+            power_out: None,
+            end: predicted.end.clone(),
+            error: predicted.error.max(own),
+        })
+    }
+}

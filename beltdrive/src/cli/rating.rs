@@ -1,0 +1,66 @@
+//! `beltdrive rating`: the largest torque and power of a drive against speed.
+
+use super::{common::Common, failure::Failure, origin::Origin};
+use beltdrive::input::{Argument, DriveFile};
+use beltdrive::{RatingQuestion, plot, quantity, rating};
+use clap::Args;
+use std::path::Path;
+
+const HELP: &str = "\
+Examples:
+  beltdrive examples spb-fan > drive.toml
+  beltdrive rating drive.toml --plot figures
+  beltdrive rating drive.toml --from '500 rpm' --to '3000 rpm' --csv rating.csv
+
+What closes the drive stays as it is, and so does the ratio of all torques. Without --to the range ends where
+centrifugal force lifts the belt off its pulleys; a drive that never lifts off is shown up to four times its
+speed. --csv writes one row per speed.";
+
+#[derive(Args)]
+#[command(after_help = HELP)]
+pub(super) struct Rating {
+    #[command(flatten)]
+    common: Common,
+    /// Speed of the driver to begin at, with its unit
+    #[arg(long, value_name = "A", allow_hyphen_values = true)]
+    from: Option<String>,
+    /// Speed of the driver to end at
+    #[arg(long, value_name = "B", allow_hyphen_values = true)]
+    to: Option<String>,
+}
+
+impl Rating {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        let (file, origin) = self.common.file()?;
+        self.of(&file, &origin).map_err(|failure| failure.of(&file))
+    }
+
+    fn of(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
+        let drive = file.drive().map_err(Failure::usage)?;
+        let speed = |option, value: &Option<String>| {
+            let Some(value) = value else {
+                return Ok(None);
+            };
+            let keys = file.keys();
+            let key = keys.iter().find(|key| key.path().ends_with(".speed"));
+            let key = key.ok_or_else(|| {
+                Failure::Usage(format!("error: {option}: the drive file gives no speed"))
+            })?;
+            let value = Argument { option, value }.number(key);
+            value.map(Some).map_err(Failure::usage)
+        };
+        let question = RatingQuestion {
+            from: speed("--from", &self.from)?,
+            to: speed("--to", &self.to)?,
+        };
+        let options = self.common.options();
+        let found = self
+            .common
+            .with_progress(|progress| rating(&drive, question, &options, progress))?;
+        let answer = &quantity::rating::answer(&found);
+        let draw = |directory: &Path, metadata: &str| {
+            plot::write_rating(&found, directory, Some(metadata))
+        };
+        self.common.output.write(answer, &draw, origin)
+    }
+}

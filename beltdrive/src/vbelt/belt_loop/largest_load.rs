@@ -1,0 +1,236 @@
+//! The largest load of a loop with a V-belt, fast from that at another speed.
+//!
+//! Speed enters through the momentum flow alone. A state a little below the largest load at one speed is turned into
+//! one at another speed by a single Newton solve, and the load is raised from there: the way from no load, which
+//! takes most of the time, is gone once.
+
+use super::super::belt_problem::BeltProblem;
+use super::super::groove::TENSION;
+use super::super::path::{Effort, Solved};
+use super::at_rest::rest_near;
+use super::climb::{Climbed, Limit, SHARPER};
+use super::guess::tractive_tensions;
+use super::problem::LoopProblem;
+use super::round::Target;
+use super::running::{SLOW, is_drive, may_be_beyond, presses};
+use super::slipping::{Slipping, is_slipping};
+use super::solve::{Search, lost};
+use super::start::Start;
+use crate::results::largest_load::{LargestLoad, LoadEnd};
+use crate::{Drive, SolveError};
+
+/// Shares of the expected load from which it is raised, in turn. Near lift-off there are states above the largest load
+/// that does not slip grossly.
+const SHARES: [f64; 4] = [0.25, 0.05, 0.01, 1e-3];
+
+/// The load of a state from which others are found, as a share of the largest: nearer to a limit point Newton's method
+/// finds the state beyond it.
+pub(super) const BELOW: f64 = 0.97;
+
+/// Factor between loads up to which the load is raised.
+const RAISED: f64 = 4.0;
+
+/// Largest factor on the expected load that is tried.
+const LARGEST: f64 = 1e6;
+
+/// Estimated relative error of a limit: that of states on the way, which are solved to 1e-4 and whose limit is found
+/// to 1e-6 of itself.
+const ERROR: f64 = 2e-5;
+
+/// A state a little below the largest load.
+#[derive(Clone, Debug)]
+pub(crate) struct NearLargestLoad {
+    below: Solved<LoopProblem>,
+    /// The largest load there.
+    factor: f64,
+}
+
+/// The factor on all torques, expected to be about `expected`, up to which a loop has a steady state.
+pub(crate) fn largest_load(
+    drive: &Drive,
+    near: Option<&NearLargestLoad>,
+    expected: f64,
+    tolerance: f64,
+) -> Result<(LargestLoad, NearLargestLoad), SolveError> {
+    let mut search = Search::new(drive, tolerance);
+    if let Some(near) = near
+        && let Some(below) = near.at_speed(&mut search, expected)
+        && let Ok(found) = search.raised(below, expected)
+    {
+        return Ok(found);
+    }
+    let below = search.loaded(expected)?;
+    search.raised(below, expected)
+}
+
+impl NearLargestLoad {
+    /// The same share of another load at another speed.
+    fn at_speed(&self, search: &mut Search<'_>, expected: f64) -> Option<Solved<LoopProblem>> {
+        let problem = &self.below.problem;
+        let share = problem.factor(self.below.solution.parameters()) / self.factor;
+        let squares = [problem.units.speed, search.drive.rim_speed()].map(|speed| speed * speed);
+        let [from, to] = squares;
+        if from == to {
+            return Some(self.below.clone());
+        }
+        // The limit falls about in proportion to the square of the speed, and tensions with it.
+        let force = problem.units.force;
+        let member = |problem: &LoopProblem, square: f64| {
+            let part = (square - from) / (to - from);
+            let factor = self.factor + part * (expected - self.factor);
+            let force = force * factor / self.factor;
+            let problem = problem.clone().at_speed(square.sqrt(), force);
+            problem.with_factor(share * factor)
+        };
+        let step = (to - from).abs();
+        let found = search.follow(self.below.clone(), squares, step, Effort::Rough, member);
+        // From a state that slips grossly the load would rise beyond where it began to.
+        found.ok().filter(is_begin)
+    }
+}
+
+impl Search<'_> {
+    /// A state below the largest load, from nothing.
+    fn loaded(&mut self, expected: f64) -> Result<Solved<LoopProblem>, SolveError> {
+        let drive = self.drive;
+        let coordinate = drive.start_coordinate();
+        let layout = drive.layout(coordinate)?;
+        let (target, rest, coordinate) = match Target::of(drive.closure) {
+            Ok(target) => (target, None, coordinate),
+            Err(known) => {
+                let (_, rest) = rest_near(self, known, coordinate, &layout)?;
+                let at = rest.coordinate;
+                (Target::Length(rest.unstretched), Some(rest), at)
+            }
+        };
+        let layout = drive.layout(coordinate)?;
+        // A belt that sinks into its grooves is less taut than one that does not.
+        let expected = match presses(self, target, &layout)? {
+            Some(unsunk) => {
+                let idle = tractive_tensions(drive, &layout, target, rest.as_ref(), 0.0);
+                expected * idle[0] / unsunk
+            }
+            None => expected,
+        };
+        let mut cause = None;
+        for share in SHARES {
+            let factor = share * expected;
+            let start = Start {
+                drive,
+                tractive: tractive_tensions(drive, &layout, target, rest.as_ref(), factor),
+                layout: layout.clone(),
+                target,
+                coordinate,
+                factor,
+            };
+            if !start.is_taut() {
+                continue;
+            }
+            match self.enter(&start) {
+                Ok(rough) if is_begin(&rough) => return Ok(rough),
+                Ok(_) => {}
+                Err(stuck) => cause = Some(stuck.cause),
+            }
+        }
+        Err(match cause {
+            Some(cause) => lost(0.0, &cause),
+            None => SolveError::Unreached {
+                reached: 0.0,
+                cause: "the belt would have to push in a span even under hardly any load",
+            },
+        })
+    }
+
+    /// The load of a state raised to the largest.
+    fn raised(
+        &mut self,
+        from: Solved<LoopProblem>,
+        expected: f64,
+    ) -> Result<(LargestLoad, NearLargestLoad), SolveError> {
+        let begin = from.problem.factor(from.solution.parameters());
+        let (mut here, mut to) = (from, RAISED * begin.max(0.5 * expected));
+        let mut slipping = Some(Slipping::default());
+        while to < LARGEST * expected {
+            match self.climb(&here, to, &mut slipping) {
+                Climbed::Reached(solved) => here = *solved,
+                Climbed::Limit(mut limit) => {
+                    if slipping.as_ref().is_some_and(|s| s.is_beyond(&limit.top))
+                        && let Some(slipping) = &slipping
+                    {
+                        *limit = self.gross_slip(slipping, &here);
+                    }
+                    let found = answer(self.drive, &limit);
+                    let below = self.below(*limit, here);
+                    let factor = found.factor;
+                    return Ok((found, NearLargestLoad { below, factor }));
+                }
+                Climbed::Lost { reached, cause } => {
+                    return Err(SolveError::Unreached { reached, cause });
+                }
+            }
+            to *= RAISED;
+        }
+        Err(SolveError::NotFound {
+            what: "largest load",
+        })
+    }
+
+    /// The state on the way to a limit from which others are found; else that from which it began.
+    fn below(&mut self, limit: Limit, begin: Solved<LoopProblem>) -> Solved<LoopProblem> {
+        let factor =
+            |state: &Solved<LoopProblem>| state.problem.factor(state.solution.parameters());
+        let is_below = |state: &Solved<LoopProblem>| factor(state) <= BELOW * limit.top.factor;
+        let begins_higher = |state: &Solved<LoopProblem>| factor(state) < factor(&begin);
+        let mut states = limit.below.into_iter().rev();
+        let below = states.find(|state| is_below(state) || begins_higher(state));
+        let below = below.filter(|below| !begins_higher(below)).unwrap_or(begin);
+        match below.problem.smoothing() > SHARPER {
+            true => {
+                let sharper = self.smooth_less(below.clone(), SHARPER, Effort::Rough);
+                sharper.unwrap_or(below)
+            }
+            false => below,
+        }
+    }
+}
+
+/// Whether the load can be raised from a state to the largest: one of a drive, below it.
+fn is_begin(state: &Solved<LoopProblem>) -> bool {
+    is_drive(state) && !may_be_beyond(state) && !is_slipping(state)
+}
+
+/// The largest load as it is told.
+fn answer(drive: &Drive, limit: &Limit) -> LargestLoad {
+    let Limit { top, at, .. } = limit;
+    let (problem, p) = (&at.problem, at.solution.parameters());
+    let rise = top.factor / problem.factor(p);
+    let ends = at.round(|round| round.end_angles());
+    let torque = |pulley: usize| {
+        if problem.is_idle(pulley) {
+            return 0.0;
+        }
+        let [behind, before] = [
+            at.entry(pulley)[TENSION] * ends[pulley].entry.cos(),
+            at.exit(pulley)[TENSION] * ends[pulley].exit.cos(),
+        ];
+        rise * (before - behind) * problem.units.torque(problem.pitch_radius(pulley))
+    };
+    let driver = drive.driver();
+    let speed = |pulley: usize| {
+        problem.omega(pulley, p) * problem.units.angular_speed(problem.pitch_radius(pulley))
+    };
+    let powers = (0..problem.pulleys()).map(|pulley| torque(pulley) * speed(pulley));
+    let taken = powers.filter(|power| *power > 0.0).sum();
+    let turns = (0..problem.pulleys()).all(|pulley| problem.omega(pulley, p) > SLOW);
+    LargestLoad {
+        factor: top.factor,
+        end: match (top.overhangs, top.is_last) {
+            (true, _) => LoadEnd::Overhangs(top.pulley),
+            (false, true) => LoadEnd::Slips(top.pulley),
+            (false, false) => LoadEnd::SlipsEverMore(top.pulley),
+        },
+        driver_torque: -torque(driver),
+        power_out: turns.then_some(taken),
+        error: ERROR,
+    }
+}

@@ -1,0 +1,141 @@
+//! Gross slip that does not end a curve of states under a rising load.
+//!
+//! A driver that slips grossly lets the belt run slower. Centrifugal force falls with it, and the belt presses more. Where
+//! centrifugal force takes up much of the tension, states under ever more load follow each other until the belt
+//! stands still, up to the limit of a drive that does not run. What the drive carries then ends where a pulley begins
+//! to slip grossly, which is a matter of definition; elsewhere it ends at a limit point, to which friction leads.
+
+use super::super::belt_problem::BeltProblem;
+use super::super::groove::TENSION;
+use super::super::path::{Effort, Solved};
+use super::climb::{Limit, Top};
+use super::problem::LoopProblem;
+use super::solve::Search;
+use super::unknowns::FLOW;
+use crate::mechanics::root::bracketed;
+
+/// The speed of a pulley against the belt, as a share of the speed of the driver, at which it is said to slip grossly:
+/// creep and the depth in the groove leave 0.01 to 0.03 in drives at their limit.
+const GROSS: f64 = 0.05;
+
+/// The speed of the driver against the belt at which the load has no limit point to come: the belt has lost a fifth of
+/// its speed and a third of its centrifugal force.
+const SLOWED: f64 = 0.2;
+
+/// A limit point at more than this times the load at which a pulley begins to slip grossly is another one than friction
+/// leads to: usually there are 2 to 4 % between the two. That of `spb-fan` at 10 937 rpm is 28 % above, on a curve that
+/// passes the largest load so closely that a step leads over it.
+const LONG: f64 = 1.1;
+
+/// Factor between loads at which a state without gross slip is sought.
+const LESS: f64 = 0.9;
+
+/// The states of a curve on which the load rises, so far.
+#[derive(Default)]
+pub(super) struct Slipping {
+    /// The last state in which no pulley slips grossly, and the first in which one does.
+    begin: Option<Solved<LoopProblem>>,
+    slips: Option<f64>,
+}
+
+/// Whether a pulley slips grossly.
+pub(super) fn is_slipping(state: &Solved<LoopProblem>) -> bool {
+    most(state).0 >= GROSS
+}
+
+/// The largest speed of a pulley against the belt, as a share of the speed of the driver, and that pulley.
+fn most(state: &Solved<LoopProblem>) -> (f64, usize) {
+    let pulleys = (0..state.problem.pulleys()).map(|pulley| (slip(state, pulley), pulley));
+    pulleys.fold((0.0, 0), |most, next| match next.0 > most.0 {
+        true => next,
+        false => most,
+    })
+}
+
+/// The speed of a pulley against the belt that enters it, as a share of that of the driver; 0 of idlers.
+fn slip(state: &Solved<LoopProblem>, pulley: usize) -> f64 {
+    let (problem, p) = (&state.problem, state.solution.parameters());
+    if problem.is_idle(pulley) {
+        return 0.0;
+    }
+    let strand = problem.units.strand();
+    let tension = strand.tension(state.entry(pulley)[TENSION], p[FLOW]);
+    (strand.speed(tension, p[FLOW]) - problem.omega(pulley, p)).abs()
+}
+
+fn factor(state: &Solved<LoopProblem>) -> f64 {
+    state.problem.factor(state.solution.parameters())
+}
+
+impl Slipping {
+    /// Whether a limit is that of a curve on which a pulley has slipped grossly for long.
+    pub(super) fn is_beyond(&self, top: &Top) -> bool {
+        top.is_last && self.slips.is_some_and(|slips| top.factor > LONG * slips)
+    }
+
+    /// Whether the load has no limit point to come, as this next state shows.
+    pub(super) fn has_slowed(&mut self, here: &Solved<LoopProblem>) -> bool {
+        if !is_slipping(here) {
+            (self.begin, self.slips) = (Some(here.clone()), None);
+            return false;
+        }
+        self.slips.get_or_insert(factor(here));
+        slip(here, here.problem.driver) >= SLOWED
+    }
+}
+
+impl Search<'_> {
+    /// The load at which a pulley begins to slip grossly, on a curve on which the driver has slowed the belt and which
+    /// began at `from`: below that load if one slips there already.
+    pub(super) fn gross_slip(&mut self, slipping: &Slipping, from: &Solved<LoopProblem>) -> Limit {
+        let (begin, slips) = match (&slipping.begin, slipping.slips) {
+            (Some(begin), Some(slips)) => (begin.clone(), slips),
+            _ => (self.unslipped(from.clone()), factor(from)),
+        };
+        let excess = |state: &Solved<LoopProblem>| most(state).0 - GROSS;
+        let (places, first) = ([factor(&begin), slips], excess(&begin));
+        let mut near = begin.clone();
+        let mut reached = |to: f64| match self.at_factor(&near, to) {
+            Some(state) => {
+                near = state;
+                excess(&near)
+            }
+            None => f64::NAN,
+        };
+        let last = reached(slips);
+        let found = bracketed(&mut reached, places, [first, last]);
+        found.map(&mut reached);
+        let (_, pulley) = most(&near);
+        let top = Top {
+            factor: factor(&near),
+            pulley,
+            overhangs: false,
+            is_last: false,
+        };
+        Limit {
+            top,
+            at: near,
+            below: vec![begin],
+        }
+    }
+
+    /// A state under less load in which no pulley slips grossly, if it is found.
+    fn unslipped(&mut self, mut state: Solved<LoopProblem>) -> Solved<LoopProblem> {
+        while is_slipping(&state) {
+            match self.at_factor(&state, LESS * factor(&state)) {
+                Some(lower) => state = lower,
+                None => break,
+            }
+        }
+        state
+    }
+
+    /// The state under another factor on all torques.
+    fn at_factor(&mut self, near: &Solved<LoopProblem>, to: f64) -> Option<Solved<LoopProblem>> {
+        let from = factor(near);
+        let member = |problem: &LoopProblem, factor| problem.clone().with_factor(factor);
+        let step = (to - from).abs();
+        let found = self.follow(near.clone(), [from, to], step, Effort::Rough, member);
+        found.ok()
+    }
+}
