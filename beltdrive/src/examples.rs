@@ -12,7 +12,7 @@ pub struct Example {
 }
 
 /// Every shipped drive file.
-pub const EXAMPLES: [Example; 16] = [
+pub const EXAMPLES: [Example; 18] = [
     Example {
         name: "kim2009",
         text: include_str!("../examples/kim2009.toml"),
@@ -76,6 +76,14 @@ pub const EXAMPLES: [Example; 16] = [
     Example {
         name: "conveyor",
         text: include_str!("../examples/conveyor.toml"),
+    },
+    Example {
+        name: "slip-pulse",
+        text: include_str!("../examples/slip-pulse.toml"),
+    },
+    Example {
+        name: "soft-start",
+        text: include_str!("../examples/soft-start.toml"),
     },
 ];
 

@@ -49,7 +49,7 @@ fn unknown_tables_and_keys() {
       |
     9 | [grove]
       |  ^^^^^
-    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `pulley`, `tensioner`, `layout`, `load`, `model`, `calibration`, `case`, `requirements`, `losses`, `uncertainty`, `design`
+    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `pulley`, `tensioner`, `layout`, `load`, `model`, `calibration`, `case`, `requirements`, `losses`, `uncertainty`, `design`, `transient`
     help: did you mean `groove`?
     ");
     assert_snapshot!(error("[pulleys.driver]", "[pulleys.drive]"), @r#"
@@ -238,7 +238,7 @@ fn overrides() {
       |
     2 | --set frction.law = epp
       |       ^^^^^^^
-    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `pulley`, `tensioner`, `layout`, `load`, `model`, `calibration`, `case`, `requirements`, `losses`, `uncertainty`, `design`
+    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `pulley`, `tensioner`, `layout`, `load`, `model`, `calibration`, `case`, `requirements`, `losses`, `uncertainty`, `design`, `transient`
     help: did you mean `friction`?
     ");
     assert_snapshot!(override_error(&["law=epp"]), @r"
@@ -247,7 +247,7 @@ fn overrides() {
       |
     1 | --set law=epp
       |       ^^^
-    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `pulley`, `tensioner`, `layout`, `load`, `model`, `calibration`, `case`, `requirements`, `losses`, `uncertainty`, `design`
+    expected: one of `title`, `belt`, `groove`, `friction`, `pulleys`, `pulley`, `tensioner`, `layout`, `load`, `model`, `calibration`, `case`, `requirements`, `losses`, `uncertainty`, `design`, `transient`
     help: did you mean `friction.law`?
     ");
     assert_snapshot!(override_error(&["friction.law"]), @r#"

@@ -21,6 +21,7 @@ mod read;
 mod report;
 mod samples;
 mod sections;
+mod simulate;
 mod solve;
 mod stability;
 mod stated;
@@ -73,6 +74,8 @@ enum Command {
     Sweep(sweep::Command),
     /// Find out whether small axial motions of a flat belt grow, and from which load on
     Stability(stability::Command),
+    /// Follow a drive with a flat belt in time: start-up, load steps, slip and its end
+    Simulate(simulate::Simulate),
     /// Find the numbers and choices that make a drive best within its limits
     Design(design::Design),
     /// Find numbers of the drive file, such as friction and stiffness, from measured rows
@@ -102,6 +105,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Map(command) => command.run(),
         Command::Sweep(command) => command.run(),
         Command::Stability(command) => command.run(),
+        Command::Simulate(command) => command.run(),
         Command::Design(command) => command.run(),
         Command::Calibrate(command) => command.run(),
         Command::Verify(command) => command.run(),

@@ -95,9 +95,9 @@ impl Argument<'_> {
                 let applies = |path: &&str| Key::all(drive).any(|key| key.path() == *path);
                 finding(format!("`{path}` {reason}")).did_you_mean(instead.filter(applies))
             }
-            Some(Kind::Text | Kind::Word { .. } | Kind::Keys | Kind::Spread) => {
-                finding(format!("`{path}` is no number, so it cannot be traced"))
-            }
+            Some(
+                Kind::Text | Kind::Word { .. } | Kind::Points { .. } | Kind::Keys | Kind::Spread,
+            ) => finding(format!("`{path}` is no number, so it cannot be traced")),
             Some(Kind::Quantity { .. }) => inapplicable(path, drive, &place),
             None => {
                 let keys = || Key::all(drive).map(|key| key.path());

@@ -68,6 +68,39 @@ pub(super) fn keys(path: &str, rule: &Rule, entry: &Entry) -> Result<(), Finding
     }
 }
 
+/// Checks points and gives them in SI units.
+pub(super) fn points(
+    path: &str,
+    rule: &Rule,
+    dimensions: [Dimension; 2],
+    entry: &Entry,
+    source: &Source,
+) -> Result<Vec<[f64; 2]>, Finding> {
+    let wrong = |entry: &Entry| {
+        let (_, key) = schema::split(path);
+        wrong_type(key, "an array of points, each a pair", entry).expected(rule.line())
+    };
+    let Content::List(pairs) = &entry.content else {
+        return Err(wrong(entry));
+    };
+    let pairs = pairs.iter().map(|pair| {
+        let Content::List(parts) = &pair.content else {
+            return Err(wrong(pair));
+        };
+        let [place, value] = &parts[..] else {
+            let message = format!("a point must have two numbers, got {}", parts.len());
+            return Err(Finding::new(pair.place.clone(), message).expected(rule.line()));
+        };
+        let part = |dimension, entry: &Entry| {
+            let any = schema::Range::Any;
+            number(path, rule, dimension, any, entry, source)
+                .map_err(|finding| finding.expected(rule.line()))
+        };
+        Ok([part(dimensions[0], place)?, part(dimensions[1], value)?])
+    });
+    pairs.collect()
+}
+
 /// Checks that a text is one of `words`.
 pub(super) fn word<'e>(
     path: &str,

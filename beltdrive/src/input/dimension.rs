@@ -33,9 +33,12 @@ impl Dimension {
     pub(super) const TORQUE_PER_ANGLE: Self = Self::new(1, 2, -2, -1);
     pub(super) const POWER: Self = Self::new(1, 2, -3, 0);
     pub(super) const BENDING_STIFFNESS: Self = Self::new(1, 3, -2, 0);
+    pub(super) const MOMENT_OF_INERTIA: Self = Self::new(1, 2, 0, 0);
+    pub(super) const AXIAL_DAMPING: Self = Self::new(1, 1, -1, 0);
+    pub(super) const TORQUE_PER_SPEED: Self = Self::new(1, 2, -1, -1);
 
     /// The dimensions that have a name in messages.
-    const NAMES: [(Self, &str); 19] = [
+    const NAMES: [(Self, &str); 22] = [
         (Self::NUMBER, "a pure number"),
         (Self::MASS, "a mass"),
         (Self::LENGTH, "a length"),
@@ -55,6 +58,9 @@ impl Dimension {
         (Self::ACCELERATION, "an acceleration"),
         (Self::FORCE_PER_LENGTH, "a force per length"),
         (Self::TORQUE_PER_ANGLE, "a torque per angle"),
+        (Self::MOMENT_OF_INERTIA, "a moment of inertia"),
+        (Self::AXIAL_DAMPING, "an axial damping"),
+        (Self::TORQUE_PER_SPEED, "a torque per angular speed"),
     ];
 
     /// The dimensions that quantities of drive files have, as measures.
@@ -141,7 +147,7 @@ mod tests {
         let pressure = Dimension::FORCE.times(Dimension::LENGTH, -2);
         assert_eq!(pressure, Dimension::FORCE_PER_AREA);
         assert_eq!(pressure.to_string(), "a force per area");
-        let inertia = Dimension::MASS.times(Dimension::LENGTH, 2);
-        assert_eq!(inertia.to_string(), "a quantity in kg m^2");
+        let volume = Dimension::LENGTH.times(Dimension::LENGTH, 2);
+        assert_eq!(volume.to_string(), "a quantity in m^3");
     }
 }

@@ -43,6 +43,7 @@ pub(crate) mod spelling;
 mod table;
 mod tensioner;
 mod traceable;
+mod transient;
 mod uncertainty;
 mod unit;
 mod values;

@@ -35,6 +35,11 @@ pub(super) enum Kind {
         /// Its range.
         range: Range,
     },
+    /// Points: an array of pairs of a place and a value.
+    Points {
+        /// The dimensions of both.
+        dimensions: [Dimension; 2],
+    },
     /// Dotted paths of numbers of the file.
     Keys,
     /// How far the number at the rest of the path may be from its value.
@@ -116,7 +121,14 @@ pub(super) const FREE: &str = "design.free";
 /// The table of the keys that a design may give one of several values.
 pub(super) const CHOOSE: &str = "design.choose";
 /// Tables of the service of a drive, which do not change its steady states.
-const SERVICE: [&str; 5] = [CASE, "requirements", "losses", UNCERTAINTY, "design"];
+const SERVICE: [&str; 6] = [
+    CASE,
+    "requirements",
+    "losses",
+    UNCERTAINTY,
+    "design",
+    "transient",
+];
 /// How the normal force follows from the tension of a flat belt.
 pub(super) const NORMAL_FORCE: &str = "model.normal_force";
 
@@ -332,7 +344,7 @@ pub(super) fn nearest(path: &str) -> Option<&'static str> {
 /// [`UNCERTAINTY`].
 pub(super) fn join(table: &str, name: &str) -> String {
     let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
-    let is_named = [PULLEY, CASE, "case.*.pulley"].iter();
+    let is_named = [PULLEY, CASE, "case.*.pulley", "transient.pulley"].iter();
     let of = uncertain(table).unwrap_or(table);
     let is_named = { is_named }.any(|list| matches(list, of)) || table == UNCERTAINTY;
     let name = match is_named || name.chars().all(is_bare) && !name.is_empty() {
@@ -423,6 +435,7 @@ mod tests {
             "losses",
             "uncertainty",
             "design",
+            "transient",
         ];
         assert_eq!(names(""), top);
     }

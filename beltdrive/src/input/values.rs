@@ -17,6 +17,8 @@ pub(super) struct Values<'d> {
     document: &'d Document,
     /// Quantities in SI units.
     numbers: BTreeMap<&'d str, f64>,
+    /// Points in SI units.
+    points: BTreeMap<&'d str, Vec<[f64; 2]>>,
     /// Texts and words.
     texts: BTreeMap<&'d str, &'d str>,
 }
@@ -27,6 +29,7 @@ impl<'d> Values<'d> {
         let mut values = Self {
             document,
             numbers: BTreeMap::new(),
+            points: BTreeMap::new(),
             texts: BTreeMap::new(),
         };
         let mut entries: Vec<_> = document.entries.iter().collect();
@@ -48,6 +51,11 @@ impl<'d> Values<'d> {
     /// Puts a checked number, SI, in the place of the one at `path`.
     pub(super) fn set_number(&mut self, path: &'d str, number: f64) {
         self.numbers.insert(path, number);
+    }
+
+    /// The points at `path`, if they are given.
+    pub(super) fn points(&self, path: &str) -> Option<&[[f64; 2]]> {
+        self.points.get(path).map(Vec::as_slice)
     }
 
     /// The text at `path`, if it is given.
@@ -150,6 +158,10 @@ impl<'d> Values<'d> {
             Kind::Quantity { dimension, range } => {
                 let value = check::number(path, rule, dimension, range, entry, source)?;
                 self.numbers.insert(path, value);
+            }
+            Kind::Points { dimensions } => {
+                let points = check::points(path, rule, dimensions, entry, source)?;
+                self.points.insert(path, points);
             }
             Kind::Word { what, words } => {
                 self.texts

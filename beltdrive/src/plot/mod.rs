@@ -4,6 +4,7 @@ mod axis;
 mod contours;
 mod curve;
 mod header;
+mod history;
 mod layout;
 mod numbers;
 mod occupied;
@@ -20,7 +21,8 @@ mod zones;
 
 use crate::quantity::Answer;
 use crate::report::write_file;
-use crate::{Calibration, OperatingMap, Rating, Stability};
+use crate::transient::History;
+use crate::{Calibration, Drive, OperatingMap, Rating, Stability};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -174,6 +176,23 @@ pub fn write_rating(
 ) -> Result<Vec<PathBuf>, Error> {
     let figure = rating::figure(rating);
     write(std::iter::once(("rating.svg", figure)), directory, metadata)
+}
+
+/// Writes `history.svg`, speeds, tensions, torques and slip arcs of a drive over time with its events, and, if the run
+/// kept the belt at instants, `belt.svg`, its tension and friction along the loop, into a directory, as [`write_state`]
+/// does.
+///
+/// # Errors
+/// As [`write_state`].
+pub fn write_history(
+    drive: &Drive,
+    history: &History,
+    directory: &Path,
+    metadata: Option<&str>,
+) -> Result<Vec<PathBuf>, Error> {
+    let over_time = ("history.svg", history::figure(drive, history));
+    let along = history::along_loop(drive, history).map(|figure| ("belt.svg", figure));
+    write([over_time].into_iter().chain(along), directory, metadata)
 }
 
 fn write<N: AsRef<Path>>(

@@ -35,6 +35,8 @@ pub enum Measure {
     Growth,
     /// A time.
     Time,
+    /// An energy.
+    Energy,
     /// A mass flow.
     MassFlow,
     /// A mass.
@@ -104,6 +106,7 @@ impl Measure {
             Self::AngularSpeed | Self::AngularFrequency => ("_rad_per_s", 1.0),
             Self::Growth => ("_per_s", 1.0),
             Self::Time => ("_s", 1.0),
+            Self::Energy => ("_J", 1.0),
             Self::Frequency => ("_Hz", 1.0),
             Self::MassFlow => ("_kg_per_s", 1.0),
             Self::Mass => ("_kg", 1.0),
@@ -149,6 +152,11 @@ impl Measure {
             Self::AngularFrequency => [unit("rad/s", 1.0); 3],
             Self::Growth => [unit("1/s", 1.0); 3],
             Self::Time => [unit("s", 1.0); 3],
+            Self::Energy => [
+                unit("J", 1.0),
+                unit("J", 1.0),
+                unit("lbf·ft", 1.0 / (POUND * FOOT)),
+            ],
             Self::MassFlow => [
                 unit("kg/s", 1.0),
                 unit("kg/s", 1.0),

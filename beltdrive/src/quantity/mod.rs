@@ -27,6 +27,7 @@ pub mod solved;
 pub mod stability;
 pub mod sweep;
 pub mod tension;
+pub mod transient;
 pub mod two_pulleys;
 pub mod uncertainty;
 pub(crate) mod value;

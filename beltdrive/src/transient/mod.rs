@@ -38,6 +38,7 @@ mod simulation;
 mod slip;
 mod state;
 mod steady;
+mod sums;
 mod system;
 #[cfg(test)]
 mod tests;

@@ -11,6 +11,7 @@
 
 use super::axle::{Load, Motion, Motor};
 use super::bristle::transport;
+use super::sums::{LANES, dot, total};
 use super::system::System;
 
 /// The rates of the states of a system; what they are computed from stays until the next ones.
@@ -293,34 +294,4 @@ impl<'s> Rates<'s> {
     pub(crate) fn caps(&self, pulley: usize) -> &[f64] {
         &self.caps[self.system.mesh.bristles[pulley].clone()]
     }
-}
-
-/// Partial sums, so that a sum is computed in as many lanes.
-const LANES: usize = 4;
-
-/// The sum of a list.
-fn total(list: &[f64]) -> f64 {
-    let mut parts = [0.0; LANES];
-    let chunks = list.chunks_exact(LANES);
-    let rest: f64 = chunks.remainder().iter().sum();
-    for chunk in chunks {
-        for (part, number) in parts.iter_mut().zip(chunk) {
-            *part += number;
-        }
-    }
-    parts.iter().sum::<f64>() + rest
-}
-
-/// The sum of the products of two lists.
-fn dot(one: &[f64], other: &[f64]) -> f64 {
-    let mut parts = [0.0; LANES];
-    let (ones, others) = (one.chunks_exact(LANES), other.chunks_exact(LANES));
-    let rest = ones.remainder().iter().zip(others.remainder());
-    let rest: f64 = rest.map(|(one, other)| one * other).sum();
-    for (ones, others) in ones.zip(others) {
-        for ((part, one), other) in parts.iter_mut().zip(ones).zip(others) {
-            *part += one * other;
-        }
-    }
-    parts.iter().sum::<f64>() + rest
 }

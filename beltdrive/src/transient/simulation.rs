@@ -114,3 +114,15 @@ pub enum TransientError {
         time: f64,
     },
 }
+
+impl TransientError {
+    /// Whether what was asked makes no sense, whatever the drive does.
+    #[must_use]
+    pub fn is_of_statement(&self) -> bool {
+        match self {
+            Self::Statement { .. } | Self::Unstable { .. } => true,
+            Self::Start(error) => error.is_of_statement(),
+            Self::Impossible { .. } | Self::Ledger { .. } => false,
+        }
+    }
+}

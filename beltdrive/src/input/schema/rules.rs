@@ -62,6 +62,14 @@ const fn word(
     }
 }
 
+const fn points(path: &'static str, example: &'static str, dimensions: [Dimension; 2]) -> Rule {
+    Rule {
+        path,
+        example,
+        kind: Kind::Points { dimensions },
+    }
+}
+
 const fn refused(
     path: &'static str,
     example: &'static str,
@@ -104,6 +112,7 @@ pub(super) static RULES: LazyLock<Vec<Rule>> = LazyLock::new(|| {
         kinds.collect(),
         FROM_PULLEYS.to_vec(),
         SERVICE.to_vec(),
+        TRANSIENT.to_vec(),
     ]
     .concat()
 });
@@ -304,4 +313,62 @@ const SERVICE: &[Rule] = &[
         kind: Kind::Spread,
     },
     text(MINIMISE, "\"hub_load\""),
+];
+
+/// The states at time 0.
+const STARTS: [&str; 2] = ["rest", "running"];
+
+/// How a load acts on a pulley.
+const LOAD_SENSES: [&str; 2] = ["against-motion", "one-way"];
+
+/// The entries of a drive in time.
+const TRANSIENT: &[Rule] = &[
+    word("transient.start", "\"rest\"", "state at time 0", &STARTS),
+    quantity("transient.end", "\"0.6 s\"", Dimension::TIME),
+    quantity("transient.interval", "\"1 ms\"", Dimension::TIME),
+    quantity("transient.time_step", "\"2 us\"", Dimension::TIME),
+    ranged("transient.cells", "240", Dimension::NUMBER, Range::Whole),
+    ranged(
+        "transient.axial_damping",
+        "\"0.1 N*s\"",
+        Dimension::AXIAL_DAMPING,
+        Range::NotNegative,
+    ),
+    quantity(
+        "transient.pulley.*.inertia",
+        "\"0.005 kg*m^2\"",
+        Dimension::MOMENT_OF_INERTIA,
+    ),
+    points(
+        "transient.pulley.*.speed",
+        "[[\"0 s\", \"0 rpm\"], [\"0.2 s\", \"1450 rpm\"]]",
+        [Dimension::TIME, Dimension::ANGULAR_SPEED],
+    ),
+    points(
+        "transient.pulley.*.motor_torque",
+        "[[\"0 s\", \"0 N*m\"], [\"0.1 s\", \"40 N*m\"]]",
+        [Dimension::TIME, Dimension::TORQUE],
+    ),
+    points(
+        "transient.pulley.*.motor_torque_over_speed",
+        "[[\"0 rpm\", \"60 N*m\"], [\"1500 rpm\", \"0 N*m\"]]",
+        [Dimension::ANGULAR_SPEED, Dimension::TORQUE],
+    ),
+    points(
+        "transient.pulley.*.load",
+        "[[\"0.5 s\", \"0 N*m\"], [\"0.5 s\", \"30 N*m\"]]",
+        [Dimension::TIME, Dimension::TORQUE],
+    ),
+    ranged(
+        "transient.pulley.*.load_per_speed",
+        "\"0.02 N*m*s/rad\"",
+        Dimension::TORQUE_PER_SPEED,
+        Range::NotNegative,
+    ),
+    word(
+        "transient.pulley.*.load_sense",
+        "\"one-way\"",
+        "sense of a load",
+        &LOAD_SENSES,
+    ),
 ];

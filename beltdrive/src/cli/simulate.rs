@@ -1,0 +1,86 @@
+//! `beltdrive simulate`: a drive in time.
+
+use super::{common::Common, failure::Failure, origin::Origin};
+use beltdrive::input::{Argument, DriveFile};
+use beltdrive::transient::{Ending, TransientError, Until};
+use beltdrive::{plot, quantity, simulate};
+use clap::Args;
+use std::path::Path;
+
+const HELP: &str = "\
+Examples:
+  beltdrive examples slip-pulse > slip-pulse.toml
+  beltdrive simulate slip-pulse.toml --until '0.1 s' --csv history.csv
+  beltdrive simulate slip-pulse.toml --until steady --plot figures --at '40 ms'
+
+The table [transient] of the drive file says what the pulleys and their axles do. --csv and --parquet
+write one row per sample.
+
+Exit status:
+  0  success
+  1  there is no state to start from, the energy ledger does not close, or no steady state was reached
+  2  an input, an output or the command line is at fault";
+
+#[derive(Args)]
+#[command(after_help = HELP)]
+pub(super) struct Simulate {
+    #[command(flatten)]
+    common: Common,
+    /// When the run ends: a time, or `steady` [default: transient.end of the drive file]
+    #[arg(long, value_name = "TIME")]
+    until: Option<String>,
+    /// Draw tension and friction along the belt at this time; repeatable
+    #[arg(long = "at", value_name = "TIME")]
+    instants: Vec<String>,
+}
+
+impl Simulate {
+    pub(super) fn run(&self) -> Result<(), Failure> {
+        let (file, origin) = self.common.file()?;
+        self.of(&file, &origin).map_err(|failure| failure.of(&file))
+    }
+
+    fn of(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
+        let until = self.until.as_deref().map(|value| Argument {
+            option: "--until",
+            value,
+        });
+        let mut simulation = file.simulation(until).map_err(Failure::usage)?;
+        for value in &self.instants {
+            let argument = Argument {
+                option: "--at",
+                value,
+            };
+            let instant = argument.time().map_err(Failure::usage)?;
+            simulation.instants.push(instant);
+        }
+        let history = self.common.with_progress(|progress| {
+            simulate(&simulation, &mut |time, share| {
+                progress(share, &format!("{time:.3} s"));
+                true
+            })
+        })?;
+        let answer = &quantity::transient::answer(&simulation.drive, &history);
+        let draw = |directory: &Path, metadata: &str| {
+            plot::write_history(&simulation.drive, &history, directory, Some(metadata))
+        };
+        self.common.output.write(answer, &draw, origin)?;
+        match (history.ending, simulation.until) {
+            (Ending::NotSteady, Until::Steady { latest }) => Err(Failure::Unsolved(format!(
+                "error: the drive is not steady at {latest} s\nhelp: transient.end is the latest time of the search; \
+                 axial damping or a load that rises with the speed ends vibrations"
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl From<TransientError> for Failure {
+    fn from(error: TransientError) -> Self {
+        let text = format!("error: {error}");
+        match error.is_of_statement() {
+            true => Self::Usage(text),
+            false => Self::Unsolved(text),
+        }
+    }
+}

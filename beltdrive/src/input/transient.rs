@@ -1,0 +1,229 @@
+//! How a drive moves in time: the table `[transient]` of a drive file.
+
+use super::{
+    Argument, Diagnostic, DriveFile, check, diagnostic::Finding, document::Content, file,
+    overrides, schema, values::Values,
+};
+use crate::transient::{Axle, Cells, Load, Motion, Motor, Schedule, Simulation, Start, Until};
+use crate::{Drive, Duty};
+
+/// The list of pulleys of `[transient]`.
+const PULLEY: &str = "transient.pulley";
+
+/// The end of a run, or the latest end of one to the steady state.
+const END: &str = "transient.end";
+
+/// Cells of the mesh without `transient.cells`: the load step of the documentation is then off by a few thousandths
+/// in speed and tensions, at a second of computing per second.
+const CELLS: usize = 240;
+
+/// Time between two samples without `transient.interval`, s: the fastest torsional vibrations of drives have some
+/// hundred hertz.
+const INTERVAL: f64 = 1e-3;
+
+/// The latest end of a run to the steady state without `transient.end`, s.
+const LATEST: f64 = 10.0;
+
+impl DriveFile {
+    /// The drive in time, as the table `[transient]` states it, to an end on a command line: a time with its unit, or
+    /// `steady`; without one to `transient.end`.
+    ///
+    /// # Errors
+    /// There is no such table, it lacks what a pulley needs, its values do not belong together, or the end is no time.
+    pub fn simulation(&self, until: Option<Argument<'_>>) -> Result<Simulation, Diagnostic> {
+        let values = Values::check(&self.document, &self.source);
+        let stated = values.and_then(|values| Ok((file::drive(&values)?, values)));
+        let (drive, values) = stated.map_err(|finding| Diagnostic::new(finding, &self.source))?;
+        let asked = match until {
+            Some(until) => Some(self.until(until, &values)?),
+            None => None,
+        };
+        self.stated(drive, &values, asked)
+            .map_err(|finding| Diagnostic::new(finding, &self.source))
+    }
+
+    /// The end that a command line asks for.
+    fn until(&self, until: Argument<'_>, values: &Values<'_>) -> Result<Until, Diagnostic> {
+        if until.value == "steady" {
+            let latest = values.number(END).unwrap_or(LATEST);
+            return Ok(Until::Steady { latest });
+        }
+        let time = check::quantity(END, &until.entry(), &until.source());
+        time.map(Until::Time).map_err(|finding| {
+            until.diagnose(finding.help("or `steady`, for the time when nothing changes any more"))
+        })
+    }
+
+    fn stated(
+        &self,
+        drive: Drive,
+        values: &Values<'_>,
+        asked: Option<Until>,
+    ) -> Result<Simulation, Finding> {
+        if !values.has("transient") {
+            let end = self.document.end.clone();
+            let message = "nothing says how the drive moves in time";
+            return Err(Finding::new(end, message)
+                .expected("[transient], with [transient.pulley.NAME] for each pulley"));
+        }
+        let names: Vec<_> = { drive.pulleys.iter() }
+            .map(|pulley| pulley.name.clone())
+            .collect();
+        self.known_pulleys(&names)?;
+        let start = match values.text("transient.start") {
+            Some("running") => Start::Running,
+            _ => Start::Rest,
+        };
+        let until = match (asked, values.number(END)) {
+            (Some(asked), _) => asked,
+            (None, Some(end)) => Until::Time(end),
+            (None, None) => return Err(values.missing(&[END])),
+        };
+        let axles = drive.pulleys.iter();
+        let axles = axles.map(|pulley| axle(values, &pulley.name, pulley.duty, start));
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a whole number from 1 to 1000"
+        )]
+        let cells = values.number("transient.cells").map(|cells| cells as usize);
+        Ok(Simulation {
+            axles: axles.collect::<Result<_, _>>()?,
+            drive,
+            axial_damping: values.number("transient.axial_damping").unwrap_or(0.0),
+            start,
+            cells: Cells::Total(cells.unwrap_or(CELLS)),
+            until,
+            interval: values.number("transient.interval").unwrap_or(INTERVAL),
+            instants: vec![],
+            step: values.number("transient.time_step"),
+        })
+    }
+
+    /// Refuses a table of a pulley that there is not.
+    fn known_pulleys(&self, names: &[String]) -> Result<(), Finding> {
+        let tables = self.document.entries.iter();
+        for (path, entry) in tables.filter(|(_, entry)| entry.content == Content::Table) {
+            let name = path
+                .strip_prefix(PULLEY)
+                .and_then(|rest| rest.strip_prefix('.'));
+            if let Some(name) = name
+                && !names.iter().any(|known| known == name)
+            {
+                let place = entry.key.clone();
+                return Err(overrides::unknown(
+                    schema::PULLEY,
+                    "pulley",
+                    names,
+                    (name, place),
+                ));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The axle of a pulley.
+fn axle(values: &Values<'_>, name: &str, duty: Duty, start: Start) -> Result<Axle, Finding> {
+    let path = |key: &str| format!("{PULLEY}.{name}.{key}");
+    let inertia = path("inertia");
+    let motors = ["motor_torque", "motor_torque_over_speed"].map(path);
+    let given: Vec<_> = motors.iter().filter(|path| values.has(path)).collect();
+    if let [_, second] = given[..] {
+        let message = format!("the motor of `{name}` has a torque over time and one over speed");
+        return Err(Finding::new(values.key_place(second), message).expected("one of them"));
+    }
+    let speed = path("speed");
+    let stated = match (values.points(&speed), duty) {
+        (Some(points), _) => Some(schedule(values, &speed, points, true)?),
+        (None, Duty::Driver(speed)) if given.is_empty() && start == Start::Running => {
+            Some(Schedule::constant(speed))
+        }
+        (None, Duty::Driver(_)) if given.is_empty() => {
+            return Err(values.missing(&[&speed, &motors[0], &motors[1]]));
+        }
+        (None, _) => None,
+    };
+    let loads = ["load", "load_per_speed", "load_sense"].map(path);
+    if let Some(speed) = stated {
+        let others = motors.iter().chain(&loads);
+        if let Some(other) = { others }.find(|path| values.has(path)) {
+            let message = format!("the speed of `{name}` is given, so that no torque decides it");
+            return Err(Finding::new(values.key_place(other), message)
+                .expected("either `speed`, or torques"));
+        }
+        return Ok(Axle {
+            inertia: values.number(&inertia).unwrap_or(0.0),
+            motion: Motion::Speed(speed),
+        });
+    }
+    let motor = match (values.points(&motors[0]), values.points(&motors[1])) {
+        (Some(points), _) => Some(Motor::Torque(schedule(values, &motors[0], points, false)?)),
+        (None, Some(points)) => {
+            let torque = schedule(values, &motors[1], points, true)?;
+            Some(Motor::Characteristic(torque))
+        }
+        (None, None) => None,
+    };
+    let torque = match (values.points(&loads[0]), duty) {
+        (Some(points), _) => schedule(values, &loads[0], points, false)?,
+        (None, Duty::Torque(torque)) => Schedule::constant(torque),
+        (None, Duty::Driver(_)) => Schedule::constant(0.0),
+        (None, Duty::Power(_) | Duty::Driven) => return Err(values.missing(&[&loads[0]])),
+    };
+    Ok(Axle {
+        inertia: values.required_number(&inertia)?,
+        motion: Motion::Torques {
+            motor,
+            load: Load {
+                torque,
+                per_speed: values.number(&loads[1]).unwrap_or(0.0),
+                is_one_way: values.text(&loads[2]) == Some("one-way"),
+            },
+        },
+    })
+}
+
+/// The schedule through points, which may be one that must not jump.
+fn schedule(
+    values: &Values<'_>,
+    path: &str,
+    points: &[[f64; 2]],
+    is_continuous: bool,
+) -> Result<Schedule, Finding> {
+    let (_, key) = schema::split(path);
+    let found = Schedule::table(points.to_vec());
+    let schedule = found.ok_or_else(|| {
+        let mut pairs = points.windows(2);
+        let falls = pairs.find(|pair| pair[0][0] > pair[1][0]);
+        let message = match falls {
+            Some([before, after]) => {
+                format!(
+                    "the points of `{key}` are out of order: {} after {}",
+                    after[0], before[0]
+                )
+            }
+            _ => format!("`{key}` has no points"),
+        };
+        Finding::new(values.place(path), message).expected("points in ascending order")
+    })?;
+    match schedule.first_jump() {
+        Some(jump) if is_continuous => {
+            let message = format!("`{key}` must not jump, as it does at {jump}");
+            Err(Finding::new(values.place(path), message)
+                .expected("two points at different places, with a steep line between them"))
+        }
+        _ => Ok(schedule),
+    }
+}
+
+impl Argument<'_> {
+    /// A time with its unit, s; positive.
+    ///
+    /// # Errors
+    /// The value is no time.
+    pub fn time(&self) -> Result<f64, Diagnostic> {
+        let time = check::quantity(END, &self.entry(), &self.source());
+        time.map_err(|finding| self.diagnose(finding))
+    }
+}

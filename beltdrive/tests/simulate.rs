@@ -1,0 +1,268 @@
+//! The command `simulate` as its user meets it.
+
+use beltdrive::examples;
+use beltdrive::input::{Argument, DriveFile};
+use beltdrive::transient::{Motion, Until};
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+fn example(name: &str) -> &'static str {
+    examples::find(name).expect("a shipped example").text
+}
+
+fn directory(name: &str) -> PathBuf {
+    let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR"))
+        .join("simulate")
+        .join(name);
+    fs::create_dir_all(&directory).unwrap();
+    directory
+}
+
+/// Runs the command on a text in a directory of a name.
+fn simulate(name: &str, text: &str, options: &[&str]) -> Output {
+    let directory = directory(name);
+    fs::write(directory.join("drive.toml"), text).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_beltdrive"));
+    command.args(["simulate", "drive.toml"]).args(options);
+    command.current_dir(directory).output().unwrap()
+}
+
+#[track_caller]
+fn stdout(output: &Output) -> String {
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{errors}");
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+#[track_caller]
+fn fails(output: &Output, status: i32, words: &str) {
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(status), "{errors}");
+    assert!(errors.contains(words), "{errors}\n{words}");
+}
+
+#[test]
+fn a_history_goes_to_table_rows_json_and_figures() {
+    let options = [
+        "--csv",
+        "history.csv",
+        "--json",
+        "history.json",
+        "--plot",
+        "figures",
+        "--at",
+        "40 ms",
+        "--at",
+        "10 ms",
+    ];
+    let text = stdout(&simulate("outputs", example("slip-pulse"), &options));
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 100),
+        "{text}"
+    );
+    for words in [
+        "Simulation from 0 to 0.2 s",
+        "gross slip ends",
+        "not accounted for",
+    ] {
+        assert!(text.contains(words), "{text}");
+    }
+    let directory = directory("outputs");
+    let read = |name: &str| fs::read_to_string(directory.join(name)).unwrap();
+    let rows = read("history.csv");
+    let head = rows.lines().next().unwrap();
+    for column in [
+        "time_s",
+        "driven_angular_speed_rad_per_s",
+        "driven_to_driver_tension_N",
+        "driven_torque_N_m",
+        "driven_slip_arc_deg",
+        "energy_residual_J",
+    ] {
+        assert!(head.split(',').any(|name| name == column), "{head}");
+    }
+    assert_eq!(rows.lines().count(), 1 + 401);
+    let json: serde_json::Value = serde_json::from_str(&read("history.json")).unwrap();
+    let events = json["events"].as_array().unwrap();
+    let slip = events
+        .iter()
+        .find(|event| event["kind"] == "gross slip" && event["pulley"] == "driven");
+    let time = slip.unwrap()["time_s"].as_f64().unwrap();
+    assert!(time > 0.02 && time < 0.05, "{time}");
+    let samples = json["samples"].as_array().unwrap();
+    assert_eq!(samples.len(), 401);
+    let last = &samples[400];
+    let speed = last["driven_angular_speed_rad_per_s"].as_f64().unwrap();
+    assert!((speed - 119.5).abs() < 1.0, "{speed}");
+    assert_eq!(json["run"]["ending"], "time");
+    let turnover = json["energy"]["turnover_J"].as_f64().unwrap();
+    assert!(json["energy"]["residual_J"].as_f64().unwrap() < 1e-4 * turnover);
+    assert!(read("figures/history.svg").contains("gross slip, driven"));
+    let along = read("figures/belt.svg");
+    assert!(along.find("at 0.010000 s").unwrap() < along.find("at 0.040000 s").unwrap());
+}
+
+#[test]
+fn the_steady_state_is_reached_or_missed() {
+    let options = [
+        "--until",
+        "steady",
+        "--set",
+        "transient.cells=60",
+        "--set",
+        "transient.end=1 s",
+    ];
+    let without_pulse = example("slip-pulse").replace("100 N*m", "30 N*m");
+    let text = stdout(&simulate("steady", &without_pulse, &options));
+    assert!(text.contains("to the steady state"), "{text}");
+    let options = [
+        "--until",
+        "steady",
+        "--set",
+        "transient.cells=60",
+        "--set",
+        "transient.end=0.06 s",
+    ];
+    let output = simulate("unsteady", example("slip-pulse"), &options);
+    fails(&output, 1, "the drive is not steady at 0.06 s");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("not steady in the end"));
+}
+
+#[test]
+fn a_soft_motor_brings_a_fan_up_to_the_speed_where_its_line_meets_the_load() {
+    let text = example("soft-start").replace("cells = 80", "cells = 40");
+    let options = ["--csv", "-", "--set", "transient.interval=50 ms"];
+    let rows = stdout(&simulate("soft-start", &text, &options));
+    let last: Vec<f64> = { rows.lines().last().unwrap().split(',') }
+        .map(|field| field.parse().unwrap())
+        .collect();
+    let [time, motor, fan] = last[..3] else {
+        panic!("{last:?}")
+    };
+    assert_eq!(time, 3.0);
+    // 40 N·m up to 1400 rpm, then down to 0 at 1500 rpm.
+    let torque = 40.0 * ((1500.0 - motor * 30.0 / std::f64::consts::PI) / 100.0).min(1.0);
+    let load = 2.0 + 0.75 * fan;
+    assert!((2.0 * torque / load - 1.0).abs() < 0.02, "{torque} {load}");
+    assert!(
+        2.0 * fan < motor && 2.0 * fan > 0.98 * motor,
+        "{motor} {fan}"
+    );
+}
+
+#[test]
+fn a_file_without_the_table_says_what_is_missing() {
+    let kim = example("kim2009-flat");
+    let none = simulate("none", kim, &["--until", "1 s"]);
+    fails(&none, 2, "nothing says how the drive moves in time");
+    fails(&none, 2, "[transient]");
+}
+
+#[test]
+fn faults_of_the_table_are_shown_where_they_stand() {
+    let pulse = example("slip-pulse");
+    let cases = [
+        (
+            "inertia = \"0.005 kg*m^2\"",
+            "inertia = \"-1 kg*m^2\"",
+            "must be positive",
+        ),
+        ("inertia = \"0.005 kg*m^2\"", "", "missing key `inertia`"),
+        (
+            "[\"20 ms\", \"100 N*m\"]",
+            "[\"10 ms\", \"100 N*m\"]",
+            "out of order: 0.01 after 0.02",
+        ),
+        (
+            "[\"20 ms\", \"100 N*m\"]",
+            "[\"20 ms\", \"110 N\"]",
+            "wrong dimension",
+        ),
+        (
+            "[\"20 ms\", \"100 N*m\"]",
+            "[\"20 ms\"]",
+            "a point must have two numbers, got 1",
+        ),
+        (
+            "cells = 120",
+            "cells = 2000",
+            "must be a whole number from 1 to 1000",
+        ),
+        (
+            "start = \"running\"",
+            "start = \"moving\"",
+            "unknown state at time 0 `moving`",
+        ),
+        (
+            "start = \"running\"",
+            "start = \"rest\"",
+            "missing table [transient.pulley.driver]",
+        ),
+        ("end = \"0.2 s\"", "", "missing key `end` in [transient]"),
+        (
+            "transient.pulley.driven]",
+            "transient.pulley.drivn]",
+            "there is no pulley `drivn`",
+        ),
+        (
+            "axial_damping",
+            "axial_dampening",
+            "did you mean `axial_damping`?",
+        ),
+        (
+            "law = \"epp\"",
+            "law = \"coulomb\"",
+            "a simulation needs elastic/perfectly-plastic friction",
+        ),
+        (
+            "start = \"running\"",
+            "start = \"rest\"\n[transient.pulley.driver]\nspeed = [[0, 0], [0.1, 0], [0.1, 120]]",
+            "`speed` must not jump, as it does at 0.1",
+        ),
+        (
+            "start = \"running\"",
+            "time_step = \"1 ms\"\nstart = \"running\"",
+            "a time step of 1.000e-3 s is unstable",
+        ),
+    ];
+    for (number, (from, to, words)) in cases.into_iter().enumerate() {
+        assert!(pulse.contains(from), "{from}");
+        let text = pulse.replacen(from, to, 1);
+        // What follows a table of a pulley would belong to it.
+        let text = match to.contains("[transient.pulley.driver]") {
+            true => text.replace(to, "start = \"rest\"") + "\n" + to.split_once('\n').unwrap().1,
+            false => text,
+        };
+        fails(&simulate(&format!("fault-{number}"), &text, &[]), 2, words);
+    }
+    fails(
+        &simulate("until", pulse, &["--until", "soon"]),
+        2,
+        "or `steady`",
+    );
+}
+
+#[test]
+fn a_file_states_motors_loads_and_ends() {
+    let file = DriveFile::read("soft-start", example("soft-start"), &[]).unwrap();
+    let until = Argument {
+        option: "--until",
+        value: "steady",
+    };
+    let simulation = file.simulation(Some(until)).unwrap();
+    assert_eq!(simulation.until, Until::Steady { latest: 3.0 });
+    let Motion::Torques { motor: Some(_), .. } = &simulation.axles[0].motion else {
+        panic!("a motor")
+    };
+    let Motion::Torques { motor: None, load } = &simulation.axles[1].motion else {
+        panic!("a load")
+    };
+    assert_eq!((load.per_speed, load.torque.at(1.0)), (0.75, 2.0));
+    // What only matters in time is nothing to trace or sweep over.
+    assert!(
+        file.keys()
+            .iter()
+            .all(|key| !key.path().starts_with("transient"))
+    );
+}
