@@ -3,8 +3,10 @@
 use beltdrive::input::{DriveFile, Spread};
 use beltdrive::quantity::{self, UnitSystem};
 use beltdrive::report::{json, table};
-use beltdrive::uncertainty::{Band, Number, Uncertainty, of_check, of_tension};
-use beltdrive::{SetupQuestion, SolveOptions, check, examples, tension};
+use beltdrive::uncertainty::{Band, Number, Uncertainty, of_check, of_rating, of_tension};
+use beltdrive::{
+    Rating, RatingQuestion, SetupQuestion, SolveOptions, check, examples, rating, tension,
+};
 use statrs::distribution::{ContinuousCDF, Normal};
 use std::process::{Command, Output, Stdio};
 
@@ -152,6 +154,65 @@ fn a_band_of_the_tension_is_that_of_tension() {
     assert!((with(20.0 - 1.96 * 2.0) / low - 1.0).abs() < 0.01);
     assert!((with(20.0 + 1.96 * 2.0) / high - 1.0).abs() < 0.01);
     assert!(!found.disagrees());
+}
+
+/// All that a rating says grows with the setup tension, so that the quantiles of samples are ratings at its quantiles.
+#[test]
+fn bands_of_a_rating_are_those_of_ratings() {
+    let (question, options) = (RatingQuestion::default(), SolveOptions::default());
+    let rated = |file: &DriveFile| {
+        rating(&file.drive().unwrap(), question, &options, &mut |_, _| {}).unwrap()
+    };
+    let spread = [
+        "uncertainty.load.setup_tension.from = 240 N",
+        "uncertainty.load.setup_tension.to = 360 N",
+    ];
+    let stated = file("crossed", &spread);
+    let found = of_rating(
+        &stated,
+        &rated(&stated),
+        question,
+        400,
+        &options,
+        &mut |_, _| {},
+    );
+    let found = found.unwrap();
+    let with = |tension: f64| {
+        rated(&file(
+            "crossed",
+            &[&format!("load.setup_tension={tension:?} N")],
+        ))
+    };
+    let numbers: [(Number, fn(&Rating) -> f64); 5] = [
+        (Number::BestSpeed, |rated| rated.optimum.speed),
+        (Number::BestTorque, |rated| rated.optimum.torque),
+        (Number::BestPower, |rated| rated.optimum.power),
+        (Number::StatedTorque, |rated| {
+            rated.stated.as_ref().unwrap().torque
+        }),
+        (Number::StatedPower, |rated| {
+            rated.stated.as_ref().unwrap().power
+        }),
+    ];
+    assert_eq!(found.bands.len(), numbers.len() + 1);
+    let quantiles = [0.025, 0.975].map(|quantile| with(240.0 + quantile * 120.0));
+    let differences = [299.0, 301.0].map(with);
+    for (number, of) in numbers {
+        let band = band(&found, number);
+        let sampled = band.sampled.unwrap();
+        assert_eq!(sampled.count, 400);
+        for (end, known) in sampled.distribution.interval.iter().zip(&quantiles) {
+            assert!((end / of(known) - 1.0).abs() < 2e-3, "{number:?}");
+        }
+        // A standard deviation of an interval is its length over √12.
+        let slope = 0.5 * (of(&differences[1]) - of(&differences[0]));
+        let known = slope * 120.0 / 12_f64.sqrt();
+        let found = band.effects[0].unwrap();
+        assert!(
+            (found / known - 1.0).abs() < 1e-3,
+            "{number:?} {found} {known}"
+        );
+    }
 }
 
 #[test]

@@ -14,6 +14,7 @@
 mod propagation;
 
 use super::check::{CheckedService, SlipMargin, check};
+use super::rating::{Rating, RatingEnd, RatingQuestion, rating};
 use super::tension::{Setup, smallest_tension};
 use crate::SolveOptions;
 use crate::input::{Diagnostic, DriveFile, Uncertain};
@@ -92,6 +93,18 @@ pub enum Number {
     RestHubLoad,
     /// The smallest setup tension, N.
     SetupTension,
+    /// The speed of the driver at which it has the largest power, rad/s.
+    BestSpeed,
+    /// The largest torque of the driver there, N·m.
+    BestTorque,
+    /// The largest power of the driver there, W.
+    BestPower,
+    /// The largest torque of the driver at the speed of the drive file, N·m.
+    StatedTorque,
+    /// The largest power of the driver there, W.
+    StatedPower,
+    /// The speed of the driver at which the belt lifts off, rad/s.
+    LiftOffSpeed,
 }
 
 impl Band {
@@ -197,6 +210,52 @@ pub fn of_tension(
     };
     let propagation = Propagation::new(file, &answer, samples)?;
     Ok(propagation.of(&found(Some(setup.tension)), progress))
+}
+
+/// How far what [`rating`](crate::rating()) finds may be from its value: the largest power with its speed and torque, the
+/// load at the speed of the file, and the speed of lift-off; otherwise as [`of_check`].
+///
+/// # Errors
+/// The table `[uncertainty]` is at fault.
+pub fn of_rating(
+    file: &DriveFile,
+    rated: &Rating,
+    question: RatingQuestion,
+    samples: usize,
+    options: &SolveOptions,
+    progress: &mut (dyn FnMut(f64, &str) + Send),
+) -> Result<Uncertainty, Diagnostic> {
+    let answer = |file: &DriveFile| {
+        let drive = file.drive().ok()?;
+        let rated = rating(&drive, question, options, &mut |_, _| {});
+        Some(found_by_rating(rated.ok().as_ref()))
+    };
+    let propagation = Propagation::new(file, &answer, samples)?;
+    Ok(propagation.of(&found_by_rating(Some(rated)), progress))
+}
+
+/// What a rating says that has a band.
+fn found_by_rating(rated: Option<&Rating>) -> Found {
+    let best = rated.map(|rated| &rated.optimum);
+    let stated = rated.and_then(|rated| rated.stated.as_ref().ok());
+    let lift_off = rated.and_then(|rated| match rated.end {
+        RatingEnd::LiftsOff { speed } => Some(speed),
+        _ => None,
+    });
+    let numbers = [
+        (Number::BestSpeed, best.map(|load| load.speed)),
+        (Number::BestTorque, best.map(|load| load.torque)),
+        (Number::BestPower, best.map(|load| load.power)),
+        (Number::StatedTorque, stated.map(|load| load.torque)),
+        (Number::StatedPower, stated.map(|load| load.power)),
+        (Number::LiftOffSpeed, lift_off),
+    ];
+    Found {
+        numbers: { numbers }
+            .map(|(number, value)| (number, None, value))
+            .to_vec(),
+        holds: Vec::new(),
+    }
 }
 
 /// What a check says that has a band.

@@ -1,8 +1,8 @@
 //! `beltdrive rating`: the largest torque and power of a drive against speed.
 
-use super::{common::Common, failure::Failure, origin::Origin};
+use super::{common::Common, failure::Failure, origin::Origin, samples::Samples};
 use beltdrive::input::{Argument, DriveFile};
-use beltdrive::{RatingQuestion, plot, quantity, rating};
+use beltdrive::{RatingQuestion, plot, quantity, rating, uncertainty};
 use clap::Args;
 use std::path::Path;
 
@@ -27,6 +27,8 @@ pub(super) struct Rating {
     /// Speed of the driver to end at
     #[arg(long, value_name = "B", allow_hyphen_values = true)]
     to: Option<String>,
+    #[command(flatten)]
+    samples: Samples,
 }
 
 impl Rating {
@@ -53,11 +55,17 @@ impl Rating {
             from: speed("--from", &self.from)?,
             to: speed("--to", &self.to)?,
         };
+        let samples = self.samples.of(file)?;
         let options = self.common.options();
         let found = self
             .common
             .with_progress(|progress| rating(&drive, question, &options, progress))?;
-        let answer = &quantity::rating::answer(&found);
+        let spread = self.common.with_progress(|progress| {
+            uncertainty::of_rating(file, &found, question, samples, &options, progress)
+        });
+        let spread = spread.map_err(Failure::usage)?;
+        let answer = quantity::rating::answer(&found);
+        let answer = &quantity::uncertainty::told_in(answer, &spread, &[]);
         let draw = |directory: &Path, metadata: &str| {
             plot::write_rating(&found, directory, Some(metadata))
         };

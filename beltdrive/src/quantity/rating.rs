@@ -77,7 +77,7 @@ fn end(rating: &Rating) -> String {
         RatingEnd::SlipsEverMore { speed, pulley } => {
             let name = &rating.drive.pulleys[*pulley].name;
             format!(
-                "faster than {} no load is the largest: pulley `{name}` slips ever more as it rises",
+                "faster than {} there is no largest load: pulley `{name}` slips ever more as it rises",
                 shown(*speed)
             )
         }

@@ -43,6 +43,20 @@ fn named(number: Number) -> (&'static str, &'static str, Measure) {
         Number::PowerLoss => ("power_loss", "power lost", Measure::Loss),
         Number::HubLoad => ("largest_hub_load", "hub load", Measure::Force),
         Number::RestHubLoad => ("largest_hub_load_rest", "hub load at rest", Measure::Force),
+        Number::BestSpeed => (
+            "optimum.speed",
+            "speed of largest power",
+            Measure::AngularSpeed,
+        ),
+        Number::BestTorque => ("optimum.torque", "torque there", Measure::Torque),
+        Number::BestPower => ("optimum.power", "largest power", Measure::Power),
+        Number::StatedTorque => (
+            "stated.torque",
+            "largest torque, drive file",
+            Measure::Torque,
+        ),
+        Number::StatedPower => ("stated.power", "largest power, drive file", Measure::Power),
+        Number::LiftOffSpeed => ("end_speed", "speed of lift-off", Measure::AngularSpeed),
         Number::SetupTension => ("tension", "belt tension at rest", Measure::Force),
     }
 }
