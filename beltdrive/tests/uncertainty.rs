@@ -172,7 +172,7 @@ fn bands_of_a_rating_are_those_of_ratings() {
         &stated,
         &rated(&stated),
         question,
-        400,
+        100,
         &options,
         &mut |_, _| {},
     );
