@@ -183,7 +183,8 @@ fn bands_of_a_rating_are_those_of_ratings() {
             &[&format!("load.setup_tension={tension:?} N")],
         ))
     };
-    let numbers: [(Number, fn(&Rating) -> f64); 5] = [
+    type Of = fn(&Rating) -> f64;
+    let numbers: [(Number, Of); 5] = [
         (Number::BestSpeed, |rated| rated.optimum.speed),
         (Number::BestTorque, |rated| rated.optimum.torque),
         (Number::BestPower, |rated| rated.optimum.power),
