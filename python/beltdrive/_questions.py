@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, Optional, Union
 
@@ -100,6 +100,40 @@ def tension(
     moved to tension the belt.
     """
     return Answer(_native.tension(stated(drive, tolerance, overrides), margin, elongation, move, samples))
+
+
+def rating(
+    drive: Drive,
+    start: Optional[Quantity] = None,
+    stop: Optional[Quantity] = None,
+    *,
+    samples: Optional[int] = None,
+    tolerance: float = 1e-6,
+    **overrides: Any,
+) -> Answer:
+    """What can it carry at each speed, why no more, and at which speed most?
+
+    ``start`` and ``stop`` are speeds of the driver; without ``stop`` the range ends where the belt lifts off.
+    """
+    ends = [None if end is None else quantity(name, end) for name, end in (("start", start), ("stop", stop))]
+    return Answer(_native.rating(stated(drive, tolerance, overrides), ends[0], ends[1], samples))
+
+
+def simulate(
+    drive: Drive,
+    until: Optional[Quantity] = None,
+    *,
+    at: Sequence[Quantity] = (),
+    tolerance: float = 1e-6,
+    **overrides: Any,
+) -> Answer:
+    """What happens over time, as ``[transient]`` of the drive file says what the pulleys do?
+
+    ``until`` is a time or ``"steady"``, in place of ``transient.end``; ``at`` the times at which tension and friction
+    along the belt are kept.
+    """
+    end = None if until is None else quantity("until", until)
+    return Answer(_native.simulate(stated(drive, tolerance, overrides), end, [quantity("at", time) for time in at]))
 
 
 def limits(drive: Drive, *, parameter: Optional[str] = None, tolerance: float = 1e-6, **overrides: Any) -> Answer:

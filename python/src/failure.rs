@@ -3,6 +3,7 @@
 use beltdrive::belt_loop::Refusal;
 use beltdrive::calibrate::Error as CalibrateError;
 use beltdrive::input::{Diagnostic, DriveFile};
+use beltdrive::transient::TransientError;
 use beltdrive::{DesignError, SolveError};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
@@ -65,6 +66,15 @@ impl From<Refusal> for Failure {
         match refusal {
             Refusal::Loop(error) => Self::from(*error),
             Refusal::Input(error) => Self::from(*error),
+        }
+    }
+}
+
+impl From<TransientError> for Failure {
+    fn from(error: TransientError) -> Self {
+        match error.is_of_statement() {
+            true => Self::input(error),
+            false => Self::Unsolved(error.to_string(), "no simulation"),
         }
     }
 }

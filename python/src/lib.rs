@@ -22,8 +22,8 @@ mod _native {
     use super::numbers::Numbers;
     #[pymodule_export]
     use super::questions::{
-        calibrate, check, design, example, examples, limits, map, report, sections, solve,
-        stability, tension, trace, verify,
+        calibrate, check, design, example, examples, limits, map, rating, report, sections,
+        simulate, solve, stability, tension, trace, verify,
     };
     #[pymodule_export]
     use super::table::{Table, solve_table};

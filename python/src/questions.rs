@@ -7,7 +7,10 @@ use beltdrive::belt_loop::{self, Varied};
 use beltdrive::input::{Argument, DriveFile, FileKey, Measurements};
 use beltdrive::page::{self, Made};
 use beltdrive::quantity::{self, uncertainty as told};
-use beltdrive::{BranchEnd, MapAxis, SetupQuestion, calibrate as calibration, uncertainty};
+use beltdrive::transient::{Ending, Until};
+use beltdrive::{
+    BranchEnd, MapAxis, RatingQuestion, SetupQuestion, calibrate as calibration, uncertainty,
+};
 use pyo3::exceptions::PyRuntimeWarning;
 use pyo3::prelude::*;
 
@@ -111,6 +114,66 @@ pub(crate) fn tension(
         let spread = uncertainty::of_tension(file, &found, samples, options, &mut |_, _| {})?;
         let answer = quantity::tension::answer(&found);
         Ok(told::told_in(answer, &spread, &service.cases))
+    })
+}
+
+/// The largest torque and power against speed.
+#[pyfunction]
+pub(crate) fn rating(
+    py: Python<'_>,
+    stated: Stated,
+    start: Option<String>,
+    stop: Option<String>,
+    samples: Option<usize>,
+) -> PyResult<Answer> {
+    stated.answer(py, |file, options| {
+        let drive = file.drive()?;
+        let samples = drawn(file, samples)?;
+        let keys = file.keys();
+        let speed = |option, value: &Option<String>| {
+            let Some(value) = value else {
+                return Ok(None);
+            };
+            let key = keys.iter().find(|key| key.path().ends_with(".speed"));
+            let key = key.ok_or_else(|| Failure::input("the drive file gives no speed"))?;
+            Ok::<_, Failure>(Some(Argument { option, value }.number(key)?))
+        };
+        let question = RatingQuestion {
+            from: speed("start", &start)?,
+            to: speed("stop", &stop)?,
+        };
+        let found = beltdrive::rating(&drive, question, options, &mut |_, _| {})?;
+        let quiet = &mut |_: f64, _: &str| {};
+        let spread = uncertainty::of_rating(file, &found, question, samples, options, quiet)?;
+        let answer = quantity::rating::answer(&found);
+        Ok(told::told_in(answer, &spread, &[]))
+    })
+}
+
+/// The drive in time.
+#[pyfunction]
+pub(crate) fn simulate(
+    py: Python<'_>,
+    stated: Stated,
+    until: Option<String>,
+    at: Vec<String>,
+) -> PyResult<Answer> {
+    stated.answer(py, |file, _| {
+        let option = "until";
+        let until = until.as_deref().map(|value| Argument { option, value });
+        let mut simulation = file.simulation(until)?;
+        for value in &at {
+            let option = "at";
+            simulation.instants.push(Argument { option, value }.time()?);
+        }
+        let history = beltdrive::simulate(&simulation, &mut |_, _| true)?;
+        match (history.ending, simulation.until) {
+            (Ending::NotSteady, Until::Steady { latest }) => Err(Failure::Unsolved(
+                format!("the drive is not steady at {latest} s"),
+                "not steady",
+            )),
+            _ => Ok(quantity::transient::answer(&simulation.drive, &history)),
+        }
     })
 }
 

@@ -55,6 +55,24 @@ def test_a_check_gives_a_verdict_and_a_report_a_page() -> None:
         beltdrive.check(FLAT, samples=10)
 
 
+def test_a_rating_has_its_optimum_where_a_third_of_the_tension_is_left_to_the_speed() -> None:
+    found = beltdrive.rating(beltdrive.example("crossed"))
+    assert found.end == "lift-off"
+    share = found.optimum.speed_rad_per_s / found.end_speed_rad_per_s
+    assert share == pytest.approx(3**-0.5, rel=1e-2)
+    part = beltdrive.rating(beltdrive.example("crossed"), "100 rpm", "200 rpm")
+    assert part.optimum_at_end
+    with pytest.raises(beltdrive.InputError, match="begin below its end"):
+        beltdrive.rating(beltdrive.example("crossed"), "200 rpm", "100 rpm")
+
+
+def test_a_simulation_tells_of_gross_slip() -> None:
+    found = beltdrive.simulate(beltdrive.example("slip-pulse"), "30 ms")
+    assert found.events[0].kind == "gross slip"
+    with pytest.raises(beltdrive.InputError, match="transient"):
+        beltdrive.simulate(FLAT, "1 s")
+
+
 def test_tension_meets_the_margin_asked_for() -> None:
     found = beltdrive.tension(CASES, margin=1.7)
     assert min(case.slip_margin for case in found.cases) == pytest.approx(1.7, rel=1e-6)
