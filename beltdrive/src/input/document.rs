@@ -67,6 +67,17 @@ impl Content {
             Self::Other(name) => name,
         }
     }
+
+    /// Calls a function with the place of each key and value in it.
+    fn visit_places(&mut self, visit: &mut dyn FnMut(&mut Range<usize>)) {
+        if let Self::List(entries) = self {
+            for entry in entries {
+                visit(&mut entry.key);
+                visit(&mut entry.place);
+                entry.content.visit_places(visit);
+            }
+        }
+    }
 }
 
 impl Document {
@@ -227,6 +238,18 @@ impl Document {
         }
         self.entries.insert(path.to_owned(), entry);
     }
+}
+
+/// The content of a value that is TOML by itself and stands at byte `start`; `None` if it is no TOML.
+pub(super) fn content_of(value: &str, start: usize) -> Option<Content> {
+    const KEY: &str = "value=";
+    let text = format!("{KEY}{value}");
+    let table = DeTable::parse(&text).ok()?;
+    let mut found = content(table.get_ref().get("value")?.get_ref());
+    found.visit_places(&mut |place| {
+        *place = place.start + start - KEY.len()..place.end + start - KEY.len();
+    });
+    (table.get_ref().len() == 1).then_some(found)
 }
 
 fn content(value: &DeValue<'_>) -> Content {

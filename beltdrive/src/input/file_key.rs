@@ -85,14 +85,11 @@ impl DriveFile {
         values.number(&key.path)
     }
 
-    /// The file with another value of a number, SI.
+    /// The file with another value of a number, SI, and with what follows from it by the belt section, such as the
+    /// groove angle of another diameter.
     #[must_use]
     pub fn with(&self, key: &FileKey, value: f64) -> Self {
-        let mut file = self.clone();
-        if let Some(entry) = file.document.entries.get_mut(&key.path) {
-            entry.content = Content::Number(value);
-        }
-        file
+        self.restated([(key.path.clone(), Content::Number(value))])
     }
 
     /// The file with the sense in which its belt runs round the pulleys, where it leaves that to their places: as a
@@ -155,6 +152,21 @@ impl Argument<'_> {
     pub fn number(&self, key: &FileKey) -> Result<f64, Diagnostic> {
         check::quantity(&key.path, &self.entry(), &self.source())
             .map_err(|finding| self.diagnose(finding))
+    }
+
+    /// The value as a speed of the driver of a drive file, rad/s.
+    ///
+    /// # Errors
+    /// The value is no speed, or the file gives none.
+    pub fn driver_speed(&self, file: &DriveFile) -> Result<f64, Diagnostic> {
+        let keys = file.keys();
+        match keys.iter().find(|key| key.path().ends_with(".speed")) {
+            Some(key) => self.number(key),
+            None => {
+                let message = "the drive file gives no speed".to_owned();
+                Err(self.diagnose(Finding::new(self.entry().place, message)))
+            }
+        }
     }
 }
 

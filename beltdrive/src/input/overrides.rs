@@ -3,7 +3,7 @@
 use super::{
     check,
     diagnostic::Finding,
-    document::{Content, Document, Entry},
+    document::{Content, DesignEntry, Document, Entry, content_of},
     schema, spelling,
 };
 use std::ops::Range;
@@ -12,7 +12,8 @@ use std::ops::Range;
 ///
 /// It replaces the entry at its path and, where a quantity can be stated in two ways, the other
 /// way too: `load.tight_tension=…` takes the place of a tight tractive tension. Without a value it
-/// removes the entry: `load.tight_tension=`.
+/// removes the entry: `load.tight_tension=`. What a design may do to a key is one entry, whose value is a TOML array:
+/// `design.free.load.setup_tension=["300 N", "1 kN"]`.
 pub(super) fn apply(document: &mut Document, text: &str, start: usize) -> Result<(), Finding> {
     let whole = start..start + text.len();
     let malformed = |message: &str| {
@@ -60,8 +61,16 @@ pub(super) fn apply(document: &mut Document, text: &str, start: usize) -> Result
             ));
         }
     }
+    let designed = [schema::FREE, schema::CHOOSE]
+        .into_iter()
+        .find_map(|table| {
+            let key = path.strip_prefix(table)?.strip_prefix('.')?;
+            Some((table, unquoted(key)))
+        });
     // The tables on the way, unless the file has them.
-    for (end, _) in path.match_indices('.') {
+    let parent = designed.map_or(schema::split(path).0, |(table, _)| table);
+    let ends = path.match_indices('.').map(|(end, _)| end);
+    for end in ends.take_while(|end| *end <= parent.len()) {
         let table = &path[..end];
         let key = path_start + end - schema::split(table).1.len()..path_start + end;
         let entry = Entry {
@@ -72,15 +81,30 @@ pub(super) fn apply(document: &mut Document, text: &str, start: usize) -> Result
         document.entries.entry(table.to_owned()).or_insert(entry);
     }
 
-    let (_, name) = schema::split(path);
+    let name = match parent {
+        "" => path,
+        _ => &path[parent.len() + 1..],
+    };
     let path_end = path_start + path.len();
     let place = value_start + value.len() - value.trim_start().len();
-    let entry = Entry {
+    let mut entry = Entry {
         key: path_end - name.len()..path_end,
         place: place..place + value.trim().len(),
         content: Content::Text(unquoted(value.trim()).to_owned()),
     };
-    document.replace(path, entry);
+    let Some((table, path)) = designed else {
+        document.replace(path, entry);
+        return Ok(());
+    };
+    document.designed.retain(|known| known.path != path);
+    if !value.trim().is_empty() {
+        entry.content = content_of(value.trim(), place).unwrap_or(entry.content);
+        document.designed.push(DesignEntry {
+            table: table.to_owned(),
+            path: path.to_owned(),
+            entry,
+        });
+    }
     Ok(())
 }
 
@@ -153,5 +177,30 @@ mod tests {
         assert_eq!(unquoted("\"a\""), "a");
         assert_eq!(unquoted("'a\""), "'a\"");
         assert_eq!(unquoted("\""), "\"");
+    }
+
+    #[test]
+    fn an_override_takes_the_place_of_what_a_design_may_do_to_a_key() {
+        let text = "[design.free]\nload.setup_tension = [1, 2]\nlayout.centre_distance = [3, 4]";
+        let mut document = Document::from_toml(text).unwrap();
+        let value = "['300 N', 4]";
+        let set = format!("design.choose.load.setup_tension = {value}");
+        apply(&mut document, &set, 100).unwrap();
+        apply(&mut document, "design.free.layout.centre_distance=", 200).unwrap();
+        let [designed] = &document.designed[..] else {
+            panic!("{:?}", document.designed)
+        };
+        assert_eq!(designed.table, schema::CHOOSE);
+        assert_eq!(designed.path, "load.setup_tension");
+        let start = 100 + set.find(value).unwrap();
+        assert_eq!(designed.entry.place, start..start + value.len());
+        let Content::List(values) = &designed.entry.content else {
+            panic!("{designed:?}")
+        };
+        assert_eq!(values[0].content, Content::Text("300 N".to_owned()));
+        assert_eq!(values[0].place, start + 1..start + 8);
+        assert_eq!(values[1].content, Content::Number(4.0));
+        let paths: Vec<_> = document.entries.keys().map(String::as_str).collect();
+        assert_eq!(paths, ["design", "design.choose", "design.free"]);
     }
 }

@@ -6,25 +6,40 @@ use super::{
     document::{Content, Document, Entry},
     quantity, schema, section, unit,
 };
+use std::collections::BTreeMap;
 
 /// Significant digits of a written number: what rounding to them changes is far below the accuracy of any answer.
 const DIGITS: usize = 12;
 
 impl DriveFile {
-    /// The file with other contents under keys that it has, and with what follows from them by its belt section.
+    /// The file with other contents under keys that it has, and with what follows from them by its belt section. An
+    /// entry that the section gave and that has another content now keeps it, and all else stays as the section says.
     pub(super) fn restated(&self, contents: impl IntoIterator<Item = (String, Content)>) -> Self {
         let mut file = self.clone();
+        let entries = &mut file.document.entries;
+        let (mut given, mut replaced) = (BTreeMap::new(), BTreeMap::new());
         if let Some(filled) = file.filled_in.take() {
-            for entry in filled.entries {
-                file.document.entries.remove(&entry.path);
+            let paths = filled.entries.into_iter().map(|entry| entry.path);
+            for path in paths.chain(filled.replaced.keys().cloned()) {
+                given.extend(entries.remove(&path).map(|entry| (path, entry)));
             }
+            replaced = filled.replaced;
         }
         for (path, content) in contents {
-            if let Some(entry) = file.document.entries.get_mut(&path) {
+            if let Some(entry) = entries.get_mut(&path) {
                 entry.content = content;
+            } else if let Some(entry) = given.remove(&path) {
+                replaced.insert(path, Entry { content, ..entry });
             }
         }
         file.filled_in = section::fill(&mut file.document, &file.source);
+        if let Some(filled) = &mut file.filled_in {
+            filled
+                .entries
+                .retain(|entry| !replaced.contains_key(&entry.path));
+            file.document.entries.extend(replaced.clone());
+            filled.replaced = replaced;
+        }
         file
     }
 

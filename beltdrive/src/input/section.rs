@@ -10,6 +10,7 @@ use super::{
 };
 use crate::quantity::Measure;
 use crate::sections::{self, Family, Figure, Section};
+use std::collections::BTreeMap;
 
 /// The entry that names a section.
 const SECTION: &str = "belt.section";
@@ -28,6 +29,8 @@ pub struct FilledIn {
     pub entries: Vec<FilledEntry>,
     /// Pulleys that are smaller than the section allows: name, and diameter in m.
     pub too_small: Vec<(String, f64)>,
+    /// Entries that the section would fill in and that have other contents since, by path.
+    pub(super) replaced: BTreeMap<String, Entry>,
 }
 
 /// An entry of a drive file that is filled in.
@@ -49,6 +52,12 @@ pub enum FilledValue {
     Number(Measure, Figure),
 }
 
+/// Whether what a section fills in depends on the number at a path, which is not a whole one.
+pub(super) fn is_followed(path: &str) -> bool {
+    let (_, name) = schema::split(path);
+    path == WIDTH || ["radius", "diameter", "half_angle"].contains(&name)
+}
+
 /// Fills in what a document leaves out and its section has. What is at fault by itself is left to be found fault
 /// with where all entries are checked.
 pub(super) fn fill(document: &mut Document, source: &Source) -> Option<FilledIn> {
@@ -66,6 +75,7 @@ pub(super) fn fill(document: &mut Document, source: &Source) -> Option<FilledIn>
         section,
         too_small: filling.too_small(section),
         entries: filling.entries,
+        replaced: BTreeMap::new(),
     })
 }
 

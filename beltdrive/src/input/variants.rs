@@ -3,7 +3,7 @@
 use super::{
     Diagnostic, DriveFile, FileKey, check,
     document::{Content, Entry},
-    file,
+    file, section,
     values::Values,
 };
 use crate::Drive;
@@ -16,6 +16,8 @@ pub struct Variants<'f> {
     values: Values<'f>,
     /// The path and the entry of each number.
     varied: Vec<(&'f str, &'f Entry)>,
+    /// Whether other entries follow from these numbers by the belt section.
+    is_followed: bool,
 }
 
 impl<'f> Variants<'f> {
@@ -36,10 +38,12 @@ impl<'f> Variants<'f> {
                 .expect("a number of the file");
             (path.as_str(), entry)
         };
-        let varied = keys.iter().map(entry).collect();
+        let varied: Vec<_> = keys.iter().map(entry).collect();
+        let has_section = file.filled_in.is_some();
         Ok(Self {
             file,
             values,
+            is_followed: has_section && varied.iter().any(|(path, _)| section::is_followed(path)),
             varied,
         })
     }
@@ -49,6 +53,12 @@ impl<'f> Variants<'f> {
     /// # Errors
     /// As [`DriveFile::drive`] of the file with these values.
     pub fn drive(&self, numbers: impl IntoIterator<Item = f64>) -> Result<Drive, Diagnostic> {
+        if self.is_followed {
+            let contents = self.varied.iter().zip(numbers);
+            let contents =
+                contents.map(|((path, _), number)| ((*path).to_owned(), Content::Number(number)));
+            return self.file.restated(contents).drive();
+        }
         let mut values = self.values.clone();
         let source = &self.file.source;
         let diagnosed = |finding| Diagnostic::new(finding, source);
@@ -67,6 +77,7 @@ impl<'f> Variants<'f> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::BeltKind;
     use crate::examples::EXAMPLES;
 
     #[test]
@@ -78,12 +89,11 @@ mod tests {
             let given: Vec<_> = keys.iter().map(|key| file.value(key).unwrap()).collect();
             let variants = Variants::new(&file, &keys).unwrap();
             assert_eq!(variants.drive(given.clone()), file.drive());
-            for (index, key) in keys.iter().enumerate() {
+            for (key, given) in keys.iter().zip(given) {
+                let variants = Variants::new(&file, &[key]).unwrap();
                 for factor in [1.01, -1.0, 0.0, 1e6] {
-                    let mut numbers = given.clone();
-                    numbers[index] *= factor;
-                    let expected = file.with(key, numbers[index]).drive();
-                    let found = variants.drive(numbers);
+                    let expected = file.with(key, factor * given).drive();
+                    let found = variants.drive([factor * given]);
                     // Of a fault the message is the same, its excerpt may be that of another entry.
                     let message = |error: Diagnostic| error.message().to_owned();
                     assert_eq!(
@@ -95,6 +105,52 @@ mod tests {
                     );
                 }
             }
+        }
+    }
+
+    #[test]
+    fn what_a_section_gives_follows_from_a_number_that_varies() {
+        let text = crate::examples::find("spb-fan").unwrap().text;
+        let read = |overrides: &[&str]| {
+            let overrides: Vec<_> = overrides.iter().map(|text| (*text).to_owned()).collect();
+            DriveFile::read("spb-fan.toml", text, &overrides).unwrap()
+        };
+        let file = read(&[]);
+        let keys = file.keys();
+        let find = |path| keys.iter().find(|key| key.path() == path).unwrap();
+        let drive = |key, value| {
+            let variants = Variants::new(&file, &[key]).unwrap();
+            variants.drive([value]).unwrap()
+        };
+        // The grooves of SPB pulleys of more than 190 mm are wider.
+        let diameter = find("pulleys.driver.diameter");
+        let wider = read(&["pulleys.driver.diameter=200 mm"]).drive().unwrap();
+        assert_eq!(drive(diameter, 0.2), wider);
+        assert_eq!(wider.pulleys[1].half_angle, None);
+        // A number that the section gave changes for itself, and is what it is whatever changes after it.
+        for (path, value) in [
+            ("groove.half_angle", 0.35),
+            ("pulleys.driven.half_angle", 0.35),
+            ("belt.axial_stiffness", 2e5),
+        ] {
+            let key = find(path);
+            let mut expected = file.drive().unwrap();
+            match (path, &mut expected.belt.kind) {
+                ("groove.half_angle", BeltKind::V(belt)) => belt.half_angle = value,
+                ("belt.axial_stiffness", _) => expected.belt.axial_stiffness = value,
+                _ => expected.pulleys[1].half_angle = Some(value),
+            }
+            let other = file.with(key, value);
+            assert_eq!(other.drive().unwrap(), expected, "{path}");
+            assert_eq!(drive(key, value), expected, "{path}");
+            let (there, back) = (0.2, file.value(diameter).unwrap());
+            let moved = other.with(diameter, there);
+            assert_eq!(moved.value(key), Some(value), "{path}");
+            assert_eq!(
+                moved.with(diameter, back).drive().unwrap(),
+                expected,
+                "{path}"
+            );
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What the steady states of measured rows have, and how it changes with the free numbers.
 
 use crate::belt_loop::{LoopState, solve_to};
-use crate::input::{FileKey, MeasuredRow, Measurements, Reading};
+use crate::input::{FileKey, MeasuredRow, Measurements, Reading, Variants};
 use crate::{BeltKind, SolveOptions};
 use std::num::NonZero;
 use std::thread;
@@ -26,6 +26,8 @@ pub(super) struct Model<'d> {
     keys: &'d [FileKey],
     starts: Vec<f64>,
     data: &'d Measurements,
+    /// The drives of the rows.
+    variants: Vec<Result<Variants<'d>, RowFailure>>,
     options: &'d SolveOptions,
     is_flat: bool,
 }
@@ -46,6 +48,10 @@ impl<'d> Model<'d> {
         let start = |key| first.and_then(|file| file.value(key));
         let drive = first.and_then(|file| file.drive().ok());
         let kind = drive.map(|drive| drive.belt.kind);
+        let paths: Vec<_> = keys.iter().collect();
+        let variants = data.rows.iter().map(|row| {
+            Variants::new(&row.file, &paths).map_err(|error| row_failure(row, error.message()))
+        });
         Self {
             starts: keys
                 .iter()
@@ -53,6 +59,7 @@ impl<'d> Model<'d> {
                 .collect(),
             keys,
             data,
+            variants: variants.collect(),
             options,
             is_flat: matches!(kind, Some(BeltKind::Flat { .. })),
         }
@@ -114,7 +121,7 @@ impl<'d> Model<'d> {
             .iter()
             .flat_map(|place| {
                 let values = self.values(place);
-                self.data.rows.iter().map(move |row| (row, values.clone()))
+                (0..self.data.rows.len()).map(move |row| (row, values.clone()))
             })
             .collect();
         // The closed form of a flat belt takes less time than a thread.
@@ -123,11 +130,9 @@ impl<'d> Model<'d> {
             false => thread::available_parallelism().map_or(1, NonZero::get),
         };
         let share = tasks.len().div_ceil(threads).max(1);
-        let solve = |tasks: &[(&MeasuredRow, Vec<f64>)]| -> Vec<_> {
-            tasks
-                .iter()
-                .map(|(row, values)| self.row(row, values))
-                .collect()
+        let solve = |tasks: &[(usize, Vec<f64>)]| -> Vec<_> {
+            let tasks = tasks.iter();
+            tasks.map(|(row, values)| self.row(*row, values)).collect()
         };
         let solved: Vec<_> = match tasks.len() <= share {
             true => solve(&tasks),
@@ -158,23 +163,14 @@ impl<'d> Model<'d> {
     }
 
     /// What a row has with values of the free numbers, and its relative error.
-    fn row(
-        &self,
-        row: &MeasuredRow,
-        values: &[f64],
-    ) -> Result<(Vec<Option<f64>>, f64), RowFailure> {
-        let failure = |reason: String| RowFailure {
-            line: row.line,
-            reason,
-        };
-        let mut file = row.file.clone();
-        for (key, value) in self.keys.iter().zip(values) {
-            file = file.with(key, *value);
-        }
-        let drive = file
-            .drive()
-            .map_err(|error| failure(error.message().to_owned()))?;
-        let state = solve_to(&drive, self.options).map_err(|error| failure(error.to_string()))?;
+    fn row(&self, index: usize, values: &[f64]) -> Result<(Vec<Option<f64>>, f64), RowFailure> {
+        let row = &self.data.rows[index];
+        let variants = self.variants[index].as_ref().map_err(RowFailure::clone)?;
+        let drive = variants
+            .drive(values.iter().copied())
+            .map_err(|error| row_failure(row, error.message()))?;
+        let state =
+            solve_to(&drive, self.options).map_err(|error| row_failure(row, &error.to_string()))?;
         let read = |(index, reading): (usize, &Option<Reading>)| {
             reading.as_ref()?;
             self.data.measured[index].of(&state)
@@ -185,7 +181,10 @@ impl<'d> Model<'d> {
             .into_iter()
             .find(|((found, reading), _)| reading.is_some() && !found.is_some_and(f64::is_finite));
         match lacking {
-            Some((_, measured)) => Err(failure(format!("the state has no `{}`", measured.name()))),
+            Some((_, measured)) => {
+                let reason = format!("the state has no `{}`", measured.name());
+                Err(row_failure(row, &reason))
+            }
             None => Ok((found, error(&state))),
         }
     }
@@ -211,6 +210,13 @@ impl<'d> Model<'d> {
             (reading.value - model) / reading.deviation.unwrap_or(1.0)
         })
         .collect()
+    }
+}
+
+fn row_failure(row: &MeasuredRow, reason: &str) -> RowFailure {
+    RowFailure {
+        line: row.line,
+        reason: reason.to_owned(),
     }
 }
 
