@@ -15,6 +15,14 @@ fn checked(example: &str, overrides: &[&str], tolerance: f64) -> CheckedService 
     check(&service, &SolveOptions { tolerance }, &mut |_, _| {}).unwrap()
 }
 
+/// The slip margin of the only case.
+fn margin(checked: &CheckedService) -> f64 {
+    match checked.cases[0].outcome.as_ref().unwrap().slip_margin {
+        SlipMargin::Factor(found) => found.value,
+        other => panic!("{other:?}"),
+    }
+}
+
 /// Runs the program on a text from standard input.
 fn run(arguments: &[&str], text: &str) -> Output {
     use std::io::Write;
@@ -158,11 +166,6 @@ fn near_lift_off_the_margin_is_that_to_gross_slip() {
         let overrides = ["pulleys.driver.speed=11000 rpm", "load.power=", &torque];
         checked("v-power", &overrides, 1e-6)
     };
-    let margin =
-        |checked: &CheckedService| match checked.cases[0].outcome.as_ref().unwrap().slip_margin {
-            SlipMargin::Factor(found) => found.value,
-            other => panic!("{other:?}"),
-        };
     let base = margin(&at(1.75));
     assert!((30.0..40.0).contains(&base), "{base}");
     // The same load from another one, and from beyond it.
@@ -170,6 +173,25 @@ fn near_lift_off_the_margin_is_that_to_gross_slip() {
         let found = share * margin(&at(1.75 * share * base));
         assert!((found - 1.0).abs() < 1e-3, "{share}: {found}");
     }
+}
+
+/// The belt of a variator sinks so deep that it is slow against the pitch circles by more than a twentieth, without
+/// slipping: its margin is that to the load at which it overhangs, from whatever load it is sought.
+#[test]
+fn a_belt_that_sinks_deep_does_not_slip() {
+    let bristle = "friction.law=bristle";
+    let at = |torque: f64| {
+        let torque = format!("load.torque={torque} N*m");
+        let overrides = [bristle, "load.tight_tractive_tension=", &torque];
+        checked("cvt-variator", &overrides, 1e-6)
+    };
+    let limits = [8.0, 40.0].map(|torque| torque * margin(&at(torque)));
+    assert!((75.0..85.0).contains(&limits[0]), "{limits:?}");
+    assert!((limits[1] / limits[0] - 1.0).abs() < 1e-4, "{limits:?}");
+    let stated = checked("cvt-variator", &[bristle], 1e-6);
+    let state = stated.cases[0].outcome.as_ref().unwrap();
+    let limit = margin(&stated) * state.state.pulleys[1].torque;
+    assert!((limit / limits[0] - 1.0).abs() < 1e-4, "{limit} {limits:?}");
 }
 
 #[test]

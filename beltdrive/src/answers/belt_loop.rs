@@ -1,6 +1,6 @@
 //! What is asked of the steady state of any drive as a loop of pulleys.
 
-use super::drive::solve as solve_two_pulleys;
+use super::drive::summary;
 use crate::belt_loop::LoopState;
 use crate::drive::check;
 use crate::model::model;
@@ -48,7 +48,9 @@ pub(super) fn closed_once<'d>(
     options: &SolveOptions,
 ) -> Result<Cow<'d, Drive>, SolveError> {
     if drive.two_pulleys().is_some() {
-        return Ok(Cow::Owned(solve_two_pulleys(drive, options)?.as_loop()));
+        let (found, _) = summary(None, drive, options)?;
+        let slack = found.slack_tractive_tension;
+        return Ok(Cow::Owned(drive.as_loop(found.driven.torque, slack)));
     }
     let tolerance = options.tolerance;
     if !(1e-12..=1e-2).contains(&tolerance) {

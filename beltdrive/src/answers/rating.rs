@@ -6,6 +6,8 @@ mod range;
 mod rated;
 
 pub use range::RatingEnd;
+pub(super) use range::at_speed;
+pub(super) use rated::kept;
 
 use crate::results::largest_load::LoadEnd;
 use crate::{BeltKind, Drive, SolveError, SolveOptions};

@@ -220,7 +220,7 @@ fn sought<'o>(
         accuracy,
         options,
     };
-    if cases.iter().all(|case| is_idle(&case.drive)) {
+    if cases.iter().all(|case| case.drive.is_idle()) {
         return Err(SolveError::Statement {
             subject: "load".to_owned(),
             problem: Cow::Borrowed(
@@ -267,12 +267,6 @@ fn loaded(drive: &Drive, options: &SolveOptions) -> Result<Drive, SolveError> {
             Ok(drive)
         }
     }
-}
-
-/// Whether no pulley has a torque.
-pub(super) fn is_idle(drive: &Drive) -> bool {
-    let mut pulleys = drive.pulleys.iter();
-    pulleys.all(|pulley| pulley.duty.torque_at(1.0) == 0.0)
 }
 
 /// The drive with other coefficients of friction.

@@ -66,6 +66,25 @@ impl Drive {
         }
     }
 
+    /// The drive, which has two pulleys, as a loop that is closed by its slack tractive tension in N, with the torque of
+    /// the driven pulley in N·m.
+    pub(crate) fn as_loop(&self, torque: f64, slack: f64) -> Self {
+        let mut drive = self.clone();
+        let driver = drive.driver();
+        drive.pulleys[1 - driver].duty = Duty::Torque(torque);
+        drive.closure = Closure::SpanTractiveTension {
+            span: driver,
+            tension: slack,
+        };
+        drive
+    }
+
+    /// Whether no pulley has a torque.
+    pub(crate) fn is_idle(&self) -> bool {
+        let mut pulleys = self.pulleys.iter();
+        pulleys.all(|pulley| pulley.duty.torque_at(1.0) == 0.0)
+    }
+
     /// Multiplies the torques and powers of all pulleys.
     pub(crate) fn multiply_load(&mut self, factor: f64) {
         for pulley in &mut self.pulleys {

@@ -3,7 +3,7 @@
 use crate::results::possible;
 use crate::results::warning::Warning;
 use crate::vbelt::{Solved, sharper};
-use crate::{Closure, Drive, Duty, SolveError};
+use crate::{Drive, SolveError};
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -54,14 +54,8 @@ pub struct SteadyState {
 impl SteadyState {
     /// The drive of this state as a loop that is closed by its slack tension, with the torque of the driven pulley.
     pub fn as_loop(&self) -> Drive {
-        let mut drive = self.drive.clone();
-        let driver = drive.driver();
-        drive.pulleys[1 - driver].duty = Duty::Torque(self.driven.torque);
-        drive.closure = Closure::SpanTractiveTension {
-            span: driver,
-            tension: self.slack_tractive_tension,
-        };
-        drive
+        let torque = self.driven.torque;
+        self.drive.as_loop(torque, self.slack_tractive_tension)
     }
 
     /// The state of a V-belt once more: with a quarter of the smoothing of friction, or with bristles to a tenth of the

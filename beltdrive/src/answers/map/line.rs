@@ -4,11 +4,12 @@ use super::MapState;
 use super::limit::{Limit, beyond};
 use crate::answers::belt_loop::closed_once;
 use crate::answers::check::{OnPulley, SlipMargin, case_state};
+use crate::answers::drive::summary;
 use crate::answers::members::{Refusal, Varied};
 use crate::belt_loop::LoopState;
 use crate::input::{Diagnostic, DriveFile, Variants};
 use crate::model::{Neighbour, model};
-use crate::{Drive, Duty, GivenLosses, SolveOptions, SteadyState, solve_from};
+use crate::{Drive, Duty, GivenLosses, SolveOptions, SteadyState};
 
 /// The drives that differ from a file in some numbers.
 pub(in crate::answers) struct Family<'f> {
@@ -99,15 +100,12 @@ impl<'f> Family<'f> {
         (stated, factor): (Drive, f64),
     ) -> Result<(Near, LoopState), Refusal> {
         let options = self.options;
-        let of_two = near.and_then(|near| near.state_of_two.as_deref());
-        let (mut closed, state_of_two) = match of_two {
-            Some(near) => {
-                let state = solve_from(near, &stated, options)?;
-                (state.as_loop(), Some(Box::new(state)))
-            }
-            None if stated.two_pulleys().is_some() => {
-                let state = crate::solve(&stated, options)?;
-                (state.as_loop(), Some(Box::new(state)))
+        let (mut closed, state_of_two) = match stated.two_pulleys() {
+            Some(_) => {
+                let near = near.and_then(|near| near.state_of_two.as_deref());
+                let (found, state) = summary(near, &stated, options)?;
+                let closed = stated.as_loop(found.driven.torque, found.slack_tractive_tension);
+                (closed, state.map(Box::new))
             }
             None => (closed_once(&stated, options)?.into_owned(), None),
         };

@@ -90,13 +90,13 @@ impl<'d> Speeds<'d> {
 
     /// Tractive tension without load, N; not positive where the belt lifts off.
     fn tension(&self, speed: f64) -> Result<f64, SolveError> {
-        flat::belt_loop::unloaded_tension(&at(&self.idle, speed))
+        flat::belt_loop::unloaded_tension(&at_speed(&self.idle, speed))
     }
 
     /// About the factor on the load of a V-belt at its largest at a speed: that of a flat belt on the pitch circles with
     /// the friction of wedges.
     pub(super) fn expected(&self, speed: f64) -> Result<f64, SolveError> {
-        let mut flat = at(&self.idle, speed);
+        let mut flat = at_speed(&self.idle, speed);
         for (flat, stated) in flat.pulleys.iter_mut().zip(&self.drive.pulleys) {
             if let Duty::Torque(_) = flat.duty {
                 flat.duty = stated.duty;
@@ -121,7 +121,7 @@ impl<'d> Speeds<'d> {
         near: Option<&NearLargest>,
         expected: f64,
     ) -> Result<(RatedLoad, NearLargest), SolveError> {
-        let drive = at(self.drive, speed);
+        let drive = at_speed(self.drive, speed);
         let model = model(drive.belt.kind);
         let (found, near) = model.largest_load(&drive, near, expected, self.options)?;
         let LargestLoad {
@@ -245,7 +245,7 @@ impl<'d> Speeds<'d> {
 }
 
 /// A drive at a speed of its driver.
-fn at(drive: &Drive, speed: f64) -> Drive {
+pub(in crate::answers) fn at_speed(drive: &Drive, speed: f64) -> Drive {
     let mut drive = drive.clone();
     let driver = drive.driver();
     drive.pulleys[driver].duty = Duty::Driver(speed);

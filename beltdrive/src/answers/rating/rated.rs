@@ -1,13 +1,17 @@
 //! The drive that is rated.
 
 use crate::answers::belt_loop::{closed_once, solve_to};
-use crate::answers::tension::{is_idle, with_length};
+use crate::answers::tension::with_length;
 use crate::model::model;
 use crate::{BeltKind, Closure, Drive, Duty, SolveError, SolveOptions};
 use std::borrow::Cow;
 
-/// A drive with torques in place of powers, closed by what does not depend on its load.
-pub(super) fn rated(stated: &Drive, options: &SolveOptions) -> Result<Drive, SolveError> {
+/// A drive that keeps its torques and its belt at other speeds: with torques in place of powers, and with the belt
+/// length of its state in place of the tensions of both spans.
+pub(in crate::answers) fn kept(
+    stated: &Drive,
+    options: &SolveOptions,
+) -> Result<Drive, SolveError> {
     let mut drive = closed_once(stated, options)?.into_owned();
     if stated.two_pulleys().is_some() {
         let length = solve_to(&drive, options)?.unstretched_length;
@@ -19,7 +23,13 @@ pub(super) fn rated(stated: &Drive, options: &SolveOptions) -> Result<Drive, Sol
             pulley.duty = Duty::Torque(power * pulley.radius / rim);
         }
     }
-    if is_idle(&drive) {
+    Ok(drive)
+}
+
+/// A drive with torques in place of powers, closed by what does not depend on its load.
+pub(super) fn rated(stated: &Drive, options: &SolveOptions) -> Result<Drive, SolveError> {
+    let drive = kept(stated, options)?;
+    if drive.is_idle() {
         return Err(SolveError::Statement {
             subject: "load".to_owned(),
             problem: Cow::Borrowed(

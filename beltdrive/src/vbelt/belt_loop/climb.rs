@@ -80,15 +80,14 @@ impl Search<'_> {
         state: &Solved<LoopProblem>,
         rough: Solved<LoopProblem>,
     ) -> Result<Option<Top>, SolveError> {
-        let mut pulleys = self.drive.pulleys.iter();
-        if pulleys.all(|pulley| pulley.duty.torque_at(1.0) == 0.0) {
+        if self.drive.is_idle() {
             return Ok(None);
         }
         let problem = rough.problem.with_torques(state.solution.parameters());
         let (mut here, mut to) = (Solved { problem, ..rough }, 2.0);
-        let mut slipping = Some(Slipping::default());
+        let mut slipping = Slipping::default();
         while to < LARGEST_FACTOR {
-            match self.climb(&here, to, &mut slipping) {
+            match self.climb(&here, to, Some(&mut slipping)) {
                 Climbed::Reached(solved) => here = *solved,
                 Climbed::Limit(limit) => return Ok(Some(limit.top)),
                 Climbed::Lost { reached, cause } => {
@@ -107,9 +106,9 @@ impl Search<'_> {
         &mut self,
         from: &Solved<LoopProblem>,
         to: f64,
-        slipping: &mut Option<Slipping>,
+        mut slipping: Option<&mut Slipping>,
     ) -> Climbed {
-        match self.climb_as_it_is(from, to, slipping) {
+        match self.climb_as_it_is(from, to, slipping.as_deref_mut()) {
             Climbed::Limit(mut blunt) if blunt.top.is_last => {
                 let last = blunt.below.last();
                 let Some(last) = last.filter(|last| last.problem.smoothing() > SHARPER) else {
@@ -135,7 +134,7 @@ impl Search<'_> {
         &mut self,
         from: &Solved<LoopProblem>,
         to: f64,
-        slipping: &mut Option<Slipping>,
+        mut slipping: Option<&mut Slipping>,
     ) -> Climbed {
         let p = from.solution.parameters();
         let begin = from.problem.factor(p);
@@ -206,7 +205,7 @@ impl Search<'_> {
                         return limit(factor, None, below);
                     }
                     let here = here();
-                    if let Some(slipping) = slipping
+                    if let Some(slipping) = slipping.as_deref_mut()
                         && slipping.has_slowed(&here)
                     {
                         return Climbed::Limit(Box::new(self.gross_slip(slipping, from)));

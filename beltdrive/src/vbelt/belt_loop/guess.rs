@@ -37,7 +37,7 @@ pub(super) fn groove_compliances(drive: &Drive, layout: &Layout) -> Vec<f64> {
     let compliances = pulleys.map(|(pulley, wrap)| match pulley.side {
         Side::Inside => {
             let half_angle = pulley.half_angle.unwrap_or(groove.half_angle);
-            wrap / (groove.radial_stiffness * half_angle.tan())
+            wrap / (groove.radial_stiffness * pulley.radius * half_angle.tan())
         }
         Side::Outside => 0.0,
     });

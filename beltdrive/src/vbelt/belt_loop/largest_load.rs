@@ -67,7 +67,7 @@ impl NearLargestLoad {
     /// The same share of another load at another speed.
     fn at_speed(&self, search: &mut Search<'_>, expected: f64) -> Option<Solved<LoopProblem>> {
         let problem = &self.below.problem;
-        let share = problem.factor(self.below.solution.parameters()) / self.factor;
+        let share = self.below.factor() / self.factor;
         let squares = [problem.units.speed, search.drive.rim_speed()].map(|speed| speed * speed);
         let [from, to] = squares;
         if from == to {
@@ -147,17 +147,15 @@ impl Search<'_> {
         from: Solved<LoopProblem>,
         expected: f64,
     ) -> Result<(LargestLoad, NearLargestLoad), SolveError> {
-        let begin = from.problem.factor(from.solution.parameters());
+        let begin = from.factor();
         let (mut here, mut to) = (from, RAISED * begin.max(0.5 * expected));
-        let mut slipping = Some(Slipping::default());
+        let mut slipping = Slipping::default();
         while to < LARGEST * expected {
-            match self.climb(&here, to, &mut slipping) {
+            match self.climb(&here, to, Some(&mut slipping)) {
                 Climbed::Reached(solved) => here = *solved,
                 Climbed::Limit(mut limit) => {
-                    if slipping.as_ref().is_some_and(|s| s.is_beyond(&limit.top))
-                        && let Some(slipping) = &slipping
-                    {
-                        *limit = self.gross_slip(slipping, &here);
+                    if slipping.is_beyond(&limit.top) {
+                        *limit = self.gross_slip(&slipping, &here);
                     }
                     let found = answer(self.drive, &limit);
                     let below = self.below(*limit, here);
@@ -177,10 +175,8 @@ impl Search<'_> {
 
     /// The state on the way to a limit from which others are found; else that from which it began.
     fn below(&mut self, limit: Limit, begin: Solved<LoopProblem>) -> Solved<LoopProblem> {
-        let factor =
-            |state: &Solved<LoopProblem>| state.problem.factor(state.solution.parameters());
-        let is_below = |state: &Solved<LoopProblem>| factor(state) <= BELOW * limit.top.factor;
-        let begins_higher = |state: &Solved<LoopProblem>| factor(state) < factor(&begin);
+        let is_below = |state: &Solved<LoopProblem>| state.factor() <= BELOW * limit.top.factor;
+        let begins_higher = |state: &Solved<LoopProblem>| state.factor() < begin.factor();
         let mut states = limit.below.into_iter().rev();
         let below = states.find(|state| is_below(state) || begins_higher(state));
         let below = below.filter(|below| !begins_higher(below)).unwrap_or(begin);
@@ -203,7 +199,7 @@ fn is_begin(state: &Solved<LoopProblem>) -> bool {
 fn answer(drive: &Drive, limit: &Limit) -> LargestLoad {
     let Limit { top, at, .. } = limit;
     let (problem, p) = (&at.problem, at.solution.parameters());
-    let rise = top.factor / problem.factor(p);
+    let rise = top.factor / at.factor();
     let ends = at.round(|round| round.end_angles());
     let torque = |pulley: usize| {
         if problem.is_idle(pulley) {

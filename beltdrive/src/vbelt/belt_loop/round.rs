@@ -73,6 +73,11 @@ impl Solved<LoopProblem> {
     pub(super) fn round<R>(&self, view: impl FnOnce(&Round<'_, f64>) -> R) -> R {
         self.problem.solved_by(&self.solution, view)
     }
+
+    /// The factor on all torques.
+    pub(super) fn factor(&self) -> f64 {
+        self.problem.factor(self.solution.parameters())
+    }
 }
 
 impl<T: Real> Round<'_, T> {

@@ -173,7 +173,7 @@ fn raise(
     search: &mut Search<'_>,
     from: &Solved<LoopProblem>,
 ) -> Result<Solved<LoopProblem>, SolveError> {
-    match search.climb(from, 1.0, &mut None) {
+    match search.climb(from, 1.0, None) {
         Climbed::Reached(raised) => Ok(*raised),
         Climbed::Limit(limit) => Err(SolveError::Overloaded {
             pulley: search.drive.pulleys[limit.top.pulley].name.clone(),

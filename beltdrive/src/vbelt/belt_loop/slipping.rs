@@ -14,11 +14,11 @@ use super::solve::Search;
 use super::unknowns::FLOW;
 use crate::mechanics::root::bracketed;
 
-/// The speed of a pulley against the belt, as a share of the speed of the driver, at which it is said to slip grossly:
-/// creep and the depth in the groove leave 0.01 to 0.03 in drives at their limit.
+/// The slip all along a contact, as a share of the speed of the belt, at which a pulley is said to slip grossly: on
+/// `v-power` it is 0.005 at nine tenths of the limit, beyond which it rises to 1 within a few percent of the load.
 const GROSS: f64 = 0.05;
 
-/// The speed of the driver against the belt at which the load has no limit point to come: the belt has lost a fifth of
+/// The slip of the driver at which the load has no limit point to come: the belt has lost a fifth of
 /// its speed and a third of its centrifugal force.
 const SLOWED: f64 = 0.2;
 
@@ -33,8 +33,9 @@ const LESS: f64 = 0.9;
 /// The states of a curve on which the load rises, so far.
 #[derive(Default)]
 pub(super) struct Slipping {
-    /// The last state in which no pulley slips grossly, and the first in which one does.
+    /// The last state in which no pulley slips grossly.
     begin: Option<Solved<LoopProblem>>,
+    /// The load factor of the first state behind it, in which one does.
     slips: Option<f64>,
 }
 
@@ -43,7 +44,7 @@ pub(super) fn is_slipping(state: &Solved<LoopProblem>) -> bool {
     most(state).0 >= GROSS
 }
 
-/// The largest speed of a pulley against the belt, as a share of the speed of the driver, and that pulley.
+/// The largest slip of a pulley, and that pulley.
 fn most(state: &Solved<LoopProblem>) -> (f64, usize) {
     let pulleys = (0..state.problem.pulleys()).map(|pulley| (slip(state, pulley), pulley));
     pulleys.fold((0.0, 0), |most, next| match next.0 > most.0 {
@@ -52,19 +53,19 @@ fn most(state: &Solved<LoopProblem>) -> (f64, usize) {
     })
 }
 
-/// The speed of a pulley against the belt that enters it, as a share of that of the driver; 0 of idlers.
+/// The speed of a pulley against the belt all along the contact, as a share of the speed of the belt; 0 of idlers.
+/// A belt that lies deep in its groove is slow against the pitch circle without slipping.
 fn slip(state: &Solved<LoopProblem>, pulley: usize) -> f64 {
     let (problem, p) = (&state.problem, state.solution.parameters());
     if problem.is_idle(pulley) {
         return 0.0;
     }
+    if let Some(in_groove) = state.in_groove(pulley) {
+        return in_groove.least_slip().slip;
+    }
     let strand = problem.units.strand();
     let tension = strand.tension(state.entry(pulley)[TENSION], p[FLOW]);
     (strand.speed(tension, p[FLOW]) - problem.omega(pulley, p)).abs()
-}
-
-fn factor(state: &Solved<LoopProblem>) -> f64 {
-    state.problem.factor(state.solution.parameters())
 }
 
 impl Slipping {
@@ -79,7 +80,7 @@ impl Slipping {
             (self.begin, self.slips) = (Some(here.clone()), None);
             return false;
         }
-        self.slips.get_or_insert(factor(here));
+        self.slips.get_or_insert(here.factor());
         slip(here, here.problem.driver) >= SLOWED
     }
 }
@@ -90,10 +91,10 @@ impl Search<'_> {
     pub(super) fn gross_slip(&mut self, slipping: &Slipping, from: &Solved<LoopProblem>) -> Limit {
         let (begin, slips) = match (&slipping.begin, slipping.slips) {
             (Some(begin), Some(slips)) => (begin.clone(), slips),
-            _ => (self.unslipped(from.clone()), factor(from)),
+            _ => (self.unslipped(from.clone()), from.factor()),
         };
         let excess = |state: &Solved<LoopProblem>| most(state).0 - GROSS;
-        let (places, first) = ([factor(&begin), slips], excess(&begin));
+        let (places, first) = ([begin.factor(), slips], excess(&begin));
         let mut near = begin.clone();
         let mut reached = |to: f64| match self.at_factor(&near, to) {
             Some(state) => {
@@ -107,7 +108,7 @@ impl Search<'_> {
         found.map(&mut reached);
         let (_, pulley) = most(&near);
         let top = Top {
-            factor: factor(&near),
+            factor: near.factor(),
             pulley,
             overhangs: false,
             is_last: false,
@@ -122,7 +123,7 @@ impl Search<'_> {
     /// A state under less load in which no pulley slips grossly, if it is found.
     fn unslipped(&mut self, mut state: Solved<LoopProblem>) -> Solved<LoopProblem> {
         while is_slipping(&state) {
-            match self.at_factor(&state, LESS * factor(&state)) {
+            match self.at_factor(&state, LESS * state.factor()) {
                 Some(lower) => state = lower,
                 None => break,
             }
@@ -132,7 +133,7 @@ impl Search<'_> {
 
     /// The state under another factor on all torques.
     fn at_factor(&mut self, near: &Solved<LoopProblem>, to: f64) -> Option<Solved<LoopProblem>> {
-        let from = factor(near);
+        let from = near.factor();
         let member = |problem: &LoopProblem, factor| problem.clone().with_factor(factor);
         let step = (to - from).abs();
         let found = self.follow(near.clone(), [from, to], step, Effort::Rough, member);
