@@ -15,7 +15,8 @@
 //! Drives with any number of pulleys, a tensioner or another closure are answered by [`belt_loop`], which
 //! answers for those with two pulleys as well, with what it has more to tell: rest, hub loads, margins.
 //!
-//! [`simulate`](simulate()) follows a drive with a flat belt in time ([`transient`]).
+//! [`simulate`](simulate()) follows a drive with a flat belt in time ([`transient`]); [`modes`](modes()) are its
+//! vibrations about the steady state.
 //!
 //! [`mod@verify`] computes published results again.
 //!
@@ -129,6 +130,7 @@ pub use answers::design::{
 pub use answers::drive::{limit_curve, limits, solve, solve_from, stability, trace};
 pub use answers::losses::Losses;
 pub use answers::map::{MapAxis, MapState, OperatingMap, map};
+pub use answers::modes::{Modes, ModesAtSpeed, ModesQuestion, modes};
 pub use answers::rating::{RatedLoad, Rating, RatingEnd, RatingQuestion, RatingStretch, rating};
 pub use answers::simulate::simulate;
 pub use answers::sweep::{

@@ -11,6 +11,7 @@ mod limits;
 pub(crate) mod losses;
 pub(crate) mod map;
 mod members;
+pub(crate) mod modes;
 pub(crate) mod rating;
 mod shares;
 pub(crate) mod simulate;

@@ -49,16 +49,7 @@ pub fn simulate(
     progress: &mut dyn FnMut(f64, f64) -> bool,
 ) -> Result<History, TransientError> {
     initial::check(simulation)?;
-    // Finite strains and the momentum of the belt, as in time.
-    let stated = Drive {
-        belt: crate::Belt {
-            kind: BeltKind::Flat {
-                normal_force: NormalForce::Exact,
-            },
-            ..simulation.drive.belt
-        },
-        ..simulation.drive.clone()
-    };
+    let stated = in_time(&simulation.drive);
     let options = SolveOptions::default();
     let drive = closed_once(&stated, &options)?;
     let layout = drive.layout(0.0).map_err(crate::SolveError::from)?;
@@ -75,4 +66,15 @@ pub fn simulate(
         }
     };
     run::run(simulation, (&system, &layout), state, progress)
+}
+
+/// A drive with a flat belt with finite strains and the momentum of the belt, as in time.
+pub(super) fn in_time(drive: &Drive) -> Drive {
+    let kind = BeltKind::Flat {
+        normal_force: NormalForce::Exact,
+    };
+    Drive {
+        belt: crate::Belt { kind, ..drive.belt },
+        ..drive.clone()
+    }
 }

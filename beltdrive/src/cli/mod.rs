@@ -11,6 +11,7 @@ mod failure;
 mod limits;
 mod man;
 mod map;
+mod modes;
 mod origin;
 mod output;
 mod parameter;
@@ -76,6 +77,8 @@ enum Command {
     Stability(stability::Command),
     /// Follow a drive with a flat belt in time: start-up, load steps, slip and its end
     Simulate(simulate::Simulate),
+    /// Find the vibrations of a running drive with a flat belt, also over its speed
+    Modes(modes::Command),
     /// Find the numbers and choices that make a drive best within its limits
     Design(design::Design),
     /// Find numbers of the drive file, such as friction and stiffness, from measured rows
@@ -106,6 +109,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Sweep(command) => command.run(),
         Command::Stability(command) => command.run(),
         Command::Simulate(command) => command.run(),
+        Command::Modes(command) => command.run(),
         Command::Design(command) => command.run(),
         Command::Calibrate(command) => command.run(),
         Command::Verify(command) => command.run(),

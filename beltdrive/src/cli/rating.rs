@@ -40,16 +40,9 @@ impl Rating {
     fn of(&self, file: &DriveFile, origin: &Origin) -> Result<(), Failure> {
         let drive = file.drive().map_err(Failure::usage)?;
         let speed = |option, value: &Option<String>| {
-            let Some(value) = value else {
-                return Ok(None);
-            };
-            let keys = file.keys();
-            let key = keys.iter().find(|key| key.path().ends_with(".speed"));
-            let key = key.ok_or_else(|| {
-                Failure::Usage(format!("error: {option}: the drive file gives no speed"))
-            })?;
-            let value = Argument { option, value }.number(key);
-            value.map(Some).map_err(Failure::usage)
+            let value = value.as_deref();
+            let speed = value.map(|value| Argument { option, value }.driver_speed(file));
+            speed.transpose().map_err(Failure::usage)
         };
         let question = RatingQuestion {
             from: speed("--from", &self.from)?,

@@ -31,14 +31,30 @@ impl DriveFile {
     /// # Errors
     /// There is no such table, it lacks what a pulley needs, its values do not belong together, or the end is no time.
     pub fn simulation(&self, until: Option<Argument<'_>>) -> Result<Simulation, Diagnostic> {
+        self.simulated(None, |values| {
+            until.map(|until| self.until(until, values)).transpose()
+        })
+    }
+
+    /// The drive in time as [`Self::simulation`] gives it, but as it runs, for what asks for no start and no end.
+    ///
+    /// # Errors
+    /// As [`Self::simulation`], but for the end.
+    pub fn motion(&self) -> Result<Simulation, Diagnostic> {
+        let end = Until::Steady { latest: LATEST };
+        self.simulated(Some(Start::Running), |_| Ok(Some(end)))
+    }
+
+    fn simulated(
+        &self,
+        start: Option<Start>,
+        until: impl FnOnce(&Values<'_>) -> Result<Option<Until>, Diagnostic>,
+    ) -> Result<Simulation, Diagnostic> {
         let values = Values::check(&self.document, &self.source);
         let stated = values.and_then(|values| Ok((file::drive(&values)?, values)));
         let (drive, values) = stated.map_err(|finding| Diagnostic::new(finding, &self.source))?;
-        let asked = match until {
-            Some(until) => Some(self.until(until, &values)?),
-            None => None,
-        };
-        self.stated(drive, &values, asked)
+        let asked = until(&values)?;
+        self.stated(drive, &values, (start, asked))
             .map_err(|finding| Diagnostic::new(finding, &self.source))
     }
 
@@ -58,7 +74,7 @@ impl DriveFile {
         &self,
         drive: Drive,
         values: &Values<'_>,
-        asked: Option<Until>,
+        (start, asked): (Option<Start>, Option<Until>),
     ) -> Result<Simulation, Finding> {
         if !values.has("transient") {
             let end = self.document.end.clone();
@@ -70,10 +86,10 @@ impl DriveFile {
             .map(|pulley| pulley.name.clone())
             .collect();
         self.known_pulleys(&names)?;
-        let start = match values.text("transient.start") {
+        let start = start.unwrap_or(match values.text("transient.start") {
             Some("running") => Start::Running,
             _ => Start::Rest,
-        };
+        });
         let until = match (asked, values.number(END)) {
             (Some(asked), _) => asked,
             (None, Some(end)) => Until::Time(end),

@@ -1,11 +1,13 @@
 //! Results as figures in SVG.
 
 mod axis;
+mod campbell;
 mod contours;
 mod curve;
 mod header;
 mod history;
 mod layout;
+mod mode_shapes;
 mod numbers;
 mod occupied;
 mod panel;
@@ -22,7 +24,7 @@ mod zones;
 use crate::quantity::Answer;
 use crate::report::write_file;
 use crate::transient::History;
-use crate::{Calibration, Drive, OperatingMap, Rating, Stability};
+use crate::{Calibration, Drive, Modes, OperatingMap, Rating, Stability};
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
@@ -193,6 +195,21 @@ pub fn write_history(
     let over_time = ("history.svg", history::figure(drive, history));
     let along = history::along_loop(drive, history).map(|figure| ("belt.svg", figure));
     write([over_time].into_iter().chain(along), directory, metadata)
+}
+
+/// Writes `mode_shapes.svg`, the first vibrations of a drive along its belt, and, if the modes were sought over a range of
+/// speeds, `campbell.svg`, their frequencies beside those of the excitation, into a directory, as [`write_state`] does.
+///
+/// # Errors
+/// As [`write_state`].
+pub fn write_modes(
+    modes: &Modes,
+    directory: &Path,
+    metadata: Option<&str>,
+) -> Result<Vec<PathBuf>, Error> {
+    let shapes = ("mode_shapes.svg", mode_shapes::figure(modes));
+    let over_speed = campbell::figure(modes).map(|figure| ("campbell.svg", figure));
+    write([shapes].into_iter().chain(over_speed), directory, metadata)
 }
 
 fn write<N: AsRef<Path>>(

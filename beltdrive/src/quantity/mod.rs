@@ -17,6 +17,7 @@ pub mod limits;
 pub mod loop_range;
 pub mod map;
 mod measure;
+pub mod modes;
 mod parameter;
 pub(crate) mod precision;
 pub mod rating;

@@ -82,7 +82,7 @@ pub(crate) fn event_words(
 }
 
 /// A name as part of a key.
-fn stem(name: &str) -> String {
+pub(crate) fn stem(name: &str) -> String {
     name.replace(['.', ' ', '-', '/'], "_")
 }
 

@@ -115,6 +115,21 @@ impl Axle {
             .fold(f64::INFINITY, f64::min)
     }
 
+    /// How much the torque of an axle that turns freely rises with its speed about one in rad/s, N·m·s; `None` where
+    /// the speed is given.
+    pub(crate) fn slope(&self, speed: f64) -> Option<f64> {
+        let Motion::Torques { motor, load } = &self.motion else {
+            return None;
+        };
+        let motor = match motor {
+            Some(Motor::Characteristic(over_speed)) => {
+                over_speed.on(over_speed.line(speed), speed)[1]
+            }
+            Some(Motor::Torque(_)) | None => 0.0,
+        };
+        Some(motor - load.per_speed)
+    }
+
     /// The fastest rate at which torques that depend on speed change the speed, 1/s.
     pub(crate) fn rate(&self) -> f64 {
         let Motion::Torques { motor, load } = &self.motion else {

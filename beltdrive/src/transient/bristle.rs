@@ -21,6 +21,25 @@ pub(crate) fn transport(
     }
 }
 
+/// Six times the difference in a cell of an arc with a belt that runs forward: the first of four cells, and their
+/// weights.
+pub(crate) fn weights(cell: usize, cells: usize) -> (usize, [f64; 4]) {
+    let unit = |place: usize| {
+        let mut unit = [0.0; 4];
+        unit[place] = 1.0;
+        unit
+    };
+    let of = |difference: &dyn Fn([f64; 4]) -> f64| [0, 1, 2, 3].map(|at| difference(unit(at)));
+    match cell {
+        0 | 1 => (
+            0,
+            of(&|[first, second, third, _]| at_entry([first, second, third])[cell]),
+        ),
+        cell if cell + 1 == cells => (cell - 3, of(&at_exit)),
+        cell => (cell - 2, of(&inside)),
+    }
+}
+
 /// Six times the differences at the entry: in the first and in the second cell, from the first three.
 fn at_entry(b: [f64; 3]) -> [f64; 2] {
     let before = -2.0 * b[0] + b[1] / 3.0;

@@ -19,11 +19,20 @@ const MOST_SAMPLES: f64 = 1e6;
 /// with seven digits.
 const SAME_SPEED: f64 = 1e-6;
 
-fn refuse<T>(subject: &str, problem: impl Into<String>) -> Result<T, TransientError> {
+/// Refuses a part of the statement.
+pub(crate) fn refuse<T>(subject: &str, problem: impl Into<String>) -> Result<T, TransientError> {
     Err(TransientError::Statement {
         subject: subject.to_owned(),
         problem: problem.into(),
     })
+}
+
+/// Half as many cells on every arc and span, as far as there may be so few.
+pub(crate) fn halved(arc: usize, span: usize) -> Cells {
+    Cells::Each {
+        arc: arc.div_ceil(2).max(LEAST_ARC_CELLS),
+        span: span.div_ceil(2).max(LEAST_SPAN_CELLS),
+    }
 }
 
 /// The equations of a drive that is laid out.

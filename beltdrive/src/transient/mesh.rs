@@ -62,6 +62,19 @@ impl Mesh {
         first..self.lengths.len()
     }
 
+    /// The same loop with so many cells in place of each.
+    pub(crate) fn refined(&self, by: usize) -> Self {
+        let part = |cells: &Range<usize>| cells.len() as f64 * self.lengths[cells.start];
+        let pulleys = self.arcs.iter().zip(&self.spans);
+        let stretches = pulleys.map(|(arc, span)| Stretch {
+            arc: part(arc),
+            arc_cells: by * arc.len(),
+            span: part(span),
+            span_cells: by * span.len(),
+        });
+        Self::new(&stretches.collect::<Vec<_>>())
+    }
+
     /// Number of cells.
     pub(crate) fn cells(&self) -> usize {
         self.lengths.len()

@@ -30,7 +30,8 @@ mod explicit;
 mod history;
 pub(crate) mod initial;
 mod ledger;
-mod mesh;
+mod linearised;
+pub(crate) mod mesh;
 mod rates;
 pub(crate) mod run;
 mod schedule;
@@ -42,6 +43,7 @@ mod sums;
 mod system;
 #[cfg(test)]
 mod tests;
+pub(crate) mod vibration;
 
 pub use axle::{Axle, Load, Motion, Motor};
 pub use events::{TransientEvent, TransientEventKind};
@@ -49,3 +51,4 @@ pub use history::{BeltAlongLoop, Effort, Ending, History, PulleySample, Sample};
 pub use ledger::Ledger;
 pub use schedule::Schedule;
 pub use simulation::{Cells, Simulation, Start, TransientError, Until};
+pub use vibration::VibrationMode;

@@ -18,22 +18,22 @@ use super::system::System;
 pub(crate) struct Rates<'s> {
     pub(crate) system: &'s System,
     /// 1/h of each cell, 1/m.
-    per_cell: Vec<f64>,
+    pub(super) per_cell: Vec<f64>,
     /// Shares of the cells behind and before a face in the density there.
-    shares: Vec<[f64; 2]>,
+    pub(super) shares: Vec<[f64; 2]>,
     /// 1/(m h̄) of each face, 1/kg.
-    per_mass: Vec<f64>,
+    pub(super) per_mass: Vec<f64>,
     /// Of the cells, after that of the last one: stretch λ, its rate in 1/s, ½ EA λ² − ½ m v̂² in N, friction q h in N.
-    stretch: Vec<f64>,
-    stretching: Vec<f64>,
+    pub(super) stretch: Vec<f64>,
+    pub(super) stretching: Vec<f64>,
     pressure: Vec<f64>,
     friction: Vec<f64>,
     /// Velocity in the middles of the cells, m/s.
-    middle: Vec<f64>,
+    pub(super) middle: Vec<f64>,
     /// Mass flow over m through the faces, m/s.
     flux: Vec<f64>,
     /// Largest displacement μ n λ/`k_f` of the bristles, m.
-    caps: Vec<f64>,
+    pub(super) caps: Vec<f64>,
     /// Friction q ρ h on the arcs, N.
     forces: Vec<f64>,
     /// Torque of the belt on each pulley along the motion of the belt, N·m.

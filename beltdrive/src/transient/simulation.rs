@@ -99,6 +99,9 @@ pub enum TransientError {
         /// What became impossible.
         problem: &'static str,
     },
+    /// The eigenvalues of the linearised equations are out of reach of finite arithmetic.
+    #[error("the eigenvalues of the linearised drive cannot be computed")]
+    Eigenvalues,
     /// Energy was lost or won beside what the ledger accounts for.
     #[error(
         "the energy ledger does not close: {residual:.2e} J of {turnover:.2e} J are not accounted for at {time:.6} s, \
@@ -122,7 +125,7 @@ impl TransientError {
         match self {
             Self::Statement { .. } | Self::Unstable { .. } => true,
             Self::Start(error) => error.is_of_statement(),
-            Self::Impossible { .. } | Self::Ledger { .. } => false,
+            Self::Impossible { .. } | Self::Eigenvalues | Self::Ledger { .. } => false,
         }
     }
 }

@@ -35,6 +35,17 @@ pub(crate) struct Wheel {
 }
 
 impl System {
+    /// The same drive with so many cells in place of each.
+    pub(crate) fn refined(&self, by: usize) -> Self {
+        let mesh = self.mesh.refined(by);
+        Self {
+            parts: Parts::new(&mesh),
+            mesh,
+            wheels: self.wheels.clone(),
+            ..*self
+        }
+    }
+
     /// Tension EA (1/ρ − 1) without damping, N.
     pub(crate) fn tension(&self, density: f64) -> f64 {
         self.axial_stiffness * (density.recip() - 1.0)

@@ -1,6 +1,7 @@
 //! The equations on the mesh against what is known of them without friction or without motion.
 
 mod conservation;
+mod linearised;
 mod modes;
 mod waves;
 
