@@ -134,8 +134,8 @@ pub use answers::modes::{Modes, ModesAtSpeed, ModesQuestion, modes};
 pub use answers::rating::{RatedLoad, Rating, RatingEnd, RatingQuestion, RatingStretch, rating};
 pub use answers::simulate::simulate;
 pub use answers::sweep::{
-    Grid, LatinHypercube, Sweep, SweepError, SweepQuestion, SweepRow, SweepSummary, SweepTable,
-    Swept, TableError, TableRows,
+    Grid, LatinHypercube, Sobol, Sweep, SweepError, SweepQuestion, SweepRow, SweepSummary,
+    SweepTable, Swept, TableError, TableRows,
 };
 pub use answers::tension::{
     Elongated, OtherFriction, Set, Setting, Setup, SetupQuestion, Travel, tension,

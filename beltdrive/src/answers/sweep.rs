@@ -3,7 +3,9 @@
 mod grid;
 mod latin_hypercube;
 mod lines;
+mod mixing;
 mod question;
+mod sobol;
 mod summary;
 mod table;
 
@@ -20,6 +22,7 @@ use crate::{BeltKind, Drive, Limits, Service, SolveOptions, StateSummary};
 pub use grid::Grid;
 pub use latin_hypercube::LatinHypercube;
 pub use question::SweepQuestion;
+pub use sobol::Sobol;
 pub use summary::SweepSummary;
 pub use table::{SweepTable, TableError, TableRows};
 

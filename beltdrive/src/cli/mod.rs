@@ -1,5 +1,6 @@
 //! The commands: what they read, what they write, and their exit status.
 
+mod arrow;
 mod calibrate;
 mod check;
 mod common;

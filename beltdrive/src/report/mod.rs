@@ -1,6 +1,8 @@
-//! Answers as text and files, each form written once: a table for people, JSON, CSV and Parquet for programs, and a
+//! Answers as text and files, each form written once: a table for people, JSON, CSV, Parquet and Arrow for programs, and a
 //! page in Markdown of published results.
 
+#[cfg(feature = "arrow")]
+mod arrow;
 mod cells;
 mod csv;
 mod file;
@@ -16,6 +18,8 @@ mod rows;
 mod table;
 mod tree;
 
+#[cfg(feature = "arrow")]
+pub use self::arrow::ArrowWriter;
 pub use self::csv::{csv, csv_header, csv_rows};
 #[cfg(feature = "parquet")]
 pub use self::parquet::{ParquetWriter, parquet};

@@ -5,7 +5,7 @@ use crate::quantity::Answer;
 use ::parquet::basic::{LogicalType, Repetition, Type as Physical};
 use ::parquet::column::writer::ColumnWriter;
 use ::parquet::data_type::ByteArray;
-use ::parquet::errors::Result;
+use ::parquet::errors::{ParquetError, Result};
 use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::writer::SerializedFileWriter;
@@ -49,7 +49,9 @@ impl<W: Write + Send> ParquetWriter<W> {
             .set_created_by(concat!("beltdrive ", env!("CARGO_PKG_VERSION")).to_owned())
             .set_key_value_metadata(Some(metadata.collect()))
             .build();
-        let writer = SerializedFileWriter::new(output, schema(&columns)?, Arc::new(properties))?;
+        let schema = schema(&columns).map_err(io_error)?;
+        let writer = SerializedFileWriter::new(output, schema, Arc::new(properties));
+        let writer = writer.map_err(io_error)?;
         Ok(Self { columns, writer })
     }
 
@@ -61,6 +63,10 @@ impl<W: Write + Send> ParquetWriter<W> {
         if rows.is_empty() {
             return Ok(());
         }
+        self.write_group(rows).map_err(io_error)
+    }
+
+    fn write_group(&mut self, rows: &[Vec<Option<Field>>]) -> Result<()> {
         let mut group = self.writer.next_row_group()?;
         for index in 0..self.columns.len() {
             let Some(mut column) = group.next_column()? else {
@@ -79,7 +85,18 @@ impl<W: Write + Send> ParquetWriter<W> {
     /// # Errors
     /// What the output says.
     pub fn finish(self) -> io::Result<W> {
-        Ok(self.writer.into_inner()?)
+        self.writer.into_inner().map_err(io_error)
+    }
+}
+
+/// What the output says, as it says it.
+fn io_error(error: ParquetError) -> io::Error {
+    match error {
+        ParquetError::External(error) => match error.downcast() {
+            Ok(error) => *error,
+            Err(error) => io::Error::other(error),
+        },
+        error => error.into(),
     }
 }
 

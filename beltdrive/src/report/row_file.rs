@@ -1,5 +1,7 @@
 //! Rows in one of the forms that files have.
 
+#[cfg(feature = "arrow")]
+use super::arrow::ArrowWriter;
 use super::csv::{csv_header, csv_rows};
 #[cfg(feature = "parquet")]
 use super::parquet::ParquetWriter;
@@ -14,6 +16,9 @@ pub enum RowFormat {
     /// Parquet.
     #[cfg(feature = "parquet")]
     Parquet,
+    /// Arrow IPC.
+    #[cfg(feature = "arrow")]
+    Arrow,
 }
 
 impl RowFormat {
@@ -24,6 +29,8 @@ impl RowFormat {
             Self::Csv => "csv",
             #[cfg(feature = "parquet")]
             Self::Parquet => "parquet",
+            #[cfg(feature = "arrow")]
+            Self::Arrow => "arrow",
         }
     }
 }
@@ -36,6 +43,9 @@ pub enum RowWriter<W: Write + Send> {
     /// Parquet.
     #[cfg(feature = "parquet")]
     Parquet(Box<ParquetWriter<W>>),
+    /// Arrow IPC.
+    #[cfg(feature = "arrow")]
+    Arrow(Box<ArrowWriter<W>>),
 }
 
 impl<W: Write + Send> RowWriter<W> {
@@ -60,6 +70,11 @@ impl<W: Write + Send> RowWriter<W> {
                 let writer = ParquetWriter::new(output, columns.to_vec(), metadata)?;
                 Ok(Self::Parquet(Box::new(writer)))
             }
+            #[cfg(feature = "arrow")]
+            RowFormat::Arrow => {
+                let writer = ArrowWriter::new(output, columns.to_vec(), metadata)?;
+                Ok(Self::Arrow(Box::new(writer)))
+            }
         }
     }
 
@@ -72,6 +87,8 @@ impl<W: Write + Send> RowWriter<W> {
             Self::Csv(output) => output.write_all(csv_rows(rows).as_bytes()),
             #[cfg(feature = "parquet")]
             Self::Parquet(writer) => writer.write(rows),
+            #[cfg(feature = "arrow")]
+            Self::Arrow(writer) => writer.write(rows),
         }
     }
 
@@ -84,6 +101,8 @@ impl<W: Write + Send> RowWriter<W> {
             Self::Csv(output) => Ok(output),
             #[cfg(feature = "parquet")]
             Self::Parquet(writer) => writer.finish(),
+            #[cfg(feature = "arrow")]
+            Self::Arrow(writer) => writer.finish(),
         }
     }
 }

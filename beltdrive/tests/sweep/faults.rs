@@ -1,6 +1,7 @@
 //! What is written of rows without an answer, and what is refused.
 
 use super::program::{answered, directory, refused, run};
+use std::fs;
 
 #[test]
 fn every_row_of_the_csv_is_there_with_its_status() {
@@ -123,5 +124,71 @@ fn faults_of_the_command_line_are_one_error() {
         ),
     ] {
         refused(&run(&directory, args), message);
+    }
+}
+
+/// A sweep of 3000 rows.
+const MANY: [&str; 5] = [
+    "--over",
+    "load.tight_tension=300 N:9 kN:3000",
+    "--chunk",
+    "100",
+    "--quiet",
+];
+
+/// The options of the forms that the program is built with.
+fn forms() -> impl Iterator<Item = &'static str> {
+    let forms = [
+        ("--csv", true),
+        ("--parquet", cfg!(feature = "parquet")),
+        ("--arrow", cfg!(feature = "arrow")),
+    ];
+    forms
+        .into_iter()
+        .filter_map(|(form, is_built)| is_built.then_some(form))
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_device_is_one_error_in_every_form() {
+    let directory = directory("full-device", "kim2009-flat");
+    for form in forms() {
+        let output = run(&directory, &[&MANY[..], &[form, "/dev/full"]].concat());
+        refused(&output, "error: cannot write /dev/full: No space left");
+        let text = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(text.lines().count(), 1, "{text}");
+    }
+}
+
+#[test]
+fn who_closes_the_output_has_read_enough() {
+    use std::io::Read;
+    use std::process::Stdio;
+    let directory = directory("closed", "kim2009-flat");
+    for form in forms() {
+        let args = [&MANY[..], &[form, "-"]].concat();
+        let mut command = super::program::command(&directory, &args);
+        let piped = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = piped.spawn().unwrap();
+        let mut begin = [0; 10];
+        child.stdout.take().unwrap().read_exact(&mut begin).unwrap();
+        let output = child.wait_with_output().unwrap();
+        answered(&output);
+        assert!(output.stderr.is_empty(), "{form}");
+    }
+    // Another output has all rows.
+    let file = directory.join("rows.csv");
+    let args = [&MANY[..], &["--csv", "rows.csv", "--json", "-"]].concat();
+    answered(&run(&directory, &args));
+    let rows = fs::read_to_string(&file).unwrap();
+    for form in forms().filter(|form| *form != "--csv") {
+        fs::remove_file(&file).unwrap();
+        let args = [&MANY[..], &["--csv", "rows.csv", form, "-"]].concat();
+        let mut command = super::program::command(&directory, &args);
+        let piped = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let mut child = piped.spawn().unwrap();
+        drop(child.stdout.take());
+        answered(&child.wait_with_output().unwrap());
+        assert_eq!(fs::read_to_string(&file).unwrap(), rows, "{form}");
     }
 }

@@ -1,8 +1,11 @@
 //! Sweeps: every row is what the command finds for one drive, and none is lost.
 
+#[cfg(feature = "arrow")]
+mod arrow;
 mod faults;
 mod parts;
 mod program;
+mod samples;
 mod tables;
 
 use beltdrive::belt_loop::{self, Refusal, Varied};

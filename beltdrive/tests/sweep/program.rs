@@ -1,6 +1,8 @@
 //! The command, run in a directory of its own.
 
 use beltdrive::examples;
+#[cfg(any(feature = "arrow", feature = "parquet"))]
+use beltdrive::{SweepTable, input::DriveFile};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -48,4 +50,26 @@ pub(crate) fn command(directory: &Path, args: &[&str]) -> Command {
 pub(crate) fn rows(path: &Path) -> Vec<std::collections::HashMap<String, String>> {
     let mut reader = csv::Reader::from_path(path).unwrap();
     reader.deserialize().map(Result::unwrap).collect()
+}
+
+/// Reads a table of numbers for `kim2009-flat` with one byte after another turned over, every seventh; tells how often that
+/// was an error.
+#[cfg(any(feature = "arrow", feature = "parquet"))]
+pub(crate) fn faults_of_damaged(path: &Path) -> usize {
+    let example = examples::find("kim2009-flat").unwrap();
+    let file = DriveFile::read(example.name, example.text, &[]).unwrap();
+    let whole = fs::read(path).unwrap();
+    let is_fault = |place: &usize| {
+        let mut damaged = whole.clone();
+        damaged[*place] ^= 0xff;
+        fs::write(path, damaged).unwrap();
+        match SweepTable::open(path, &file) {
+            Ok(table) => {
+                let mut rows = table.rows().unwrap();
+                rows.any(|row| row.is_err())
+            }
+            Err(_) => true,
+        }
+    };
+    (0..whole.len()).step_by(7).filter(is_fault).count()
 }

@@ -1,9 +1,11 @@
-//! Rows from tables and samples.
+//! Rows from tables.
 
+#[cfg(feature = "parquet")]
+use super::program::faults_of_damaged;
 use super::program::{answered, directory, refused, rows, run};
+use beltdrive::SweepTable;
 use beltdrive::examples;
 use beltdrive::input::DriveFile;
-use beltdrive::{LatinHypercube, SweepTable};
 use std::fs;
 
 #[test]
@@ -160,11 +162,119 @@ fn a_table_in_parquet_is_as_one_in_csv() {
         &output,
         "the column `load.tight_tension` of in.parquet holds no numbers",
     );
+    let path = directory.join("in.parquet");
+    write_column(
+        &path,
+        "required float load_tight_tension_N;",
+        parquet::basic::Compression::SNAPPY,
+    );
+    assert!(faults_of_damaged(&path) > 20);
     fs::write(directory.join("in.parquet"), "PAR1 and then nothing").unwrap();
     refused(
         &run(&directory, &["--table", "in.parquet"]),
         "cannot read in.parquet",
     );
+}
+
+/// Writes a Parquet file of one column, a field of the message of a schema, that holds 500 and 600.
+#[cfg(feature = "parquet")]
+fn write_column(path: &std::path::Path, field: &str, compression: parquet::basic::Compression) {
+    use parquet::column::writer::ColumnWriter;
+    use parquet::file::{properties::WriterProperties, writer::SerializedFileWriter};
+    let schema = parquet::schema::parser::parse_message_type(&format!("message m {{ {field} }}"));
+    let properties = WriterProperties::builder().set_compression(compression);
+    let file = fs::File::create(path).unwrap();
+    let schema = std::sync::Arc::new(schema.unwrap());
+    let properties = std::sync::Arc::new(properties.build());
+    let mut writer = SerializedFileWriter::new(file, schema, properties).unwrap();
+    let mut group = writer.next_row_group().unwrap();
+    let mut column = group.next_column().unwrap().unwrap();
+    match column.untyped() {
+        ColumnWriter::Int32ColumnWriter(column) => column.write_batch(&[500, 600], None, None),
+        ColumnWriter::Int64ColumnWriter(column) => column.write_batch(&[500, 600], None, None),
+        ColumnWriter::FloatColumnWriter(column) => column.write_batch(&[500.0, 600.0], None, None),
+        ColumnWriter::BoolColumnWriter(column) => column.write_batch(&[true, false], None, None),
+        _ => panic!("no other type is written"),
+    }
+    .unwrap();
+    column.close().unwrap();
+    group.close().unwrap();
+    writer.close().unwrap();
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn numbers_of_all_kinds_are_read_from_parquet_and_nothing_else() {
+    use parquet::basic::Compression;
+    let directory = directory("kinds", "kim2009-flat");
+    let path = directory.join("in.parquet");
+    let table = ["--table", "in.parquet", "--csv", "out.csv"];
+    for (kind, annotation) in [
+        ("int32", ""),
+        ("int32", "(UINT_8)"),
+        ("int32", "(INT_16)"),
+        ("int32", "(UINT_32)"),
+        ("int64", "(INT_64)"),
+        ("int64", "(UINT_64)"),
+        ("float", ""),
+    ] {
+        for compression in [Compression::UNCOMPRESSED, Compression::SNAPPY] {
+            let field = format!("required {kind} load_tight_tension_N {annotation};");
+            write_column(&path, &field, compression);
+            answered(&run(&directory, &table));
+            let rows = rows(&directory.join("out.csv"));
+            let tensions = rows.iter().map(|row| &*row["load_tight_tension_N"]);
+            let tensions: Vec<_> = tensions.collect();
+            // Of UINT_8 the lower eight bits are what the file says.
+            let expected = match annotation {
+                "(UINT_8)" => ["244", "88"],
+                _ => ["500", "600"],
+            };
+            assert_eq!(tensions, expected, "{field}");
+        }
+    }
+    for (kind, annotation) in [
+        ("int32", "(DATE)"),
+        ("int32", "(DECIMAL(5,2))"),
+        ("int32", "(TIME_MILLIS)"),
+        ("int64", "(TIMESTAMP_MILLIS)"),
+        ("int64", "(TIMESTAMP(NANOS,true))"),
+        ("boolean", ""),
+    ] {
+        let field = format!("required {kind} load_tight_tension_N {annotation};");
+        write_column(&path, &field, Compression::UNCOMPRESSED);
+        refused(&run(&directory, &table), "of in.parquet holds no numbers");
+    }
+}
+
+#[test]
+fn what_is_no_table_is_one_error() {
+    let directory = directory("no-table", "kim2009-flat");
+    let stream = b"\xff\xff\xff\xff\x60\0\0\0\x10\0\0\0";
+    let utf_16 = b"\xff\xfel\0o\0a\0d\0\n\0";
+    for content in [&stream[..], utf_16, b"\x1f\x8b\x08\0\0", b"load\0\n1\n"] {
+        fs::write(directory.join("in"), content).unwrap();
+        let output = run(&directory, &["--table", "in"]);
+        refused(
+            &output,
+            "error: --table: in is no table; expected CSV in UTF-8",
+        );
+    }
+    // A byte order mark, line ends of other systems, quotes and blank lines are none.
+    let table =
+        "\u{feff}\"load.tight_tension [N]\",friction.coefficient\r\n500,\"1.1\"\r\n\r\n600,1\r\n";
+    fs::write(directory.join("in"), table).unwrap();
+    answered(&run(&directory, &["--table", "in", "--csv", "out.csv"]));
+    let rows = rows(&directory.join("out.csv"));
+    assert_eq!(rows.len(), 2);
+    assert_eq!(rows[0]["friction_coefficient"], "1.1");
+    // Without rows there is nothing to answer, and the file has its heading.
+    fs::write(directory.join("in"), "load.tight_tension\n").unwrap();
+    let output = run(&directory, &["--table", "in", "--csv", "out.csv"]);
+    answered(&output);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("0 of 0 rows answered"));
+    let text = fs::read_to_string(directory.join("out.csv")).unwrap();
+    assert!(text.starts_with("row,load_tight_tension_N,") && text.lines().count() == 1);
 }
 
 #[test]
@@ -183,53 +293,4 @@ fn a_table_that_is_read_in_parts_is_the_same() {
     rows.skip_to(40).unwrap();
     let rest: Vec<_> = rows.map(|row| row.unwrap().values[0]).collect();
     assert_eq!(rest, (340..350).map(f64::from).collect::<Vec<_>>());
-}
-
-#[test]
-fn a_sample_lies_in_its_ranges_and_is_the_same_again() {
-    let directory = directory("sample", "kim2009-flat");
-    let over = [
-        "--over",
-        "load.tight_tension=300 N:900 N",
-        "--over",
-        "friction.coefficient=0.8:1.2",
-    ];
-    let sample = |extra: &[&str], csv: &str| {
-        let args = [&over[..], &["--sample", "lhs:40", "--csv", csv], extra].concat();
-        answered(&run(&directory, &args));
-        fs::read_to_string(directory.join(csv)).unwrap()
-    };
-    let one = sample(&[], "one.csv");
-    assert_eq!(one, sample(&["--seed", "1"], "again.csv"));
-    assert_ne!(one, sample(&["--seed", "2"], "other.csv"));
-    let expected = LatinHypercube::new(vec![[300.0, 900.0], [0.8, 1.2]], 40, 1);
-    for (row, expected) in rows(&directory.join("one.csv"))
-        .iter()
-        .zip(expected.rows(0))
-    {
-        let found = ["load_tight_tension_N", "friction_coefficient"];
-        let found = found.map(|name| row[name].parse::<f64>().unwrap());
-        assert_eq!(found[..], expected.values);
-        assert_eq!(row["status"], "answered");
-    }
-    for (args, message) in [
-        (&["--sample", "sobol:8"][..], "there is no sample `sobol`"),
-        (&["--sample", "lhs"], "there is no `:`"),
-        (&["--sample", "lhs:0"], "N is not a whole number"),
-        (&["--sample", "lhs:ten"], "N is not a whole number"),
-    ] {
-        refused(&run(&directory, &[&over[..], args].concat()), message);
-    }
-    let steps = [
-        "--over",
-        "load.tight_tension=300:400:5",
-        "--sample",
-        "lhs:5",
-    ];
-    refused(
-        &run(&directory, &steps),
-        "--sample says how many rows there are",
-    );
-    let list = ["--over", "load.tight_tension=300,400", "--sample", "lhs:5"];
-    refused(&run(&directory, &list), "a sample is one of a range");
 }

@@ -1,6 +1,7 @@
 //! Latin hypercube samples, each computed from its index alone.
 
 use super::SweepRow;
+use super::mixing::{fraction, key, mixed};
 
 /// A Latin hypercube sample of ranges (M. D. `McKay`, R. J. Beckman, W. J. Conover, Technometrics 21, 1979): the range of
 /// each number is parted into as many equal strata as there are rows, and every stratum has one row, at a random place
@@ -42,7 +43,7 @@ impl LatinHypercube {
         (from..self.count).map(|index| {
             let ranges = self.ranges.iter().enumerate();
             let values = ranges.map(|(number, &[from, to])| {
-                let key = mixed(self.seed ^ mixed(number as u64));
+                let key = key(self.seed, number);
                 let stratum = permuted(index as u64, self.count as u64, key);
                 let share = (stratum as f64 + fraction(mixed(key ^ mixed(!(index as u64)))))
                     / self.count as f64;
@@ -70,20 +71,6 @@ fn permuted(index: u64, count: u64, key: u64) -> u64 {
             return at;
         }
     }
-}
-
-/// A number from 0 to below 1 from the upper bits of a random one.
-fn fraction(random: u64) -> f64 {
-    (random >> 11) as f64 / (1_u64 << 53) as f64
-}
-
-/// The mixing of `SplitMix64` (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014), whose every output bit depends on every input
-/// bit.
-fn mixed(state: u64) -> u64 {
-    let state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let state = (state ^ state >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let state = (state ^ state >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-    state ^ state >> 31
 }
 
 #[cfg(test)]

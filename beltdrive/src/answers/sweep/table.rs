@@ -1,5 +1,8 @@
 //! The rows of a sweep from a file.
 
+#[cfg(feature = "arrow")]
+mod of_arrow;
+mod of_csv;
 #[cfg(feature = "parquet")]
 mod of_parquet;
 
@@ -7,10 +10,11 @@ use super::SweepRow;
 use crate::belt_loop::Varied;
 use crate::input::{Diagnostic, DriveFile, TableHead};
 use std::fs::File;
-use std::io::{self, BufReader, Read};
+use std::io::{self, Read};
+use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 
-/// A file of values of numbers of a drive file, a column for each number and a row for each drive, in CSV or Parquet.
+/// A file of values of numbers of a drive file, a column for each number and a row for each drive, in CSV, Parquet or Arrow IPC.
 #[derive(Clone, Debug)]
 pub struct SweepTable {
     path: PathBuf,
@@ -29,33 +33,54 @@ pub enum TableError {
     /// The file cannot be read.
     #[error("cannot read {path}: {error}", path = .0.display(), error = .1)]
     Read(PathBuf, io::Error),
-    /// A column of a Parquet file holds something else.
+    /// A column of a Parquet or an Arrow file holds something else.
     #[error("the column `{1}` of {path} holds no numbers", path = .0.display())]
     NoNumbers(PathBuf, String),
-    /// The file has another form.
-    #[error("{path} is a Parquet file, and this program is built without Parquet", path = .0.display())]
-    WithoutParquet(PathBuf),
+    /// The file holds something else.
+    #[error(
+        "{path} is no table; expected CSV in UTF-8, Parquet, or Arrow IPC as a file, not as a stream",
+        path = .0.display()
+    )]
+    NoTable(PathBuf),
+    /// The file is compressed in another way than those that are read.
+    #[error("{path} is compressed as {1}; expected {2}", path = .0.display())]
+    Compressed(PathBuf, String, &'static str),
+    /// The file has a form that is not read.
+    #[error("{path} is in {1}, which this program is built without", path = .0.display())]
+    Without(PathBuf, &'static str),
 }
 
-/// What a Parquet file begins with.
-const PARQUET: &[u8] = b"PAR1";
+/// A form of tables.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Csv,
+    Parquet,
+    Arrow,
+}
+
+/// What files of the other forms than CSV begin with.
+const BEGINNINGS: [(&[u8], Form); 2] = [(b"PAR1", Form::Parquet), (b"ARROW1", Form::Arrow)];
 
 impl SweepTable {
-    /// The table of a file in CSV, where lines that begin with `#` are comments, or in Parquet, which is known by what it
-    /// begins with. Headings are those of [`TableHead::new`]. The file is read once from end to end to count its rows.
+    /// The table of a file in CSV, where lines that begin with `#` are comments, or in Parquet or Arrow IPC, which are known
+    /// by what they begin with. Headings are those of [`TableHead::new`]. The file is read once from end to end to count
+    /// its rows.
     ///
     /// # Errors
     /// The file cannot be read, or a heading is at fault. A row that is at fault is none: it says so itself.
     pub fn open(path: &Path, file: &DriveFile) -> Result<Self, TableError> {
         let cannot_read = |error| TableError::Read(path.to_owned(), error);
-        let (fingerprint, is_parquet) = fingerprint(path).map_err(cannot_read)?;
-        let (headings, count) = match is_parquet {
+        let (fingerprint, form) = fingerprint(path).map_err(cannot_read)?;
+        let shape = || match form {
+            Form::Csv => of_csv::shape(path),
             #[cfg(feature = "parquet")]
-            true => of_parquet::shape(path)?,
-            #[cfg(not(feature = "parquet"))]
-            true => return Err(TableError::WithoutParquet(path.to_owned())),
-            false => csv_shape(path).map_err(cannot_read)?,
+            Form::Parquet => of_parquet::shape(path),
+            #[cfg(feature = "arrow")]
+            Form::Arrow => of_arrow::shape(path),
+            #[cfg(not(all(feature = "parquet", feature = "arrow")))]
+            form => Err(TableError::Without(path.to_owned(), form.name())),
         };
+        let (headings, count) = undamaged(shape).map_err(cannot_read)??;
         let headings: Vec<_> = headings.iter().map(String::as_str).collect();
         let name = path.display().to_string();
         let head = TableHead::new(&name, &headings, file).map_err(Box::new)?;
@@ -91,13 +116,17 @@ impl SweepTable {
     /// The file cannot be read any more.
     pub fn rows(&self) -> Result<TableRows<'_>, TableError> {
         let cannot_read = |error| TableError::Read(self.path.clone(), error);
-        let (_, is_parquet) = prefix(&self.path).map_err(cannot_read)?;
-        let source = match is_parquet {
+        let (_, form) = beginning(&self.path).map_err(cannot_read)?;
+        let source = match form {
+            Form::Csv => Source::Csv(Box::new(of_csv::reader(&self.path).map_err(cannot_read)?)),
             #[cfg(feature = "parquet")]
-            true => Source::Parquet(Box::new(of_parquet::rows(&self.path)?)),
-            #[cfg(not(feature = "parquet"))]
-            true => return Err(TableError::WithoutParquet(self.path.clone())),
-            false => Source::Csv(Box::new(csv_reader(&self.path).map_err(cannot_read)?)),
+            Form::Parquet => Source::Parquet(Box::new(of_parquet::rows(&self.path)?)),
+            #[cfg(feature = "arrow")]
+            Form::Arrow => {
+                Source::Arrow(Box::new(of_arrow::rows(&self.path).map_err(cannot_read)?))
+            }
+            #[cfg(not(all(feature = "parquet", feature = "arrow")))]
+            form => return Err(TableError::Without(self.path.clone(), form.name())),
         };
         Ok(TableRows {
             head: &self.head,
@@ -120,9 +149,11 @@ pub struct TableRows<'t> {
 }
 
 enum Source {
-    Csv(Box<csv::Reader<BufReader<File>>>),
+    Csv(Box<of_csv::Reader>),
     #[cfg(feature = "parquet")]
     Parquet(Box<of_parquet::Rows>),
+    #[cfg(feature = "arrow")]
+    Arrow(Box<of_arrow::Rows>),
 }
 
 impl TableRows<'_> {
@@ -132,15 +163,20 @@ impl TableRows<'_> {
     /// The file cannot be read.
     pub fn skip_to(&mut self, index: usize) -> Result<(), TableError> {
         while self.next < index {
-            let is_row = match &mut self.source {
-                Source::Csv(reader) => reader.read_byte_record(&mut self.record).map_err(io_error),
+            let is_row = undamaged(|| match &mut self.source {
+                Source::Csv(reader) => reader
+                    .read_byte_record(&mut self.record)
+                    .map_err(of_csv::io_error),
                 #[cfg(feature = "parquet")]
                 Source::Parquet(rows) => rows
                     .next()
                     .transpose()
                     .map_err(io::Error::from)
                     .map(|row| row.is_some()),
-            };
+                #[cfg(feature = "arrow")]
+                Source::Arrow(rows) => rows.next().map(|row| row.is_some()),
+            });
+            let is_row = is_row.and_then(|read| read);
             let is_row = is_row.map_err(|error| TableError::Read(self.path.to_owned(), error))?;
             if !is_row {
                 break;
@@ -156,7 +192,7 @@ impl TableRows<'_> {
             Source::Csv(reader) => {
                 if !reader
                     .read_byte_record(&mut self.record)
-                    .map_err(io_error)?
+                    .map_err(of_csv::io_error)?
                 {
                     return Ok(None);
                 }
@@ -175,6 +211,13 @@ impl TableRows<'_> {
                     .map(|(_, field)| of_parquet::number(field));
                 self.head.convert(&name, numbers)
             }
+            #[cfg(feature = "arrow")]
+            Source::Arrow(rows) => {
+                let Some(numbers) = rows.next()? else {
+                    return Ok(None);
+                };
+                self.head.convert(&name, numbers)
+            }
         };
         self.next += 1;
         let (values, fault) = read;
@@ -187,21 +230,39 @@ impl Iterator for TableRows<'_> {
     type Item = Result<SweepRow, TableError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        let row = self.read().transpose()?;
+        let row = undamaged(|| self.read()).and_then(|read| read);
+        let row = row.transpose()?;
         Some(row.map_err(|error| TableError::Read(self.path.to_owned(), error)))
     }
 }
 
-/// A hash of the content of a file, and whether it is in Parquet.
-fn fingerprint(path: &Path) -> io::Result<(u64, bool)> {
-    let (mut reader, is_parquet) = prefix(path)?;
+#[cfg(not(all(feature = "parquet", feature = "arrow")))]
+impl Form {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Csv => "CSV",
+            Self::Parquet => "Parquet",
+            Self::Arrow => "Arrow IPC",
+        }
+    }
+}
+
+/// What a reader finds. Those of Parquet and of Arrow panic at some damaged files; that is an error like any other.
+fn undamaged<T>(read: impl FnOnce() -> T) -> io::Result<T> {
+    let found = panic::catch_unwind(AssertUnwindSafe(read));
+    found.map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "the file is damaged"))
+}
+
+/// A hash of the content of a file, and its form.
+fn fingerprint(path: &Path) -> io::Result<(u64, Form)> {
+    let (mut reader, form) = beginning(path)?;
     // Offset basis and prime of FNV-1a with 64 bits.
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     let mut buffer = [0; 1 << 16];
     loop {
         let read = reader.read(&mut buffer)?;
         if read == 0 {
-            return Ok((hash, is_parquet));
+            return Ok((hash, form));
         }
         for byte in &buffer[..read] {
             hash = (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
@@ -209,46 +270,14 @@ fn fingerprint(path: &Path) -> io::Result<(u64, bool)> {
     }
 }
 
-/// The content of a file, and whether it is in Parquet.
-fn prefix(path: &Path) -> io::Result<(impl Read, bool)> {
+/// The content of a file, and its form.
+fn beginning(path: &Path) -> io::Result<(impl Read, Form)> {
     let mut reader = File::open(path)?;
     let mut begin = Vec::new();
-    reader
-        .by_ref()
-        .take(PARQUET.len() as u64)
-        .read_to_end(&mut begin)?;
-    let is_parquet = begin == PARQUET;
-    Ok((io::Cursor::new(begin).chain(reader), is_parquet))
-}
-
-fn csv_reader(path: &Path) -> io::Result<csv::Reader<BufReader<File>>> {
-    let file = BufReader::new(File::open(path)?);
-    let reader = csv::ReaderBuilder::new()
-        .comment(Some(b'#'))
-        // A row with more or fewer fields says so itself.
-        .flexible(true)
-        .trim(csv::Trim::All)
-        .from_reader(file);
-    Ok(reader)
-}
-
-/// The headings and the number of rows of a CSV file.
-fn csv_shape(path: &Path) -> io::Result<(Vec<String>, usize)> {
-    let mut reader = csv_reader(path)?;
-    let headings = reader.byte_headers().map_err(io_error)?.iter();
-    let headings = headings.map(|heading| String::from_utf8_lossy(heading).into_owned());
-    let headings = headings.collect();
-    let mut record = csv::ByteRecord::new();
-    let mut count = 0;
-    while reader.read_byte_record(&mut record).map_err(io_error)? {
-        count += 1;
-    }
-    Ok((headings, count))
-}
-
-fn io_error(error: csv::Error) -> io::Error {
-    match error.into_kind() {
-        csv::ErrorKind::Io(error) => error,
-        kind => io::Error::other(format!("{kind:?}")),
-    }
+    let most = BEGINNINGS.iter().map(|(begin, _)| begin.len()).max();
+    let most = most.unwrap_or_default() as u64;
+    reader.by_ref().take(most).read_to_end(&mut begin)?;
+    let known = { BEGINNINGS.iter() }.find(|(known, _)| begin.starts_with(known));
+    let form = known.map_or(Form::Csv, |(_, form)| *form);
+    Ok((io::Cursor::new(begin).chain(reader), form))
 }

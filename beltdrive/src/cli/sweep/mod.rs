@@ -4,21 +4,21 @@ mod outputs;
 mod over;
 mod parts;
 mod rate;
+mod sample;
 mod source;
 
 use super::destinations::Destinations;
 use super::failure::Failure;
 use super::origin::Origin;
 use super::output::{is_stream, note, print, write_text};
-use super::parquet;
 use super::progress::with_bar;
 use super::stated::Stated;
 use beltdrive::input::DriveFile;
 use beltdrive::quantity::sweep::{Columns, answer};
-use beltdrive::report::{self, Head, RowFormat, RowWriter};
+use beltdrive::report::{self, Head, RowWriter};
 use beltdrive::{Sweep, SweepQuestion, SweepSummary};
 use clap::{Args, ValueEnum};
-use outputs::{Output, Outputs, Wanted, cannot_write};
+use outputs::{Output, Outputs, Wanted, cannot_write, is_closed};
 use parts::{PartFormat, Parts, Shard};
 use rate::Rate;
 use serde_json::{Value, json};
@@ -55,8 +55,11 @@ pub(super) struct Command {
     /// Write the rows as Parquet; - for standard output, in place of the summary
     #[arg(long, value_name = "FILE")]
     parquet: Option<PathBuf>,
+    /// Write the rows as an Arrow IPC file; - for standard output, in place of the summary
+    #[arg(long, value_name = "FILE")]
+    arrow: Option<PathBuf>,
     /// Write the rows into a directory, a file for each chunk, and go on where that was interrupted
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["csv", "parquet"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["csv", "parquet", "arrow"])]
     out: Option<PathBuf>,
     /// Form of the files of --out
     #[arg(long, value_name = "FORM", default_value = "parquet", requires = "out")]
@@ -106,7 +109,10 @@ impl Command {
     /// Refuses outputs that there is no place for.
     fn check(&self) -> Result<(), Failure> {
         if self.parquet.is_some() {
-            parquet::check()?;
+            PartFormat::Parquet.rows()?;
+        }
+        if self.arrow.is_some() {
+            PartFormat::Arrow.rows()?;
         }
         if self.out.is_some() {
             self.format.rows()?;
@@ -120,6 +126,7 @@ impl Command {
                     ("--csv", self.csv.as_deref()),
                     ("the origin of --csv", beside.as_deref()),
                     ("--parquet", self.parquet.as_deref()),
+                    ("--arrow", self.arrow.as_deref()),
                     ("--json", self.json.as_deref()),
                 ],
                 figures: None,
@@ -234,17 +241,23 @@ impl Command {
             parts.open(identity, &origin)?;
             return Ok(Outputs::Parts(parts));
         }
-        let csv = self.csv.as_deref().map(|path| (path, RowFormat::Csv));
-        let parquet = match self.parquet.as_deref() {
-            Some(path) => Some((path, parquet::format()?)),
-            None => None,
-        };
-        let begun = [csv, parquet].into_iter().flatten().map(|(path, format)| {
-            let output = Output::new(path);
-            let writer =
-                output.and_then(|output| RowWriter::new(format, output, head.columns(), metadata));
-            let writer = writer.map_err(|error| cannot_write(path, &error))?;
-            Ok((writer, path))
+        let forms = [
+            (&self.csv, PartFormat::Csv),
+            (&self.parquet, PartFormat::Parquet),
+            (&self.arrow, PartFormat::Arrow),
+        ];
+        let wanted = { forms.iter() }.filter_map(|(path, form)| Some((path.as_deref()?, form)));
+        let begun = wanted.filter_map(|(path, form)| {
+            let begin = |format| {
+                let output = Output::new(path)?;
+                RowWriter::new(format, output, head.columns(), metadata)
+            };
+            match form.rows().map(begin) {
+                Err(failure) => Some(Err(failure)),
+                Ok(Err(error)) if is_closed(path, &error) => None,
+                Ok(Err(error)) => Some(Err(cannot_write(path, &error))),
+                Ok(Ok(writer)) => Some(Ok((writer, path))),
+            }
         });
         Ok(Outputs::Files(begun.collect::<Result<_, Failure>>()?))
     }
@@ -253,7 +266,7 @@ impl Command {
     fn tell(&self, sweep: &Sweep, summary: &SweepSummary, origin: &Origin) -> Result<(), Failure> {
         let answer = answer(sweep, summary);
         let answer = &*origin.told_in(&answer);
-        let outputs = [&self.csv, &self.parquet, &self.json];
+        let outputs = [&self.csv, &self.parquet, &self.arrow, &self.json];
         let mut outputs = outputs.into_iter().flatten();
         if !self.quiet && !outputs.any(|path| is_stream(path)) {
             print(&report::table(answer, Default::default()))?;

@@ -17,7 +17,7 @@ pub(super) enum Outputs<'o> {
 #[derive(PartialEq, Eq)]
 pub(super) enum Wanted {
     More,
-    /// Whoever reads standard output has closed it.
+    /// Whoever reads standard output has closed it, and there is no other output.
     Enough,
 }
 
@@ -38,13 +38,20 @@ impl Outputs<'_> {
     ) -> Result<Wanted, Failure> {
         match self {
             Self::Files(files) => {
-                for (file, path) in files {
-                    match file.write(rows) {
-                        Err(error) if is_stream(path) && error.kind() == ErrorKind::BrokenPipe => {
-                            return Ok(Wanted::Enough);
-                        }
-                        written => written.map_err(|error| cannot_write(path, &error))?,
+                let (begun, mut failure) = (files.len(), None);
+                files.retain_mut(|(file, path)| match file.write(rows) {
+                    Err(error) if is_closed(path, &error) => false,
+                    written => {
+                        let failed = written.map_err(|error| cannot_write(path, &error));
+                        failure = failure.take().or(failed.err());
+                        true
                     }
+                });
+                if let Some(failure) = failure {
+                    return Err(failure);
+                }
+                if begun > 0 && files.is_empty() {
+                    return Ok(Wanted::Enough);
                 }
             }
             Self::Parts(parts) => parts.write(chunk, rows)?,
@@ -57,9 +64,13 @@ impl Outputs<'_> {
         match self {
             Self::Files(files) => {
                 for (file, path) in files {
-                    let finished = file.finish().and_then(Output::finish);
-                    finished.map_err(|error| cannot_write(path, &error))?;
-                    note(path);
+                    match file.finish().and_then(Output::finish) {
+                        Err(error) if is_closed(path, &error) => {}
+                        finished => {
+                            finished.map_err(|error| cannot_write(path, &error))?;
+                            note(path);
+                        }
+                    }
                 }
             }
             Self::Parts(parts) => {
@@ -69,6 +80,11 @@ impl Outputs<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether an error says that whoever reads standard output has closed it, and has read enough.
+pub(super) fn is_closed(path: &Path, error: &io::Error) -> bool {
+    is_stream(path) && error.kind() == ErrorKind::BrokenPipe
 }
 
 /// Why rows cannot be written.

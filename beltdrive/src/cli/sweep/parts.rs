@@ -1,7 +1,7 @@
 //! A sweep as a directory of files, one for each chunk of its rows, that may be interrupted at any time.
 
 use crate::cli::failure::Failure;
-use crate::cli::parquet;
+use crate::cli::{arrow, parquet};
 use beltdrive::report::{Column, Field, RowFormat, RowWriter, write_file};
 use clap::ValueEnum;
 use serde_json::Value;
@@ -12,10 +12,11 @@ use std::path::{Path, PathBuf};
 /// names that begin so.
 const IDENTITY: &str = "_sweep.json";
 
-/// The form of the files.
+/// The form of files of rows.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(super) enum PartFormat {
     Parquet,
+    Arrow,
     Csv,
 }
 
@@ -25,6 +26,7 @@ impl PartFormat {
         match self {
             Self::Csv => Ok(RowFormat::Csv),
             Self::Parquet => parquet::format(),
+            Self::Arrow => arrow::format(),
         }
     }
 }

@@ -1,17 +1,15 @@
 //! Where the rows of a sweep come from.
 
 use super::over::Over;
+use super::sample::Sample;
 use crate::cli::failure::Failure;
 use beltdrive::belt_loop::Varied;
 use beltdrive::input::DriveFile;
-use beltdrive::{Grid, LatinHypercube, SweepRow, SweepTable, TableError, TableRows};
+use beltdrive::{Grid, SweepRow, SweepTable, TableError, TableRows};
 use clap::Args;
 use serde_json::{Value, json};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-
-/// The most rows of a sample.
-const MOST: usize = 1_000_000_000_000;
 
 #[derive(Args)]
 pub(super) struct SourceArgs {
@@ -23,13 +21,13 @@ pub(super) struct SourceArgs {
         required_unless_present = "table"
     )]
     over: Vec<String>,
-    /// Draw N rows from the ranges of --over, as a Latin hypercube
-    #[arg(long, value_name = "lhs:N", requires = "over")]
+    /// Draw N rows from the ranges of --over, as a Latin hypercube or as points of the scrambled Sobol' sequence
+    #[arg(long, value_name = "lhs:N|sobol:N", requires = "over")]
     sample: Option<String>,
     /// Another sample for every whole number
     #[arg(long, value_name = "SEED", default_value = "1", requires = "sample")]
     seed: u64,
-    /// Take the rows from a table in CSV or Parquet with a column for each number that varies
+    /// Take the rows from a table in CSV, Parquet or Arrow IPC with a column for each number that varies
     #[arg(long, value_name = "FILE", conflicts_with_all = ["over", "sample"])]
     table: Option<PathBuf>,
 }
@@ -44,14 +42,14 @@ pub(super) struct Source {
 
 enum Rows {
     Grid(Grid),
-    Sample(LatinHypercube),
+    Sample(Sample),
     Table(SweepTable),
 }
 
 /// Reads rows in their order.
 pub(super) enum Reader<'s> {
     Grid(&'s Grid),
-    Sample(&'s LatinHypercube),
+    Sample(&'s Sample),
     Table(TableRows<'s>),
 }
 
@@ -86,11 +84,10 @@ impl SourceArgs {
                 (Rows::Grid(Grid::new(axes)), identity)
             }
             Some(sample) => {
-                let count = count(sample)?;
                 let ranges = over.iter().map(Over::range).collect::<Result<_, _>>()?;
+                let rows = Sample::new(sample, ranges, self.seed)?;
                 let identity = json!({ "over": self.over, "sample": sample, "seed": self.seed });
-                let sample = LatinHypercube::new(ranges, count, self.seed);
-                (Rows::Sample(sample), identity)
+                (Rows::Sample(rows), identity)
             }
         };
         Ok(Source {
@@ -125,7 +122,7 @@ impl Reader<'_> {
     pub(super) fn take(&mut self, range: Range<usize>) -> Result<Vec<SweepRow>, Failure> {
         match self {
             Self::Grid(grid) => Ok(grid.rows(range.start).take(range.len()).collect()),
-            Self::Sample(sample) => Ok(sample.rows(range.start).take(range.len()).collect()),
+            Self::Sample(sample) => Ok(sample.take(range)),
             Self::Table(rows) => {
                 rows.skip_to(range.start).map_err(of_table)?;
                 let rows = rows.take(range.len());
@@ -133,24 +130,6 @@ impl Reader<'_> {
             }
         }
     }
-}
-
-/// How many rows a sample has.
-fn count(sample: &str) -> Result<usize, Failure> {
-    let fault = |problem: &str| {
-        Failure::Usage(format!(
-            "error: --sample {sample}: {problem}; expected lhs:N, such as lhs:1000"
-        ))
-    };
-    let (method, count) = sample
-        .split_once(':')
-        .ok_or_else(|| fault("there is no `:`"))?;
-    if method.trim() != "lhs" {
-        return Err(fault(&format!("there is no sample `{method}`")));
-    }
-    let count = count.trim().parse().ok();
-    let count = count.filter(|count| (1..=MOST).contains(count));
-    count.ok_or_else(|| fault(&format!("N is not a whole number from 1 to {MOST}")))
 }
 
 fn of_table(error: TableError) -> Failure {
