@@ -22,7 +22,7 @@ mod _native {
     use super::numbers::Numbers;
     #[pymodule_export]
     use super::questions::{
-        calibrate, check, design, example, examples, limits, map, rating, report, sections,
+        calibrate, check, design, example, examples, limits, map, modes, rating, report, sections,
         simulate, solve, stability, tension, trace, verify,
     };
     #[pymodule_export]

@@ -4,12 +4,13 @@ use crate::answer::{Answer, units};
 use crate::failure::{Failure, InputError};
 use crate::stated::Stated;
 use beltdrive::belt_loop::{self, Varied};
-use beltdrive::input::{Argument, DriveFile, FileKey, Measurements};
+use beltdrive::input::{Argument, Diagnostic, DriveFile, FileKey, Measurements};
 use beltdrive::page::{self, Made};
 use beltdrive::quantity::{self, uncertainty as told};
 use beltdrive::transient::{Ending, Until};
 use beltdrive::{
-    BranchEnd, MapAxis, RatingQuestion, SetupQuestion, calibrate as calibration, uncertainty,
+    BranchEnd, MapAxis, ModesQuestion, RatingQuestion, SetupQuestion, calibrate as calibration,
+    uncertainty,
 };
 use pyo3::exceptions::PyRuntimeWarning;
 use pyo3::prelude::*;
@@ -129,24 +130,47 @@ pub(crate) fn rating(
     stated.answer(py, |file, options| {
         let drive = file.drive()?;
         let samples = drawn(file, samples)?;
-        let keys = file.keys();
-        let speed = |option, value: &Option<String>| {
-            let Some(value) = value else {
-                return Ok(None);
-            };
-            let key = keys.iter().find(|key| key.path().ends_with(".speed"));
-            let key = key.ok_or_else(|| Failure::input("the drive file gives no speed"))?;
-            Ok::<_, Failure>(Some(Argument { option, value }.number(key)?))
-        };
         let question = RatingQuestion {
-            from: speed("start", &start)?,
-            to: speed("stop", &stop)?,
+            from: speed(file, "start", start.as_deref())?,
+            to: speed(file, "stop", stop.as_deref())?,
         };
         let found = beltdrive::rating(&drive, question, options, &mut |_, _| {})?;
         let quiet = &mut |_: f64, _: &str| {};
         let spread = uncertainty::of_rating(file, &found, question, samples, options, quiet)?;
         let answer = quantity::rating::answer(&found);
         Ok(told::told_in(answer, &spread, &[]))
+    })
+}
+
+/// A speed of the driver, rad/s, if it is given.
+fn speed(file: &DriveFile, option: &str, value: Option<&str>) -> Result<Option<f64>, Diagnostic> {
+    let speed = value.map(|value| Argument { option, value }.driver_speed(file));
+    speed.transpose()
+}
+
+/// The vibrations of the running drive.
+#[pyfunction]
+pub(crate) fn modes(
+    py: Python<'_>,
+    stated: Stated,
+    count: usize,
+    start: Option<String>,
+    stop: Option<String>,
+) -> PyResult<Answer> {
+    stated.answer(py, |file, _| {
+        if !(1..=40).contains(&count) {
+            return Err(Failure::input("count must be from 1 to 40"));
+        }
+        let simulation = file.motion()?;
+        let [start, stop] = [("start", &start), ("stop", &stop)]
+            .map(|(option, value)| speed(file, option, value.as_deref()));
+        let (start, stop) = (start?, stop?);
+        if start.is_some() && stop.is_none() {
+            return Err(Failure::input("start is given without stop"));
+        }
+        let question = ModesQuestion::new(count, start, stop);
+        let found = beltdrive::modes(&simulation, question, &mut |_, _| {})?;
+        Ok(quantity::modes::answer(&found))
     })
 }
 
@@ -158,7 +182,8 @@ pub(crate) fn simulate(
     until: Option<String>,
     at: Vec<String>,
 ) -> PyResult<Answer> {
-    stated.answer(py, |file, _| {
+    let mut interrupt = None;
+    let answer = stated.answer(py, |file, _| {
         let option = "until";
         let until = until.as_deref().map(|value| Argument { option, value });
         let mut simulation = file.simulation(until)?;
@@ -166,7 +191,12 @@ pub(crate) fn simulate(
             let option = "at";
             simulation.instants.push(Argument { option, value }.time()?);
         }
-        let history = beltdrive::simulate(&simulation, &mut |_, _| true)?;
+        // An interrupt from the keyboard ends the run after the step at hand.
+        let mut goes_on = |_, _| {
+            interrupt = Python::attach(|py| py.check_signals()).err();
+            interrupt.is_none()
+        };
+        let history = beltdrive::simulate(&simulation, &mut goes_on)?;
         match (history.ending, simulation.until) {
             (Ending::NotSteady, Until::Steady { latest }) => Err(Failure::Unsolved(
                 format!("the drive is not steady at {latest} s"),
@@ -174,7 +204,11 @@ pub(crate) fn simulate(
             )),
             _ => Ok(quantity::transient::answer(&simulation.drive, &history)),
         }
-    })
+    });
+    match interrupt {
+        Some(interrupt) => Err(interrupt),
+        None => answer,
+    }
 }
 
 /// The smallest and the largest load.

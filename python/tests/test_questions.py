@@ -1,5 +1,10 @@
 """Each question, with an answer that is known."""
 
+import signal
+import subprocess
+import sys
+import time
+
 import numpy as np
 import pytest
 
@@ -73,6 +78,24 @@ def test_a_simulation_tells_of_gross_slip() -> None:
         beltdrive.simulate(FLAT, "1 s")
 
 
+def test_an_interrupt_from_the_keyboard_ends_a_simulation() -> None:
+    # A process in the background may have been started with interrupts ignored.
+    script = """
+import beltdrive, signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+print("begun", flush=True)
+beltdrive.simulate(beltdrive.example("slip-pulse"), "50 s")
+"""
+    run = subprocess.Popen(
+        [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert run.stdout and run.stdout.readline() == "begun\n"
+    time.sleep(0.5)
+    run.send_signal(signal.SIGINT)
+    _, errors = run.communicate(timeout=20)
+    assert errors.splitlines()[-1] == "KeyboardInterrupt"
+
+
 def test_tension_meets_the_margin_asked_for() -> None:
     found = beltdrive.tension(CASES, margin=1.7)
     assert min(case.slip_margin for case in found.cases) == pytest.approx(1.7, rel=1e-6)
@@ -100,6 +123,16 @@ def test_a_calibration_takes_text_and_columns(as_columns: bool) -> None:
     assert "friction" in text
     with pytest.raises(beltdrive.InputError, match="differ in length"):
         beltdrive.calibrate(FLAT, {"a": [1], "b": [1, 2]})
+
+
+def test_modes_of_a_running_belt() -> None:
+    pulse = beltdrive.example("slip-pulse")
+    found = beltdrive.modes(pulse, 2)
+    assert "torsional" in str(found)
+    with pytest.raises(beltdrive.InputError, match="start is given without stop"):
+        beltdrive.modes(pulse, start="100 rpm")
+    with pytest.raises(beltdrive.InputError, match="count must be from 1 to 40"):
+        beltdrive.modes(pulse, 0)
 
 
 def test_stability_and_sections() -> None:
