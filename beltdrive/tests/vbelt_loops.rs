@@ -1032,7 +1032,7 @@ fn kinks_do_not_end_the_way_to_the_limit() {
 #[test]
 fn a_load_just_below_the_limit_of_coulomb_friction_is_found() {
     let drive = of_survey(random_coulomb_loop).nth(40).unwrap();
-    let state = solve(&times(&drive, BELOW)).unwrap();
+    let state = solve(&times(&drive, 0.97)).unwrap();
     let estimate = state.convergence.unwrap().error_estimate;
     assert!(estimate < 1e-6, "{estimate}");
 }
@@ -1049,16 +1049,39 @@ fn a_load_just_below_the_limit_of_bristles_is_found() {
 
 /// With ε = 10⁻³ this loop was said to carry 0.617 of its load, and 0.636 of it was carried.
 #[test]
-fn the_limit_of_coulomb_friction_is_that_of_a_small_normalisation() {
+fn the_limit_of_coulomb_friction_is_that_without_smoothing() {
     let drive = of_survey(random_coulomb_loop).nth(17).unwrap();
     let limit = |factor: f64| match solve(&times(&drive, factor)) {
         Err(SolveError::Overloaded { load_factor, .. }) => factor * load_factor,
         other => panic!("more than the loop carries, {other:?}"),
     };
     let largest = limit(1.0);
-    close("limit", largest, 0.6368, 1e-3);
+    // 0.6368 with a direction normalised by ε = 1e-4. It follows from two stiffnesses here, and to 1e-5 from three.
+    close("limit", largest, 0.6428, 2e-4);
     close("limit", limit(REFUSED * largest), largest, 1e-5);
-    solve(&times(&drive, 0.995 * largest)).unwrap();
+    for share in [0.99, 0.995, 0.999] {
+        solve(&times(&drive, share * largest)).unwrap();
+    }
+}
+
+/// Bristles of a stiffness κ slip over μ/κ before friction is developed: what they carry comes to what Coulomb friction
+/// does by the first order in 1/κ.
+#[test]
+fn stiff_bristles_carry_what_coulomb_friction_does() {
+    let options = SolveOptions::default();
+    let limit = |law| {
+        let drive = with_law(accessories(Closure::SetupTension(500.0)), law);
+        let state = solve_with_margins(&drive, &options).unwrap();
+        state.load_limit.unwrap()
+    };
+    let exact = limit(FrictionLaw::Coulomb);
+    let off = [3e4, 3e5].map(|stiffness| {
+        let of_bristles = limit(FrictionLaw::Bristle { stiffness });
+        of_bristles.factor - exact.factor
+    });
+    println!("{exact:?}, bristles off by {off:?}");
+    assert!(exact.error < 1e-4 && off[1] < 1e-3 * exact.factor);
+    assert!((off[0] / off[1] - 10.0).abs() < 1.5);
 }
 
 #[test]

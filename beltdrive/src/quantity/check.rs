@@ -4,7 +4,7 @@ use super::precision::six_digits;
 use super::scale::Scale;
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value};
 use super::{belt_loop, warning, words};
-use crate::vbelt::belt_loop::limit_accuracy;
+use crate::belt_loop::LoopState;
 use crate::{
     CaseState, CheckedCase, CheckedService, Drive, Failing, LoadCase, OnPulley, Requirements,
     SlipMargin,
@@ -175,7 +175,7 @@ fn reason(failing: &Failing, drive: &Drive, state: &CaseState) -> String {
                 shown(
                     Measure::Number,
                     found.value,
-                    margin_error(drive, &scale) * found.value
+                    margin_error(&state.state) * found.value
                 ),
                 six_digits(required)
             ),
@@ -218,11 +218,9 @@ fn reason(failing: &Failing, drive: &Drive, state: &CaseState) -> String {
 }
 
 /// Relative error of a slip margin.
-pub(super) fn margin_error(drive: &Drive, scale: &Scale) -> f64 {
-    match drive.belt.kind {
-        crate::BeltKind::V(_) => limit_accuracy(scale.error),
-        crate::BeltKind::Flat { .. } => scale.error,
-    }
+pub(super) fn margin_error(state: &LoopState) -> f64 {
+    let error = state.load_limit.as_ref().map_or(0.0, |limit| limit.error);
+    error.max(state.relative_error())
 }
 
 /// A load case as a column of the table.
@@ -344,7 +342,9 @@ fn subject((stated, found): Case<'_>) -> Subject {
             "slip margin",
             Measure::Number,
             margin.map(|margin| margin.value),
-            margin.map_or(0.0, |margin| margin_error(drive, &scale) * margin.value),
+            state.zip(margin).map_or(0.0, |(found, margin)| {
+                margin_error(&found.state) * margin.value
+            }),
         ),
         word("slip_margin_status", "", is_margin_known.map(str::to_owned)),
         word("slips_first", "  slips first", name(margin)),

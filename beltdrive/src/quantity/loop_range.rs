@@ -159,6 +159,7 @@ fn shown(point: &LoopPoint) -> [Quantity; 5] {
     let tractive = state.spans.iter().map(|span| span.tractive_tension);
     let smallest = tractive.fold(f64::INFINITY, f64::min);
     let limit = state.load_limit.as_ref();
+    let limit_scale = scale.with(limit.map_or(0.0, |limit| limit.error));
     let slips = limit.map(|limit| state.pulleys[limit.pulley].name.clone());
     [
         scale.force("largest_tension", "largest T", scale.tension),
@@ -170,7 +171,7 @@ fn shown(point: &LoopPoint) -> [Quantity; 5] {
             state.efficiency,
             1.0,
         ),
-        scale.relative(
+        limit_scale.relative(
             "load_factor_limit",
             "load factor limit",
             Measure::Number,

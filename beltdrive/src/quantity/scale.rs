@@ -15,6 +15,14 @@ pub(super) struct Scale {
 }
 
 impl Scale {
+    /// The same for a number that has a relative error of its own beside that of the state.
+    pub(super) fn with(self, error: f64) -> Self {
+        Self {
+            error: error.max(self.error),
+            ..self
+        }
+    }
+
     /// A number whose error is relative to itself.
     pub(super) fn relative(
         &self,

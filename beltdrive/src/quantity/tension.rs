@@ -326,7 +326,7 @@ fn of_case((name, drive, found): Case<'_>) -> Subject {
                 "slip margin",
                 Measure::Number,
                 margin.map(|margin| margin.value),
-                margin.map_or(0.0, |margin| margin_error(drive, &scale) * margin.value),
+                margin.map_or(0.0, |margin| margin_error(&found.state) * margin.value),
             ),
             Quantity::word(
                 "slips_first",

@@ -225,6 +225,8 @@ pub struct PulleyState {
     /// Torque capacity over torque; `None` for an idler. It holds the slacker tension, where the load limit holds
     /// the closure.
     pub torque_margin: Option<f64>,
+    /// Estimated error of torque capacity and margin, relative; 0 where they are exact to rounding, as of flat belts.
+    pub torque_margin_error: f64,
     /// The belt in its groove; `None` for flat belts and for pulleys on the back of a V-belt.
     pub groove: Option<GrooveState>,
 }
@@ -291,4 +293,6 @@ pub struct LoadLimit {
     pub factor: f64,
     /// The index of that pulley.
     pub pulley: usize,
+    /// Estimated error of the factor, relative; 0 where it is exact to rounding, as of flat belts.
+    pub error: f64,
 }

@@ -218,6 +218,16 @@ pub(crate) trait BeltProblem: Problem + Clone {
             elastic: law.elastic(),
         })
     }
+
+    /// The same belt with bristles this many times as stiff. Other laws stay as they are.
+    fn with_stiffer_bristles(self, times: f64) -> Self {
+        self.with_laws(|mut law, _| {
+            if let Law::Bristle { stiffness, .. } = &mut law {
+                *stiffness *= times;
+            }
+            law
+        })
+    }
 }
 
 /// The conditions on the belt in a groove that do not depend on what is around the pulley, each given to `zero`.

@@ -36,6 +36,7 @@ impl Limit {
             pulley: of.pulleys.iter().position(|of| of.name == *pulley)?,
             overhangs: *overhangs,
             is_last: true,
+            error: 0.0,
         };
         Some(Self { of, top })
     }

@@ -37,7 +37,11 @@ pub(super) fn load_limit(
         && excess(Some(&state)).abs() < AT_SLIP
     {
         let (pulley, _) = largest(&state);
-        return Ok(Some(LoadLimit { factor, pulley }));
+        return Ok(Some(LoadLimit {
+            factor,
+            pulley,
+            error: 0.0,
+        }));
     }
     let mut low = (0.0, -1.0);
     let mut high = (1.0, at_whole);
@@ -81,7 +85,11 @@ pub(super) fn load_limit(
     }
     let (pulley, _) = largest(&at_limit);
     if factor > 1.0 {
-        return Ok(Some(LoadLimit { factor, pulley }));
+        return Ok(Some(LoadLimit {
+            factor,
+            pulley,
+            error: 0.0,
+        }));
     }
     Err(SolveError::GrossSlip {
         pulley: problem.drive.pulleys[pulley].name.clone(),

@@ -158,6 +158,7 @@ impl Found<'_> {
             }),
             torque_capacity: Some(capacity),
             torque_margin: (torque != 0.0).then(|| capacity / torque.abs()),
+            torque_margin_error: 0.0,
             groove: None,
         }
     }

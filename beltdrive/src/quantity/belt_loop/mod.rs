@@ -140,6 +140,7 @@ fn span(drive: &Drive, [from, to]: [&str; 2], span: &SpanState, scale: &Scale) -
 fn whole(drive: &Drive, state: &LoopState, scale: &Scale) -> Vec<Quantity> {
     let length = |key, label, value| scale.relative(key, label, Measure::Length, value);
     let limit = state.load_limit.as_ref();
+    let limit_scale = scale.with(limit.map_or(0.0, |limit| limit.error));
     vec![
         length(
             "belt_length_unstretched",
@@ -165,7 +166,7 @@ fn whole(drive: &Drive, state: &LoopState, scale: &Scale) -> Vec<Quantity> {
             state.efficiency,
             1.0,
         ),
-        scale.relative(
+        limit_scale.relative(
             "load_factor_limit",
             "load factor limit",
             Measure::Number,

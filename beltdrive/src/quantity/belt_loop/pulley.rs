@@ -24,6 +24,7 @@ pub(super) fn subject(drive: &Drive, state: &LoopState, index: usize, scale: &Sc
         Duty::Torque(_) | Duty::Driven => "torque",
         Duty::Power(_) => "power",
     };
+    let margin = scale.with(pulley.torque_margin_error);
     let mut quantities = vec![
         Quantity::word("name", "", pulley.name.clone()),
         Quantity::word("side", "", side.to_owned()),
@@ -64,13 +65,13 @@ pub(super) fn subject(drive: &Drive, state: &LoopState, index: usize, scale: &Sc
             Measure::Share,
             pulley.friction_utilisation,
         ),
-        scale.relative(
+        margin.relative(
             "torque_capacity",
             "torque capacity",
             Measure::Torque,
             pulley.torque_capacity,
         ),
-        scale.relative(
+        margin.relative(
             "torque_margin",
             "torque margin",
             Measure::Number,

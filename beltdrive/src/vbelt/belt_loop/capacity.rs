@@ -11,7 +11,8 @@
 //!
 //! with the unknown speed ω and length L of the contact, and the logarithm of λ, since a torque may be small beside
 //! the largest. On the back of the belt nothing of this depends on
-//! the law: it carries R F (exp(μ φ) − 1).
+//! the law: it carries R F (exp(μ φ) − 1). The curve is that of bristles where friction is Coulomb's or EPP
+//! (see `stiffening`).
 
 use super::super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
 use super::super::path::Solved;
@@ -21,6 +22,7 @@ use super::climb::{followed, on_the_way};
 use super::levelling::Levelling;
 use super::problem::LoopProblem;
 use super::seat::Seat;
+use super::stiffening::Stiffened;
 use super::unknowns::FLOW;
 use bvp::{Ends, Family, Problem, Real, Segment};
 use continuation::{Branch, Direction, Kind};
@@ -131,9 +133,19 @@ impl bvp::Guess for OfState<'_> {
 }
 
 impl Solved<LoopProblem> {
-    /// The largest torque of a pulley over that of the state; `None` if it has none or the largest was not found.
-    /// It is sought from the rough state of the same loop.
-    pub(super) fn torque_margin(&self, pulley: usize, rough: &Self, tolerance: f64) -> Option<f64> {
+    /// The largest torque of a pulley over that of the state, with its error; `None` if it has none or the largest was
+    /// not found. It is sought from rough states of the same loop.
+    pub(super) fn torque_margin(
+        &self,
+        pulley: usize,
+        rough: &Stiffened,
+        tolerance: f64,
+    ) -> Option<[f64; 2]> {
+        rough.value(|rough| self.torque_margin_as(pulley, rough, tolerance))
+    }
+
+    /// The same with friction as it is in one rough state.
+    fn torque_margin_as(&self, pulley: usize, rough: &Self, tolerance: f64) -> Option<f64> {
         let problem = &self.problem;
         if problem.is_idle(pulley) {
             return None;

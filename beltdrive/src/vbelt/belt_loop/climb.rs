@@ -8,6 +8,7 @@ use super::problem::LoopProblem;
 use super::rising::Rising;
 use super::slipping::Slipping;
 use super::solve::Search;
+use super::stiffening::Judge;
 use super::unknowns::FLOW;
 use crate::SolveError;
 use crate::results::difficulty;
@@ -31,6 +32,12 @@ const STEPS: usize = 300;
 /// ε of Coulomb friction with which a limit is found once more, from the last state below it: friction is too small by
 /// about ε²/2 of the slip squared. With 10⁻³, the largest load of a small pulley was 3 % too low.
 pub(super) const SHARPER: f64 = 1e-4;
+
+/// The ε with which loads are sought that are below the limit without ε and above that with [`SHARPER`]: there were
+/// 0.9 % between the two on a loop with a small pulley.
+const STILL_SHARPER: [f64; 3] = [SHARPER, 1e-5, 1e-6];
+/// States below a limit from which a smaller ε is tried, in turn: the last one may be too near.
+const LOWER: usize = 4;
 
 /// Largest load factor that is tried: beyond it the torques are but rounding errors of the driver's.
 const LARGEST_FACTOR: f64 = 1e9;
@@ -65,9 +72,19 @@ pub(crate) struct Top {
     pub(crate) overhangs: bool,
     /// Whether there is no state under more load, or else a pulley that slips ever more.
     pub(crate) is_last: bool,
+    /// Estimated error of the factor, relative.
+    pub(crate) error: f64,
 }
 
-/// Relative accuracy of a limit, if states are solved to this tolerance.
+impl Top {
+    /// Whether the same ends the load.
+    pub(super) fn ends_as(&self, other: &Self) -> bool {
+        let end = |top: &Self| (top.overhangs, top.is_last);
+        end(self) == end(other)
+    }
+}
+
+/// Relative accuracy of a limit of the equations as they are, if states are solved to this tolerance.
 pub(crate) fn limit_accuracy(tolerance: f64) -> f64 {
     OF_LIMIT * tolerance.max(ROUGH)
 }
@@ -89,7 +106,10 @@ impl Search<'_> {
         while to < LARGEST_FACTOR {
             match self.climb(&here, to, Some(&mut slipping)) {
                 Climbed::Reached(solved) => here = *solved,
-                Climbed::Limit(limit) => return Ok(Some(limit.top)),
+                Climbed::Limit(mut limit) => {
+                    self.without_bristles(&mut limit, &here, Judge::LimitPointOrSlip);
+                    return Ok(Some(limit.top));
+                }
                 Climbed::Lost { reached, cause } => {
                     return Err(SolveError::Unreached { reached, cause });
                 }
@@ -127,6 +147,24 @@ impl Search<'_> {
             }
             climbed => climbed,
         }
+    }
+
+    /// The state under a load beyond a limit that an ε of its own brings about, with a smaller one.
+    pub(super) fn climb_sharper(&mut self, limit: Limit, to: f64) -> Option<Solved<LoopProblem>> {
+        let mut below = limit.below;
+        for epsilon in STILL_SHARPER {
+            let mut highest = below.iter().rev().take(LOWER);
+            let sharper = highest.find_map(|state| {
+                let sharper = self.smooth_less(state.clone(), epsilon, Effort::Rough);
+                sharper.ok()
+            })?;
+            match self.climb_as_it_is(&sharper, to, None) {
+                Climbed::Reached(reached) => return Some(*reached),
+                Climbed::Limit(limit) => below = limit.below,
+                Climbed::Lost { .. } => return None,
+            }
+        }
+        None
     }
 
     /// As [`Search::climb`], with the same ε.
@@ -171,16 +209,17 @@ impl Search<'_> {
                 problem: free.clone().with_factor(point.lambda()),
                 solution: solution(),
             };
-            let limit = |factor, slips, below| {
+            let error = limit_accuracy(self.tolerance);
+            let limit = |factor, slips: Option<usize>, below: Vec<_>| {
                 let at = here();
-                let top = match slips {
-                    None => top(&at, &point, factor),
-                    Some(pulley) => Top {
-                        factor,
-                        pulley,
-                        overhangs: false,
-                        is_last: true,
-                    },
+                let of_curve = || most_slowed(&at, &point);
+                let (pulley, overhangs) = slips.map_or_else(of_curve, |pulley| (pulley, false));
+                let top = Top {
+                    factor,
+                    pulley,
+                    overhangs,
+                    is_last: true,
+                    error,
                 };
                 Climbed::Limit(Box::new(Limit { top, at, below }))
             };
@@ -240,9 +279,9 @@ pub(super) fn followed([low, high]: [f64; 2], options: &Options) -> continuation
     }
 }
 
-/// What ends the load at a limit point: the belt overhangs, or the pulley slips whose speed falls most against that
-/// of the belt.
-fn top(solved: &Solved<LoopProblem>, point: &Point, factor: f64) -> Top {
+/// What ends the load at a limit point: where the belt overhangs, or the pulley that slips, whose speed falls most against
+/// that of the belt; and whether it overhangs.
+fn most_slowed(solved: &Solved<LoopProblem>, point: &Point) -> (usize, bool) {
     let problem = &solved.problem;
     let p = solved.solution.parameters();
     let moved = &point.tangent[point.tangent.len() - p.len()..];
@@ -259,12 +298,7 @@ fn top(solved: &Solved<LoopProblem>, point: &Point, factor: f64) -> Top {
     );
     let ends = solved.round(|round| round.end_angles());
     let steep = ends.iter().position(|ends| ends.exit.abs() > FRAC_PI_2);
-    Top {
-        factor,
-        pulley: steep.unwrap_or(slips),
-        overhangs: steep.is_some(),
-        is_last: true,
-    }
+    (steep.unwrap_or(slips), steep.is_some())
 }
 
 /// A solution as the guess of a problem with or without the factor as its last parameter.

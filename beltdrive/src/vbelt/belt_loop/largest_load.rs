@@ -8,7 +8,7 @@ use super::super::belt_problem::BeltProblem;
 use super::super::groove::TENSION;
 use super::super::path::{Effort, Solved};
 use super::at_rest::rest_near;
-use super::climb::{Climbed, Limit, SHARPER};
+use super::climb::{Climbed, Limit};
 use super::guess::tractive_tensions;
 use super::problem::LoopProblem;
 use super::round::Target;
@@ -16,6 +16,7 @@ use super::running::{SLOW, is_drive, may_be_beyond, presses};
 use super::slipping::{Slipping, is_slipping};
 use super::solve::{Search, lost};
 use super::start::Start;
+use super::stiffening::Judge;
 use crate::results::largest_load::{LargestLoad, LoadEnd};
 use crate::{Drive, SolveError};
 
@@ -32,10 +33,6 @@ const RAISED: f64 = 4.0;
 
 /// Largest factor on the expected load that is tried.
 const LARGEST: f64 = 1e6;
-
-/// Estimated relative error of a limit: that of states on the way, which are solved to 1e-4 and whose limit is found
-/// to 1e-6 of itself.
-const ERROR: f64 = 2e-5;
 
 /// A state a little below the largest load.
 #[derive(Clone, Debug)]
@@ -126,7 +123,7 @@ impl Search<'_> {
             if !start.is_taut() {
                 continue;
             }
-            match self.enter(&start) {
+            match self.enter_bristles(&start) {
                 Ok(rough) if is_begin(&rough) => return Ok(rough),
                 Ok(_) => {}
                 Err(stuck) => cause = Some(stuck.cause),
@@ -154,11 +151,10 @@ impl Search<'_> {
             match self.climb(&here, to, Some(&mut slipping)) {
                 Climbed::Reached(solved) => here = *solved,
                 Climbed::Limit(mut limit) => {
-                    if slipping.is_beyond(&limit.top) {
-                        *limit = self.gross_slip(&slipping, &here);
-                    }
+                    self.judge(&mut limit, &slipping, &here, Judge::GrossSlip);
+                    self.without_bristles(&mut limit, &here, Judge::GrossSlip);
                     let found = answer(self.drive, &limit);
-                    let below = self.below(*limit, here);
+                    let below = Self::below(*limit, here);
                     let factor = found.factor;
                     return Ok((found, NearLargestLoad { below, factor }));
                 }
@@ -174,24 +170,17 @@ impl Search<'_> {
     }
 
     /// The state on the way to a limit from which others are found; else that from which it began.
-    fn below(&mut self, limit: Limit, begin: Solved<LoopProblem>) -> Solved<LoopProblem> {
+    fn below(limit: Limit, begin: Solved<LoopProblem>) -> Solved<LoopProblem> {
         let is_below = |state: &Solved<LoopProblem>| state.factor() <= BELOW * limit.top.factor;
         let begins_higher = |state: &Solved<LoopProblem>| state.factor() < begin.factor();
         let mut states = limit.below.into_iter().rev();
         let below = states.find(|state| is_below(state) || begins_higher(state));
-        let below = below.filter(|below| !begins_higher(below)).unwrap_or(begin);
-        match below.problem.smoothing() > SHARPER {
-            true => {
-                let sharper = self.smooth_less(below.clone(), SHARPER, Effort::Rough);
-                sharper.unwrap_or(below)
-            }
-            false => below,
-        }
+        below.filter(|below| !begins_higher(below)).unwrap_or(begin)
     }
 }
 
 /// Whether the load can be raised from a state to the largest: one of a drive, below it.
-fn is_begin(state: &Solved<LoopProblem>) -> bool {
+pub(super) fn is_begin(state: &Solved<LoopProblem>) -> bool {
     is_drive(state) && !may_be_beyond(state) && !is_slipping(state)
 }
 
@@ -227,6 +216,6 @@ fn answer(drive: &Drive, limit: &Limit) -> LargestLoad {
         },
         driver_torque: -torque(driver),
         power_out: turns.then_some(taken),
-        error: ERROR,
+        error: top.error,
     }
 }

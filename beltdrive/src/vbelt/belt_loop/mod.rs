@@ -26,6 +26,7 @@ mod slipping;
 mod solve;
 mod start;
 mod state;
+mod stiffening;
 mod tensioner;
 mod unknowns;
 

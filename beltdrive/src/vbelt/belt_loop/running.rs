@@ -5,7 +5,7 @@ use super::super::carried::{Carried, Extrapolated};
 use super::super::groove::TENSION;
 use super::super::laws::Asked;
 use super::super::path::{Effort, Solved};
-use super::climb::Climbed;
+use super::climb::{Climbed, Top};
 use super::guess::tractive_tensions;
 use super::problem::LoopProblem;
 use super::rest::Rest;
@@ -13,8 +13,8 @@ use super::round::Target;
 use super::solve::{Search, lost};
 use super::start::Start;
 use super::unknowns::FLOW;
-use crate::SolveError;
 use crate::drive::layout::Layout;
+use crate::{Drive, SolveError};
 use bvp::Problem;
 
 /// Shares of the load that are tried in turn where the whole fails; from them the load is raised.
@@ -35,14 +35,21 @@ pub(super) struct Running<'l> {
 }
 
 impl Running<'_> {
-    /// The loop roughly, with one zone on every pulley, so that curves of states can be followed from it.
+    /// The loop roughly, with one zone on every pulley, and with bristles where friction changes abruptly, so that
+    /// curves of states can be followed from it.
     pub(super) fn roughly(
         &self,
         search: &mut Search<'_>,
     ) -> Result<Solved<LoopProblem>, bvp::Error> {
         match &self.raised {
-            Some(raised) => Ok(raised.clone()),
-            None => search.enter(&self.start).map_err(|stuck| stuck.cause),
+            Some(raised) => {
+                let bristles = search.bristles_near(&self.start, raised);
+                Ok(bristles.unwrap_or_else(|| raised.clone()))
+            }
+            None => {
+                let entered = search.enter_bristles(&self.start);
+                entered.map_err(|stuck| stuck.cause)
+            }
         }
     }
 }
@@ -84,11 +91,14 @@ pub(super) fn running<'l>(
     for share in SHARES.map(start).iter().filter(|share| share.is_taut()) {
         match search.enter(share) {
             Ok(rough) if is_safe(&rough) => {
-                let raised = raise(search, &rough)?;
+                let raised = raise(search, share, &rough)?;
                 let solved = search.seek_from(&whole, &raised);
                 return match solved {
                     Ok(solved) => Ok(found(whole, solved, Some(raised))),
-                    Err(stuck) => Err(lost(1.0, &stuck.cause)),
+                    Err(stuck) => Err(match search.limit_by_bristles(share) {
+                        Some(top) if top.factor <= 1.0 => overloaded(drive, &top),
+                        _ => lost(1.0, &stuck.cause),
+                    }),
                 };
             }
             _ => {}
@@ -168,19 +178,37 @@ pub(super) fn presses(
     }
 }
 
-/// Raises the load of a state to the whole.
+/// Raises the load of a state, that of a start entered, to the whole.
 fn raise(
     search: &mut Search<'_>,
+    start: &Start<'_>,
     from: &Solved<LoopProblem>,
 ) -> Result<Solved<LoopProblem>, SolveError> {
-    match search.climb(from, 1.0, None) {
-        Climbed::Reached(raised) => Ok(*raised),
-        Climbed::Limit(limit) => Err(SolveError::Overloaded {
-            pulley: search.drive.pulleys[limit.top.pulley].name.clone(),
-            load_factor: limit.top.factor,
-            overhangs: limit.top.overhangs,
-        }),
-        Climbed::Lost { reached, cause } => Err(SolveError::Unreached { reached, cause }),
+    let limit = match search.climb(from, 1.0, None) {
+        Climbed::Reached(raised) => return Ok(*raised),
+        Climbed::Limit(limit) => limit,
+        Climbed::Lost { reached, cause } => return Err(SolveError::Unreached { reached, cause }),
+    };
+    match search.limit_by_bristles(start) {
+        Some(top) if top.factor > 1.0 => {
+            let reached = limit.top.factor;
+            let sharper = search.climb_sharper(*limit, 1.0);
+            sharper.ok_or(SolveError::Unreached {
+                reached,
+                cause: "friction changes too abruptly so near to the largest load",
+            })
+        }
+        Some(top) => Err(overloaded(search.drive, &top)),
+        None => Err(overloaded(search.drive, &limit.top)),
+    }
+}
+
+/// The load is above the largest.
+fn overloaded(drive: &Drive, top: &Top) -> SolveError {
+    SolveError::Overloaded {
+        pulley: drive.pulleys[top.pulley].name.clone(),
+        load_factor: top.factor,
+        overhangs: top.overhangs,
     }
 }
 

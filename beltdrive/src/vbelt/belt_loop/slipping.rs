@@ -8,7 +8,7 @@
 use super::super::belt_problem::BeltProblem;
 use super::super::groove::TENSION;
 use super::super::path::{Effort, Solved};
-use super::climb::{Limit, Top};
+use super::climb::{Limit, Top, limit_accuracy};
 use super::problem::LoopProblem;
 use super::solve::Search;
 use super::unknowns::FLOW;
@@ -112,12 +112,35 @@ impl Search<'_> {
             pulley,
             overhangs: false,
             is_last: false,
+            error: limit_accuracy(self.tolerance),
         };
         Limit {
             top,
             at: near,
             below: vec![begin],
         }
+    }
+
+    /// The load at which a pulley begins to slip grossly, between that of a state in which none does and the first of some
+    /// load factors at which one does.
+    pub(super) fn gross_slip_above(
+        &mut self,
+        begin: &Solved<LoopProblem>,
+        factors: impl IntoIterator<Item = f64>,
+    ) -> Option<Limit> {
+        if is_slipping(begin) {
+            return None;
+        }
+        let mut factors = factors.into_iter();
+        let slips = factors.find(|&factor| {
+            let state = self.at_factor(begin, factor);
+            state.is_some_and(|state| is_slipping(&state))
+        })?;
+        let slipping = Slipping {
+            begin: Some(begin.clone()),
+            slips: Some(slips),
+        };
+        Some(self.gross_slip(&slipping, begin))
     }
 
     /// A state under less load in which no pulley slips grossly, if it is found.
@@ -132,7 +155,11 @@ impl Search<'_> {
     }
 
     /// The state under another factor on all torques.
-    fn at_factor(&mut self, near: &Solved<LoopProblem>, to: f64) -> Option<Solved<LoopProblem>> {
+    pub(super) fn at_factor(
+        &mut self,
+        near: &Solved<LoopProblem>,
+        to: f64,
+    ) -> Option<Solved<LoopProblem>> {
         let from = near.factor();
         let member = |problem: &LoopProblem, factor| problem.clone().with_factor(factor);
         let step = (to - from).abs();

@@ -170,14 +170,21 @@ pub(crate) fn solve_with_margins(drive: &Drive, tolerance: f64) -> Result<LoopSt
     let Ok(rough) = running.roughly(&mut search) else {
         return Ok(found);
     };
+    let stiffer = search.with_stiffer_ones(&rough);
     for (index, pulley) in found.pulleys.iter_mut().enumerate() {
-        pulley.torque_margin = solved.torque_margin(index, &rough, tolerance);
-        pulley.torque_capacity = pulley
-            .torque_margin
-            .map(|margin| margin * pulley.torque.abs());
+        let Some([margin, error]) = solved.torque_margin(index, &stiffer, tolerance) else {
+            continue;
+        };
+        pulley.torque_margin = Some(margin);
+        pulley.torque_capacity = Some(margin * pulley.torque.abs());
+        pulley.torque_margin_error = error / margin;
     }
     let limit = search.load_limit(solved, rough).ok().flatten();
-    found.load_limit = limit.map(|Top { factor, pulley, .. }| LoadLimit { factor, pulley });
+    found.load_limit = limit.map(|top| LoadLimit {
+        factor: top.factor,
+        pulley: top.pulley,
+        error: top.error,
+    });
     Ok(found)
 }
 

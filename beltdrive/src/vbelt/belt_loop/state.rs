@@ -144,6 +144,7 @@ impl<'a> Seen<'a> {
             friction_utilisation: None,
             torque_capacity: None,
             torque_margin: None,
+            torque_margin_error: 0.0,
             groove: self.groove(pulley),
         }
     }

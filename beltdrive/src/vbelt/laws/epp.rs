@@ -87,19 +87,17 @@ impl Path<'_> {
         None
     }
 
-    /// As stiff bristles with the limit of EPP friction as show its zones. The largest load of an accessory drive was
-    /// found 4e-3 too high with soft ones and 6e-4 with these.
-    pub(super) fn enter_epp<A: Asked>(
+    /// From soft bristles with the limit of EPP friction to such as show its zones.
+    pub(super) fn stiffen_to_show_zones<A: Asked>(
         &mut self,
         asked: &A,
-        start: &Solved<A::Problem>,
+        soft: Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        let soft = self.elastic_bristles(asked, start)?;
         self.with_bristles(soft, [asked.soft(), STIFFER[0] * asked.soft()])
     }
 
     /// From bristles to those with the limit of EPP friction.
-    fn elastic_bristles<A: Asked>(
+    pub(super) fn elastic_bristles<A: Asked>(
         &mut self,
         asked: &A,
         start: &Solved<A::Problem>,

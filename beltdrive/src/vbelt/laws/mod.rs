@@ -34,6 +34,9 @@ pub(super) use obeyed::{ALLOWED, GAINED, power_gained, wrong_friction};
 /// Bristle stiffness of the start, κ R/μ: friction is fully developed after a thousandth of a
 /// radius of sliding, so that its layers are no finer than those of seating.
 const START_STIFFNESS: f64 = 1000.0;
+/// How many times as stiff as those of the start bristles are that take the place of Coulomb friction: near the largest
+/// load soft ones have no state.
+const STIFFER: [f64; 3] = [1.0, 10.0, 100.0];
 /// First steps of a homotopy in ln ℓ, ln ε or ln κ: a factor of 10, or of 3 where that failed.
 const GREAT_STEP: f64 = LN_10;
 const SMALL_STEP: f64 = 1.1;
@@ -147,15 +150,45 @@ impl Path<'_> {
         &mut self,
         asked: &A,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        let start = self.enter_bristles(asked)?;
+        match asked.law() {
+            FrictionLaw::Coulomb => self.enter_normalised(asked, start),
+            FrictionLaw::Epp { .. } => self.stiffen_to_show_zones(asked, start),
+            _ => Ok(start),
+        }
+    }
+
+    /// As [`Path::enter`], with soft bristles in place of Coulomb friction, and such with the limit of EPP friction in
+    /// place of that.
+    pub(super) fn enter_bristles<A: Asked>(
+        &mut self,
+        asked: &A,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
         if let FrictionLaw::Bristle { stiffness } = asked.law() {
             return self.bristles(asked, stiffness);
         }
         let start = self.cold(asked, asked.softest(), Effort::Start)?;
         match asked.law() {
-            FrictionLaw::Coulomb => self.enter_normalised(asked, start),
             FrictionLaw::VectorEpp { .. } => self.enter_vector(asked, &start),
-            _ => self.enter_epp(asked, &start),
+            FrictionLaw::Epp { .. } => self.elastic_bristles(asked, &start),
+            _ => Ok(start),
         }
+    }
+
+    /// Bristles for a state that [`Path::enter`] began, if they are found: the softest that carry its load.
+    pub(super) fn bristles_near<A: Asked>(
+        &mut self,
+        asked: &A,
+        near: &Solved<A::Problem>,
+    ) -> Option<Solved<A::Problem>> {
+        let FrictionLaw::Coulomb = asked.law() else {
+            return None;
+        };
+        STIFFER.into_iter().find_map(|stiffer| {
+            let stiffness = stiffer * asked.soft();
+            let problem = asked.problem(FrictionLaw::Bristle { stiffness }, 0.0);
+            self.attempt(problem, &Carried(near), Effort::Start).ok()
+        })
     }
 
     /// From bristles to Coulomb or EPP friction.
