@@ -4,7 +4,7 @@
 //! speed of the belt; where it sticks, it is an unknown. The edge between the two does not move: what it would add is
 //! of second order, since friction is continuous there.
 
-use super::bristle::weights;
+use super::jacobian::{Unknowns, derivatives, of_cap};
 use super::rates::Rates;
 use faer::Mat;
 
@@ -23,140 +23,46 @@ pub(crate) struct Linearised {
     pub(crate) speed: Vec<Option<usize>>,
 }
 
-/// Entries of a row: unknowns and derivatives.
-type Row = Vec<(usize, f64)>;
-
 /// Linearises the rates about the last state for which they were computed. `slips` says of the cells of all arcs
 /// whether the belt slips there. The belt runs forward.
 pub(crate) fn linearised(rates: &Rates<'_>, state: &[f64], slips: &[bool]) -> Linearised {
     let system = rates.system;
     let (mesh, parts) = (&system.mesh, &system.parts);
     let cells = mesh.cells();
-    let density = &state[parts.density.clone()];
-    let velocity = &state[parts.velocity.clone()];
-    let bristles = &state[parts.bristle.clone()];
-    let speeds = &state[parts.speed.clone()];
+    let all = Unknowns::new(system);
+    // The unknowns that are left: without the bristles that slip and the speeds that are given.
     let mut unknowns = 2 * cells;
-    let mut next = |is_unknown: bool| {
+    let mut kept: Vec<_> = (0..all.count()).map(Some).collect();
+    let mut next = |unknown: usize, is_left: bool| {
         let place = unknowns;
-        unknowns += usize::from(is_unknown);
-        is_unknown.then_some(place)
+        unknowns += usize::from(is_left);
+        kept[unknown] = is_left.then_some(place);
+        kept[unknown]
     };
-    let of_bristle: Vec<_> = slips.iter().map(|slips| next(!slips)).collect();
-    let wheels = system.wheels.iter().zip(speeds);
-    let slopes: Vec<_> = { wheels }
-        .map(|(wheel, &speed)| wheel.axle.slope(speed))
+    let of_bristle: Vec<_> = { slips.iter().enumerate() }
+        .map(|(bristle, slips)| next(all.bristle(bristle), !slips))
         .collect();
-    let speed: Vec<_> = slopes.iter().map(|slope| next(slope.is_some())).collect();
-    let of_velocity = |face: usize| cells + face % cells;
-    // Stretch, its rate and the velocity in the middle of a cell.
-    let stretch = |cell: usize| rates.stretch[cell + 1];
-    let before = |cell: usize| (cell + cells - 1) % cells;
-
-    let mut rows: Vec<Row> = vec![vec![]; unknowns];
-    // Displacement of the bristles in the cells of all arcs, and the friction q h of all cells.
-    let mut displaced: Vec<Row> = vec![vec![]; slips.len()];
-    let mut friction: Vec<Row> = vec![vec![]; cells];
-    for (pulley, wheel) in system.wheels.iter().enumerate() {
-        let per_cap = wheel.friction_coefficient / (wheel.radius * system.friction_stiffness);
-        for (cell, bristle) in mesh.arcs[pulley].clone().zip(mesh.bristles[pulley].clone()) {
-            displaced[bristle] = match of_bristle[bristle] {
-                Some(unknown) => vec![(unknown, 1.0)],
-                None if rates.caps[bristle] > 0.0 => {
-                    let per_cap = per_cap * bristles[bristle].signum();
-                    let stretch = stretch(cell);
-                    let per_density =
-                        system.axial_stiffness * (1.0 - 2.0 * stretch) * stretch * stretch;
-                    let per_speed = -per_cap * system.mass * rates.middle[cell];
-                    vec![
-                        (cell, per_cap * per_density),
-                        (of_velocity(cell), per_speed),
-                        (of_velocity(cell + 1), per_speed),
-                    ]
-                }
-                None => vec![],
-            };
-            let stiffness = system.friction_stiffness * mesh.lengths[cell];
-            friction[cell] = times(&displaced[bristle], stiffness);
-        }
-    }
-    for face in 0..cells {
-        let [behind, ahead] = [before(face), face];
-        // Density: the flow through the face leaves one cell and enters the other.
-        let [share_behind, share_ahead] = rates.shares[face];
-        let on_face = share_behind * density[face] + share_ahead * density[face + 1];
-        let flux = [
-            (of_velocity(face), on_face),
-            (behind, velocity[face] * share_behind),
-            (ahead, velocity[face] * share_ahead),
-        ];
-        rows[ahead].extend(times(&flux, rates.per_cell[ahead]));
-        rows[behind].extend(times(&flux, -rates.per_cell[behind]));
-        // Momentum.
-        let row = of_velocity(face);
-        let per_mass = rates.per_mass[face];
-        let damping = 0.5 * system.axial_damping;
-        let both = stretch(behind) + stretch(ahead);
-        let relative = rates.stretching[face + 1] - rates.stretching[face];
-        for (cell, sign) in [(behind, -1.0), (ahead, 1.0)] {
-            let stretch = stretch(cell);
-            let per_stretch = -stretch * stretch;
-            let elastic = system.axial_stiffness * stretch;
-            let stretching = rates.stretching[cell + 1];
-            // The rate of stretch λ Δv/h in proportion to λ and to Δv.
-            let damped = damping * (relative + sign * both * stretching / stretch);
-            rows[row].push((cell, per_mass * per_stretch * (sign * elastic + damped)));
-            let inertia = -0.5 * system.mass * rates.middle[cell];
-            let rate = damping * both * stretch * rates.per_cell[cell];
-            rows[row].push((of_velocity(cell), per_mass * sign * (inertia - rate)));
-            rows[row].push((of_velocity(cell + 1), per_mass * sign * (inertia + rate)));
-            rows[row].extend(times(&friction[cell], -0.5 * per_mass));
-        }
-    }
+    let speed: Vec<_> = { system.wheels.iter().enumerate() }
+        .map(|(pulley, wheel)| next(all.speed(pulley), wheel.axle.slope(0.0).is_some()))
+        .collect();
+    let bristles = &state[parts.bristle.clone()];
+    let mut of_caps = vec![[(0, 0.0); 3]; slips.len()];
     for pulley in 0..mesh.arcs.len() {
-        let radius = system.wheels[pulley].radius;
-        let (arc, bristle) = (&mesh.arcs[pulley], &mesh.bristles[pulley]);
-        let rim = speed[pulley];
-        for index in 0..arc.len() {
-            let Some(row) = of_bristle[bristle.start + index] else {
-                continue;
-            };
-            let cell = arc.start + index;
-            let (first, weights) = weights(index, arc.len());
-            let per_six = rates.per_cell[cell] / 6.0;
-            let mut difference = 0.0;
-            for (at, weight) in weights.into_iter().enumerate() {
-                let weight = weight * per_six;
-                let near = bristle.start + first + at;
-                difference += weight * bristles[near];
-                let carried = -rates.middle[cell] * weight;
-                rows[row].extend(times(&displaced[near], carried));
-            }
-            for face in [cell, cell + 1] {
-                rows[row].push((of_velocity(face), 0.5 * (1.0 - difference)));
-            }
-            rows[row].extend(rim.map(|rim| (rim, -radius)));
-        }
-        if let (Some(row), Some(slope)) = (rim, slopes[pulley]) {
-            let per_inertia = system.wheels[pulley].axle.inertia.recip();
-            for (cell, bristle) in arc.clone().zip(bristle.clone()) {
-                let force = system.friction_stiffness * bristles[bristle] * mesh.lengths[cell];
-                rows[row].push((cell, radius * per_inertia * force));
-                let at_rim = radius * per_inertia * density[cell + 1];
-                rows[row].extend(times(&friction[cell], at_rim));
-            }
-            rows[row].push((row, slope * per_inertia));
+        for (cell, bristle) in mesh.arcs[pulley].clone().zip(mesh.bristles[pulley].clone()) {
+            let sign = bristles[bristle].signum();
+            of_caps[bristle] =
+                of_cap(rates, pulley, cell).map(|(unknown, slope)| (unknown, sign * slope));
         }
     }
 
     let mut energies = vec![0.0; unknowns];
     for (cell, length) in mesh.lengths.iter().enumerate() {
         energies[cell] = system.axial_stiffness * length;
-        energies[of_velocity(cell)] = rates.per_mass[cell].recip();
+        energies[all.velocity(cell)] = rates.per_mass[cell].recip();
     }
-    let all = (0..mesh.arcs.len())
+    let on_arcs = (0..mesh.arcs.len())
         .flat_map(|pulley| mesh.arcs[pulley].clone().zip(mesh.bristles[pulley].clone()));
-    for (cell, bristle) in all {
+    for (cell, bristle) in on_arcs {
         if let Some(unknown) = of_bristle[bristle] {
             energies[unknown] = system.friction_stiffness * mesh.lengths[cell];
         }
@@ -170,21 +76,27 @@ pub(crate) fn linearised(rates: &Rates<'_>, state: &[f64], slips: &[bool]) -> Li
         .map(|energy: &f64| energy.sqrt().recip())
         .collect();
     let mut matrix = Mat::zeros(unknowns, unknowns);
-    for (row, entries) in rows.iter().enumerate() {
-        for &(column, entry) in entries {
-            matrix[(row, column)] += entry * scales[column] / scales[row];
+    let mut add = |row: usize, column: usize, value: f64| {
+        matrix[(row, column)] += value * scales[column] / scales[row];
+    };
+    derivatives(rates, state, &mut |row, column, value| {
+        let Some(row) = kept[row] else {
+            return;
+        };
+        match (kept[column], all.as_bristle(column)) {
+            (Some(column), _) => add(row, column, value),
+            (None, Some(bristle)) => {
+                for (column, slope) in of_caps[bristle] {
+                    add(row, column, value * slope);
+                }
+            }
+            (None, None) => {}
         }
-    }
+    });
     Linearised {
         matrix,
         scales,
         velocity: cells,
         speed,
     }
-}
-
-fn times(row: &[(usize, f64)], factor: f64) -> Row {
-    row.iter()
-        .map(|&(unknown, entry)| (unknown, factor * entry))
-        .collect()
 }

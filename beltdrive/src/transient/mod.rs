@@ -29,6 +29,7 @@ mod events;
 mod explicit;
 mod history;
 pub(crate) mod initial;
+mod jacobian;
 mod ledger;
 mod linearised;
 pub(crate) mod mesh;
