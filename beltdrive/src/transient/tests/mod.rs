@@ -1,6 +1,8 @@
 //! The equations on the mesh against what is known of them without friction or without motion.
 
+mod bordered;
 mod conservation;
+mod implicit;
 mod linearised;
 mod modes;
 mod waves;

@@ -1,0 +1,469 @@
+//! Another way in time to hold the explicit one against: TR-BDF2 with the bristles projected in each stage.
+//!
+//! The trapezoidal rule over the share 2 d of a step, then the second backward difference formula over the whole one
+//! (Hosea and Shampine, Applied Numerical Mathematics 20, 1996); of order two, L-stable:
+//!
+//! ```text
+//! y₁ = c₁ + d Δt k₁,   c₁ = y₀ + d Δt k₀                       d = 1 − 1/√2
+//! y₂ = c₂ + d Δt k₂,   c₂ = y₀ + (y₁ − y₀)/√8/d               k₀ of a step is k₂ of the one before
+//! ```
+//!
+//! In each stage k = y′(y) but for bristles at their largest displacement, b = clip(c + d Δt ḃ(y), `±μ n λ/k_f`), and
+//! k = (y − c)/(d Δt). Newton's method takes the derivatives of the side on which a projection is; the work of the axles,
+//! of damping and of friction is integrated with the weights of the stages. No load may hold a pulley at rest.
+
+use super::super::axle::{Axle, Load, Motion};
+use super::super::jacobian::{Unknowns, derivatives, of_cap};
+use super::super::ledger::Ledger;
+use super::super::schedule::Schedule;
+use super::bordered::Bordered;
+use super::{Rates, STRETCH, System, follow, stable_step, system};
+use std::f64::consts::SQRT_2;
+
+/// d.
+const DIAGONAL: f64 = 1.0 - 0.5 * SQRT_2;
+
+/// Weight of k₀ and of k₁ in y₂.
+const OUTER: f64 = 0.25 * SQRT_2;
+
+/// By what the weights of k₀, k₁ and k₂ differ from those of the embedded formula of order three.
+const ERROR: [f64; 3] = [
+    OUTER - (1.0 - OUTER) / 3.0,
+    OUTER - (3.0 * OUTER + 1.0) / 3.0,
+    DIAGONAL * (1.0 - 1.0 / 3.0),
+];
+
+/// Largest error of a step, in the scales of [`Implicit::new`]: the steady state does not depend on it.
+const TOLERANCE: f64 = 1e-3;
+
+/// Newton's method ends with a correction of this share of the largest error, so that it does not show in that.
+const NEWTON: f64 = 1e-2;
+
+/// Worse contraction than this refreshes the derivatives: four digits then take eight iterations.
+const CONTRACTION: f64 = 0.3;
+
+/// Most iterations of Newton's method; stages that took more did not come to an end.
+const MOST_ITERATIONS: usize = 15;
+
+/// A step that takes other derivatives has to be longer by this, which pays for a factorisation of its own.
+const WORTHWHILE: f64 = 1.2;
+
+/// A step of this share of the first one is refused: it belongs to a state that is none.
+const SHORTEST: f64 = 1e-6;
+
+/// What the steps took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Work {
+    steps: usize,
+    iterations: usize,
+    factorisations: usize,
+}
+
+/// The steps and what they work with.
+struct Implicit {
+    unknowns: Unknowns,
+    /// Where the unknowns stand in the matrix; none for given speeds.
+    places: Vec<Option<usize>>,
+    /// The unknowns in the order of the matrix: places in the state and scales.
+    order: Vec<(usize, f64)>,
+    /// Of which field each of them is: density, velocity, bristles, speed.
+    fields: Vec<usize>,
+    matrix: Bordered,
+    entries: Vec<(usize, usize, f64)>,
+    /// Δt d of the matrix, s; 0 if there is none.
+    factorised: f64,
+    /// The pulleys and the cells of the loop of the bristles.
+    arcs: Vec<(usize, usize)>,
+    /// Rates at the start, in the stage and at the end of the last step.
+    slopes: [Vec<f64>; 3],
+    /// The state at the start of the last step, and the one on the way.
+    from: Vec<f64>,
+    constant: Vec<f64>,
+    rates: Vec<f64>,
+    /// Whether bristles are at their bounds.
+    slips: Vec<bool>,
+    side: Vec<f64>,
+    /// Length of the next step, s.
+    next: f64,
+    first: f64,
+    longest: f64,
+    work: Work,
+}
+
+impl Implicit {
+    /// Steps from a state of a system, none longer than asked for in s.
+    ///
+    /// Errors are measured by what belongs to the mean strain ε of that state: ε itself in the densities, the velocity
+    /// ε √(EA/m) of a wave with that strain, that velocity over the radius in the speeds, and the largest displacement of
+    /// the bristles.
+    fn new(system: &System, state: &[f64], longest: f64) -> Self {
+        let unknowns = Unknowns::new(system);
+        let cells = system.mesh.cells();
+        let density = &state[system.parts.density.clone()][1..];
+        let strains = density.iter().map(|density| (1.0 / density - 1.0).abs());
+        // A belt without tension has no scale of its own.
+        let strain = (strains.sum::<f64>() / cells as f64).max(1e-5);
+        let velocity = strain * (system.axial_stiffness / system.mass).sqrt();
+        let displacement = |pulley: usize| {
+            let wheel = &system.wheels[pulley];
+            let pressed = wheel.friction_coefficient * system.axial_stiffness * strain;
+            match pressed > 0.0 {
+                true => pressed / (wheel.radius * system.friction_stiffness),
+                false => 1.0,
+            }
+        };
+        let on_arcs = system.mesh.arcs.iter().enumerate();
+        let arcs: Vec<_> = on_arcs
+            .flat_map(|(pulley, arc)| arc.clone().map(move |cell| (pulley, cell)))
+            .collect();
+        let mut inner = vec![];
+        let mut bristle = 0;
+        // The loop is cut open at its last cell, which is one of a span.
+        for cell in 0..cells - 1 {
+            inner.push((unknowns.density(cell), 0, strain));
+            inner.push((unknowns.velocity(cell), 1, velocity));
+            if arcs.get(bristle).is_some_and(|on| on.1 == cell) {
+                let scale = displacement(arcs[bristle].0);
+                inner.push((unknowns.bristle(bristle), 2, scale));
+                bristle += 1;
+            }
+        }
+        let mut border = vec![
+            (unknowns.density(cells - 1), 0, strain),
+            (unknowns.velocity(cells - 1), 1, velocity),
+        ];
+        for (pulley, wheel) in system.wheels.iter().enumerate() {
+            if wheel.axle.slope(0.0).is_some() {
+                border.push((unknowns.speed(pulley), 3, velocity / wheel.radius));
+            }
+        }
+        let matrix = Bordered::new(inner.len(), border.len());
+        inner.extend(border);
+        let mut places = vec![None; unknowns.count()];
+        for (place, &(unknown, ..)) in inner.iter().enumerate() {
+            places[unknown] = Some(place);
+        }
+        let room = || vec![0.0; state.len()];
+        let first = stable_step(system, state).min(longest);
+        Self {
+            unknowns,
+            places,
+            order: { inner.iter() }
+                .map(|&(unknown, _, scale)| (place(unknowns, system, unknown), scale))
+                .collect(),
+            fields: inner.iter().map(|&(_, field, _)| field).collect(),
+            matrix,
+            entries: vec![],
+            factorised: 0.0,
+            slips: vec![false; arcs.len()],
+            arcs,
+            slopes: [room(), room(), room()],
+            from: state.to_vec(),
+            constant: room(),
+            rates: room(),
+            side: vec![0.0; inner.len()],
+            next: first,
+            first,
+            longest,
+            work: Work::default(),
+        }
+    }
+
+    /// Begins anew at a state whose rates were computed last, with a short step, as at a corner of what is given.
+    fn begin(&mut self, changes: &[f64]) {
+        self.slopes[2].copy_from_slice(changes);
+        self.next = self.first;
+    }
+
+    /// Takes a state at a time in s towards another time; the time that it reaches, or none if no step leads on.
+    fn step(
+        &mut self,
+        rates: &mut Rates<'_>,
+        [time, stop]: [f64; 2],
+        state: &mut [f64],
+    ) -> Option<f64> {
+        self.from.copy_from_slice(state);
+        let [first, _, last] = &mut self.slopes;
+        first.copy_from_slice(last);
+        loop {
+            let left = stop - time;
+            // No step is left that is much shorter than the others.
+            let step = match self.next {
+                next if next >= 0.999 * left => left,
+                next if 2.0 * next > left && next < self.longest => 0.5 * left,
+                next => next,
+            };
+            if step < SHORTEST * self.first.min(left) {
+                return None;
+            }
+            let error = self.attempt(rates, time, step, state);
+            // The error is in proportion to the third power.
+            let factor = error.map_or(0.25, |error| (0.9 * error.powf(-1.0 / 3.0)).clamp(0.2, 4.0));
+            if error.is_some_and(|error| error <= 1.0) {
+                self.work.steps += 1;
+                let longer = if !(1.0..=WORTHWHILE).contains(&factor) {
+                    factor
+                } else {
+                    1.0
+                };
+                self.next = (self.next.min(step.max(0.5 * self.next)) * longer).min(self.longest);
+                return Some(if step == left { stop } else { time + step });
+            }
+            self.next = step * factor.min(0.5);
+            state.copy_from_slice(&self.from);
+        }
+    }
+
+    /// Tries a step; its error, of which 1 is the largest, or none if Newton's method fails.
+    fn attempt(
+        &mut self,
+        rates: &mut Rates<'_>,
+        time: f64,
+        step: f64,
+        state: &mut [f64],
+    ) -> Option<f64> {
+        let parts = &rates.system.parts;
+        let ahead = DIAGONAL * step;
+        let works = parts.work.start;
+        for (index, to) in state.iter_mut().enumerate() {
+            self.constant[index] = self.from[index] + ahead * self.slopes[0][index];
+            *to = self.constant[index] + ahead * self.slopes[0][index];
+        }
+        self.stage(rates, time + 2.0 * ahead, ahead, state)?;
+        self.slope(1, ahead, state, works);
+        for (index, to) in state[..works].iter_mut().enumerate() {
+            let change = *to - self.from[index];
+            self.constant[index] = self.from[index] + OUTER / DIAGONAL * change;
+            *to = self.constant[index] + ahead * self.slopes[1][index];
+        }
+        self.stage(rates, time + step, ahead, state)?;
+        self.slope(2, ahead, state, works);
+        let [first, second, third] = &self.slopes;
+        for index in works..state.len() {
+            let known = OUTER * (first[index] + second[index]) + DIAGONAL * third[index];
+            state[index] = self.from[index] + step * known;
+        }
+        for (place, &(index, _)) in self.order.iter().enumerate() {
+            let slopes =
+                ERROR[0] * first[index] + ERROR[1] * second[index] + ERROR[2] * third[index];
+            self.side[place] = step * slopes;
+        }
+        // What is stiff is filtered from the estimate.
+        self.matrix.solve(&mut self.side);
+        let error = self.norm() / TOLERANCE;
+        error.is_finite().then_some(error)
+    }
+
+    /// Takes the slopes of a stage.
+    fn slope(&mut self, stage: usize, ahead: f64, state: &[f64], works: usize) {
+        let slopes = &mut self.slopes[stage];
+        slopes.copy_from_slice(&self.rates);
+        for index in 0..works {
+            slopes[index] = (state[index] - self.constant[index]) / ahead;
+        }
+    }
+
+    /// The largest mean square of the fields of a list in the order of the matrix, in the scales of the errors.
+    fn norm(&self) -> f64 {
+        let mut sums = [[0.0; 2]; 4];
+        for ((value, (_, scale)), field) in self.side.iter().zip(&self.order).zip(&self.fields) {
+            let value = value / scale;
+            sums[*field][0] += value * value;
+            sums[*field][1] += 1.0;
+        }
+        let means = sums.map(|[sum, count]| sum / f64::max(count, 1.0));
+        let largest = means
+            .into_iter()
+            .fold(0.0, |one: f64, other| match other.is_nan() {
+                true => other,
+                false if one.is_nan() => one,
+                false => one.max(other),
+            });
+        largest.sqrt()
+    }
+
+    /// Solves for a stage at a time in s from a first guess.
+    fn stage(
+        &mut self,
+        rates: &mut Rates<'_>,
+        time: f64,
+        ahead: f64,
+        state: &mut [f64],
+    ) -> Option<()> {
+        let parts = &rates.system.parts;
+        let mut refresh = self.factorised != ahead;
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_ITERATIONS {
+            parts.close(state);
+            rates.of(time, state, &mut self.rates);
+            self.residual(rates, ahead, state);
+            if refresh {
+                self.factorise(rates, ahead, state)?;
+            }
+            self.matrix.solve(&mut self.side);
+            self.work.iterations += 1;
+            for (value, &(index, _)) in self.side.iter().zip(&self.order) {
+                state[index] -= value;
+            }
+            let size = self.norm();
+            if !size.is_finite() {
+                break;
+            }
+            if size <= NEWTON * TOLERANCE {
+                parts.close(state);
+                rates.of(time, state, &mut self.rates);
+                return Some(());
+            }
+            refresh = size > CONTRACTION * last;
+            last = size;
+        }
+        self.factorised = 0.0;
+        None
+    }
+
+    /// What a stage lacks, in the order of the matrix.
+    fn residual(&mut self, rates: &Rates<'_>, ahead: f64, state: &[f64]) {
+        let system = rates.system;
+        for (value, &(index, _)) in self.side.iter_mut().zip(&self.order) {
+            *value = state[index] - self.constant[index] - ahead * self.rates[index];
+        }
+        for (bristle, slips) in self.slips.iter_mut().enumerate() {
+            let index = system.parts.bristle.start + bristle;
+            let cap = rates.caps[bristle];
+            let free = self.constant[index] + ahead * self.rates[index];
+            *slips = free.abs() >= cap;
+            if let (true, Some(place)) = (*slips, self.places[self.unknowns.bristle(bristle)]) {
+                self.side[place] = state[index] - cap.copysign(free);
+            }
+        }
+    }
+
+    /// Factorises the matrix of Newton's method.
+    fn factorise(&mut self, rates: &Rates<'_>, ahead: f64, state: &[f64]) -> Option<()> {
+        let Self {
+            unknowns,
+            places,
+            entries,
+            slips,
+            arcs,
+            ..
+        } = self;
+        entries.clear();
+        entries.extend((0..self.order.len()).map(|place| (place, place, 1.0)));
+        derivatives(rates, state, &mut |row, column, value| {
+            let at_bound = unknowns
+                .as_bristle(row)
+                .is_some_and(|bristle| slips[bristle]);
+            if let (false, Some(row), Some(column)) = (at_bound, places[row], places[column]) {
+                entries.push((row, column, -ahead * value));
+            }
+        });
+        for (bristle, &(pulley, cell)) in arcs.iter().enumerate().filter(|(at, _)| slips[*at]) {
+            let index = rates.system.parts.bristle.start + bristle;
+            let free = self.constant[index] + ahead * self.rates[index];
+            for (unknown, slope) in of_cap(rates, pulley, cell) {
+                let row = places[unknowns.bristle(bristle)];
+                if let (Some(row), Some(column)) = (row, places[unknown]) {
+                    entries.push((row, column, -slope * free.signum()));
+                }
+            }
+        }
+        self.work.factorisations += 1;
+        self.factorised = ahead;
+        self.matrix.factorise(entries).then_some(())
+    }
+}
+
+/// The place of an unknown in the state.
+fn place(unknowns: Unknowns, system: &System, unknown: usize) -> usize {
+    let parts = &system.parts;
+    let [of_velocity, of_bristle] = [unknowns.velocity(0), unknowns.bristle(0)];
+    let of_speed = unknowns.speed(0);
+    if unknown < of_velocity {
+        parts.density.start + 1 + unknown
+    } else if unknown < of_bristle {
+        parts.velocity.start + unknown - of_velocity
+    } else if unknown < of_speed {
+        parts.bristle.start + unknown - of_bristle
+    } else {
+        parts.speed.start + unknown - of_speed
+    }
+}
+
+/// A drive whose driver has a constant speed, with a load in proportion to the speed.
+fn drive(cells: usize) -> System {
+    let driver = Axle {
+        inertia: 0.01,
+        motion: Motion::Speed(Schedule::constant(SPEED)),
+    };
+    let load = Load {
+        per_speed: 0.35,
+        ..Load::new(Schedule::constant(0.0))
+    };
+    let driven = Axle {
+        inertia: 0.005,
+        motion: Motion::Torques { motor: None, load },
+    };
+    let mut system = system(cells, [1.2, 2e8], [driven, driver]);
+    system.axial_damping = 0.5;
+    system
+}
+
+/// Speed of the driver, rad/s.
+const SPEED: f64 = 100.0;
+
+/// The belt runs with the driver, the driven pulley as fast, and no bristle is displaced.
+fn running(system: &System) -> Vec<f64> {
+    let radius = system.wheels[0].radius;
+    let mut state = system.parts.uniform(1.0 / STRETCH, SPEED * radius);
+    state[system.parts.speed.clone()].fill(SPEED);
+    state
+}
+
+/// The state at a time in s, and what it took.
+fn implicitly(system: &System, end: f64) -> (Vec<f64>, Work) {
+    let mut state = running(system);
+    let mut rates = Rates::new(system);
+    let mut changes = vec![0.0; state.len()];
+    let mut implicit = Implicit::new(system, &state, 0.1);
+    rates.begin(0.0);
+    rates.of(0.0, &mut state, &mut changes);
+    implicit.begin(&changes);
+    let mut time = 0.0;
+    while time < end {
+        let reached = implicit.step(&mut rates, [time, end], &mut state);
+        time = reached.expect("a step");
+    }
+    (state, implicit.work)
+}
+
+#[test]
+fn two_integrators_find_one_steady_state() {
+    let system = drive(60);
+    let end = 3.0;
+    let mut explicit = running(&system);
+    let begun = system.energy(&explicit);
+    follow(&system, &mut explicit, end, |_, _| {});
+    let (implicit, work) = implicitly(&system, end);
+    let (parts, speed) = (&system.parts, system.parts.speed.start);
+    println!(
+        "{work:?}: {} and {} rad/s",
+        explicit[speed], implicit[speed]
+    );
+    let [one, other] = [&explicit, &implicit].map(|state| &state[parts.density.clone()]);
+    let off = one.iter().zip(other).map(|(one, other)| {
+        let [one, other] = [one, other].map(|density| system.tension(*density));
+        (one / other - 1.0).abs()
+    });
+    let off = off.fold((explicit[speed] / implicit[speed] - 1.0).abs(), f64::max);
+    let ledger = Ledger::of(&system, &implicit, begun);
+    println!(
+        "off by {off:e}, {:e} J of {} J missing",
+        ledger.residual(),
+        ledger.turnover
+    );
+    assert!(off < 1e-9);
+    assert!(ledger.closes());
+    // With five percent to spare.
+    assert!(work.steps <= 430 && work.iterations <= 2500 && work.factorisations <= 540);
+}
