@@ -1,6 +1,7 @@
 //! What is told of a run over time.
 
 use super::events::TransientEvent;
+use super::implicit::ImplicitWork;
 use super::ledger::Ledger;
 use super::rates::Rates;
 use super::slip::slipping;
@@ -44,11 +45,12 @@ pub enum Ending {
 pub struct Effort {
     /// Cells of the mesh.
     pub cells: usize,
-    /// Time steps.
+    /// Time steps, explicit and implicit.
     pub steps: usize,
-    /// The shortest and the longest time step, s; those that end at a sample are no shorter than half the largest
-    /// stable one.
+    /// The shortest and the longest time step, s.
     pub step: [f64; 2],
+    /// What the implicit steps among them took; none are taken but on the way to a steady state.
+    pub implicit: ImplicitWork,
     /// Time that it took, s.
     pub seconds: f64,
 }

@@ -17,17 +17,20 @@
 //!
 //! Every arc and every span has cells of one length, with faces on the tangent points, so that no cell ever enters
 //! or leaves a contact: the steady state is a fixed point of the scheme, of order two. Time steps are those of the
-//! classical Runge–Kutta method.
+//! classical Runge–Kutta method, bound by the time in which a wave passes a cell and by a light pulley on stiff bristles.
+//! On the way to a steady state, from where nothing changes any more of what is given, they are those of an implicit
+//! method, as long as the motion allows, which damps vibrations.
 //!
 //! Not modelled: V-belts, tensioners, motion across the spans, bending, friction laws other than
-//! elastic/perfectly-plastic. There is no implicit integrator: a time step is bound by the time in which a wave passes a
-//! cell, and what is stiffer than that, a light pulley on stiff bristles, makes it shorter.
+//! elastic/perfectly-plastic.
 
 mod axle;
+mod bordered;
 mod bristle;
 mod events;
 mod explicit;
 mod history;
+mod implicit;
 pub(crate) mod initial;
 mod jacobian;
 mod ledger;
@@ -49,6 +52,7 @@ pub(crate) mod vibration;
 pub use axle::{Axle, Load, Motion, Motor};
 pub use events::{TransientEvent, TransientEventKind};
 pub use history::{BeltAlongLoop, Effort, Ending, History, PulleySample, Sample};
+pub use implicit::ImplicitWork;
 pub use ledger::Ledger;
 pub use schedule::Schedule;
 pub use simulation::{Cells, Simulation, Start, TransientError, Until};

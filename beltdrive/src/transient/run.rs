@@ -1,8 +1,13 @@
 //! A run: from the first state to the end, step by step.
+//!
+//! Steps are explicit. On the way to a steady state, after the last corner of what is given over time, they are
+//! implicit, and end at samples or lie between two of them; where no implicit step leads on, because a load stops a
+//! pulley, they are explicit up to the next sample.
 
 use super::events::Watch;
 use super::explicit::{Explicit, stable_step};
 use super::history::{Effort, Ending, History, Observer};
+use super::implicit::Implicit;
 use super::rates::Rates;
 use super::simulation::{Simulation, TransientError, Until};
 use super::steady::Stillness;
@@ -19,100 +24,202 @@ pub(crate) fn run(
     progress: &mut dyn FnMut(f64, f64) -> bool,
 ) -> Result<History, TransientError> {
     let begun = Instant::now();
-    let (end, is_steady_sought) = match simulation.until {
-        Until::Time(end) => (end, false),
-        Until::Steady { latest } => (latest, true),
-    };
-    let mut rates = Rates::new(system);
+    let mut run = Run::new(simulation, (system, layout), &state);
     let mut explicit = Explicit::new(system);
-    let observer = Observer::new(&rates, layout, system.energy(&state));
-    let wave = (system.axial_stiffness / system.mass).sqrt();
-    let mut watch = Watch::new(system.wheels.len(), system.mesh.length() / wave);
-    let mut stillness = Stillness::new(&rates);
-    let mut history = History {
-        pulleys: layout
-            .pulleys()
-            .iter()
-            .map(|pulley| pulley.name.clone())
-            .collect(),
-        samples: vec![],
-        events: vec![],
-        belts: vec![],
-        ending: match is_steady_sought {
-            true => Ending::NotSteady,
-            false => Ending::Time,
-        },
-        effort: Effort {
-            cells: system.mesh.cells(),
-            step: [f64::INFINITY, 0.0],
-            ..Effort::default()
-        },
-    };
+    let mut stillness = Stillness::new(&run.rates);
+    let mut implicit: Option<Implicit> = None;
+    let mut between = state.clone();
     let mut instants = simulation.instants.clone();
     instants.sort_by(f64::total_cmp);
     let mut instants = instants.into_iter().peekable();
-    let (mut time, mut sampled) = (0.0, 0_usize);
+    let mut time = 0.0;
+    // Whether the last step was implicit, and the time up to which steps are explicit after one that failed.
+    let (mut is_implicit, mut explicit_until) = (false, 0.0);
     loop {
         // What is given over time is that from here on.
-        rates.begin(time);
-        let changes = explicit.rates(&mut rates, time, &mut state);
-        watch.look(time, &rates, &state);
-        let sample_at = |count: usize| (count as f64 * simulation.interval).min(end);
-        if time >= sample_at(sampled) {
-            let sample = observer.sample(time, &rates, &state, watch.take_least_stretch());
-            let ledger = sample.ledger;
-            history.samples.push(sample);
-            if !ledger.closes() {
-                return Err(TransientError::Ledger {
-                    residual: ledger.residual(),
-                    turnover: ledger.turnover,
-                    time,
-                });
-            }
-            sampled += 1;
-            if is_steady_sought && stillness.look(time, &rates, &state, changes) {
-                history.ending = Ending::Steady;
+        run.rates.begin(time);
+        let changes = explicit.rates(&mut run.rates, time, &mut state);
+        run.watch.look(time, &run.rates, &state);
+        if time >= run.next_sample() {
+            run.sample(time, &state)?;
+            if run.is_steady_sought && stillness.look(time, &run.rates, &state, changes) {
+                run.history.ending = Ending::Steady;
                 break;
             }
-            if time < end && !progress(time, time / end) {
-                history.ending = Ending::Interrupted;
+            if time < run.end && !progress(time, time / run.end) {
+                run.history.ending = Ending::Interrupted;
                 break;
             }
         }
         if instants.next_if(|&instant| instant <= time).is_some() {
-            history.belts.push(Observer::belt(time, &rates, &state));
+            let belt = Observer::belt(time, &run.rates, &state);
+            run.history.belts.push(belt);
         }
-        if time >= end {
+        if time >= run.end {
             break;
         }
         let stop = system
             .wheels
             .iter()
             .map(|wheel| wheel.axle.next_corner(time));
-        let stop = stop.fold(sample_at(sampled), f64::min);
+        let stop = stop.fold(run.end, f64::min);
         let stop = instants.peek().map_or(stop, |&instant| instant.min(stop));
+        if run.is_steady_sought
+            && simulation.step.is_none()
+            && stillness.is_after_corners(time)
+            && time >= explicit_until
+        {
+            let implicit = implicit.get_or_insert_with(|| {
+                Implicit::new(system, &state, LONGEST * simulation.interval)
+            });
+            if !is_implicit {
+                implicit.begin(changes);
+            }
+            let reach = run.last_sample_to(time + implicit.next()).min(stop);
+            let reached = implicit.step(&mut run.rates, [time, reach], &mut state);
+            run.history.effort.implicit = implicit.work();
+            is_implicit = reached.is_some();
+            let Some(reached) = reached else {
+                explicit_until = run.next_sample();
+                continue;
+            };
+            possible(system, &state, time)?;
+            run.took(1, reached - time);
+            while run.next_sample() < reached {
+                let at = run.next_sample();
+                let step = reached - time;
+                implicit.within((at - time) / step, step, &state, &mut between);
+                explicit.rates(&mut run.rates, at, &mut between);
+                run.watch.look(at, &run.rates, &between);
+                run.sample(at, &between)?;
+            }
+            time = reached;
+            continue;
+        }
+        is_implicit = false;
+        let stop = stop.min(run.next_sample());
         let (count, step, stop) = step_to(simulation, system, &state, [time, stop])?;
-        let [shortest, longest] = history.effort.step;
-        history.effort.step = [shortest.min(step), longest.max(step)];
-        history.effort.steps += count;
+        run.took(count, step);
         for index in 0..count {
             let at = time + index as f64 * step;
             if index > 0 {
-                explicit.rates(&mut rates, at, &mut state);
-                watch.look(at, &rates, &state);
+                explicit.rates(&mut run.rates, at, &mut state);
+                run.watch.look(at, &run.rates, &state);
             }
-            explicit.step(&mut rates, at, step, &mut state);
+            explicit.step(&mut run.rates, at, step, &mut state);
         }
         possible(system, &state, time)?;
         time = stop;
     }
-    history.events = watch.into_events();
-    history.effort.seconds = begun.elapsed().as_secs_f64();
-    Ok(history)
+    run.history.events = run.watch.into_events();
+    run.history.effort.seconds = begun.elapsed().as_secs_f64();
+    Ok(run.history)
 }
+
+/// Longest implicit step in intervals between samples: five samples without a change, of which each step has one, are
+/// then as far apart as a hundred times five of those that an explicit run looks at.
+const LONGEST: f64 = 100.0;
 
 /// Most steps between two looks at the largest stable one: in so many a wave passes 40 cells at most.
 const MOST_STEPS: usize = 100;
+
+/// What a run has told up to now, and what tells it.
+struct Run<'s> {
+    rates: Rates<'s>,
+    observer: Observer,
+    watch: Watch,
+    history: History,
+    /// Time between two samples, s.
+    interval: f64,
+    /// The latest end, s.
+    end: f64,
+    is_steady_sought: bool,
+}
+
+impl<'s> Run<'s> {
+    fn new(
+        simulation: &Simulation,
+        (system, layout): (&'s System, &Layout),
+        state: &[f64],
+    ) -> Self {
+        let (end, is_steady_sought) = match simulation.until {
+            Until::Time(end) => (end, false),
+            Until::Steady { latest } => (latest, true),
+        };
+        let rates = Rates::new(system);
+        let wave = (system.axial_stiffness / system.mass).sqrt();
+        Self {
+            observer: Observer::new(&rates, layout, system.energy(state)),
+            watch: Watch::new(system.wheels.len(), system.mesh.length() / wave),
+            rates,
+            history: History {
+                pulleys: layout
+                    .pulleys()
+                    .iter()
+                    .map(|pulley| pulley.name.clone())
+                    .collect(),
+                samples: vec![],
+                events: vec![],
+                belts: vec![],
+                ending: match is_steady_sought {
+                    true => Ending::NotSteady,
+                    false => Ending::Time,
+                },
+                effort: Effort {
+                    cells: system.mesh.cells(),
+                    step: [f64::INFINITY, 0.0],
+                    ..Effort::default()
+                },
+            },
+            interval: simulation.interval,
+            end,
+            is_steady_sought,
+        }
+    }
+
+    /// Time of a sample by its number, s.
+    fn sample_at(&self, count: f64) -> f64 {
+        (count * self.interval).min(self.end)
+    }
+
+    /// Time of the next sample, s.
+    fn next_sample(&self) -> f64 {
+        self.sample_at(self.history.samples.len() as f64)
+    }
+
+    /// The last sample up to a time in s, or the next one if it is later.
+    fn last_sample_to(&self, time: f64) -> f64 {
+        self.sample_at((time / self.interval).floor())
+            .max(self.next_sample())
+    }
+
+    /// Takes a sample of a state at a time in s whose rates were computed last.
+    fn sample(&mut self, time: f64, state: &[f64]) -> Result<(), TransientError> {
+        let least_stretch = self.watch.take_least_stretch();
+        let sample = self
+            .observer
+            .sample(time, &self.rates, state, least_stretch);
+        let ledger = sample.ledger;
+        self.history.samples.push(sample);
+        match ledger.closes() {
+            true => Ok(()),
+            false => Err(TransientError::Ledger {
+                residual: ledger.residual(),
+                turnover: ledger.turnover,
+                time,
+            }),
+        }
+    }
+
+    /// Counts steps of a length in s.
+    fn took(&mut self, count: usize, step: f64) {
+        let Effort {
+            steps, step: range, ..
+        } = &mut self.history.effort;
+        *range = [range[0].min(step), range[1].max(step)];
+        *steps += count;
+    }
+}
 
 /// How many equal steps lead from one time towards another in s, how long they are, and where they end.
 fn step_to(

@@ -28,6 +28,11 @@ impl Stillness {
         }
     }
 
+    /// Whether a time in s is after the last corner of what is given over time.
+    pub(crate) fn is_after_corners(&self, time: f64) -> bool {
+        time >= self.corner
+    }
+
     /// Looks at a state and its rates at the time of a sample in s; whether it is steady.
     pub(crate) fn look(
         &mut self,
@@ -50,7 +55,7 @@ impl Stillness {
             tensions.map(|(density, change)| (change / (density * (1.0 - density))).abs());
         let tension = tension.fold(0.0, f64::max);
         let is_still = tension < STILL && rims(changes) <= STILL * rims(state);
-        self.still = match is_still && time >= self.corner {
+        self.still = match is_still && self.is_after_corners(time) {
             true => self.still + 1,
             false => 0,
         };

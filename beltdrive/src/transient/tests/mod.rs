@@ -1,8 +1,7 @@
 //! The equations on the mesh against what is known of them without friction or without motion.
 
-mod bordered;
 mod conservation;
-mod implicit;
+mod integrators;
 mod linearised;
 mod modes;
 mod waves;

@@ -1,4 +1,4 @@
-//! Another way in time to hold the explicit one against: TR-BDF2 with the bristles projected in each stage.
+//! The implicit step: TR-BDF2 with the bristles projected in each stage.
 //!
 //! The trapezoidal rule over the share 2 d of a step, then the second backward difference formula over the whole one
 //! (Hosea and Shampine, Applied Numerical Mathematics 20, 1996); of order two, L-stable:
@@ -10,14 +10,20 @@
 //!
 //! In each stage k = y′(y) but for bristles at their largest displacement, b = clip(c + d Δt ḃ(y), `±μ n λ/k_f`), and
 //! k = (y − c)/(d Δt). Newton's method takes the derivatives of the side on which a projection is; the work of the axles,
-//! of damping and of friction is integrated with the weights of the stages. No load may hold a pulley at rest.
+//! of damping and of friction is integrated with the weights of the stages.
+//!
+//! Its steps damp what vibrates faster than they are long, so that it leads to the steady state and follows no
+//! vibrations. No load may hold a pulley at rest within a step.
+//!
+//! A general integrator such as those of the crate `diffsol` has no place for the projection: it needs a law of the
+//! bristles that is smooth at their largest displacement, as ḃ = v − |v| sgn(b) |b/`b_max`|ⁿ, and then finds another
+//! steady state: with n = 16 the tight tension of 728 N is off by 0.31 N, with n = 4 by 1.1 N, in as many steps.
 
-use super::super::axle::{Axle, Load, Motion};
-use super::super::jacobian::{Unknowns, derivatives, of_cap};
-use super::super::ledger::Ledger;
-use super::super::schedule::Schedule;
 use super::bordered::Bordered;
-use super::{Rates, STRETCH, System, follow, stable_step, system};
+use super::explicit::stable_step;
+use super::jacobian::{Unknowns, derivatives, of_cap};
+use super::rates::Rates;
+use super::system::System;
 use std::f64::consts::SQRT_2;
 
 /// d.
@@ -51,16 +57,20 @@ const WORTHWHILE: f64 = 1.2;
 /// A step of this share of the first one is refused: it belongs to a state that is none.
 const SHORTEST: f64 = 1e-6;
 
-/// What the steps took.
+/// What implicit steps took.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Work {
-    steps: usize,
-    iterations: usize,
-    factorisations: usize,
+#[non_exhaustive]
+pub struct ImplicitWork {
+    /// Implicit time steps.
+    pub steps: usize,
+    /// Iterations of Newton's method, those of refused steps included.
+    pub iterations: usize,
+    /// Factorisations of its matrix.
+    pub factorisations: usize,
 }
 
-/// The steps and what they work with.
-struct Implicit {
+/// Implicit steps and what they work with.
+pub(crate) struct Implicit {
     unknowns: Unknowns,
     /// Where the unknowns stand in the matrix; none for given speeds.
     places: Vec<Option<usize>>,
@@ -87,7 +97,7 @@ struct Implicit {
     next: f64,
     first: f64,
     longest: f64,
-    work: Work,
+    work: ImplicitWork,
 }
 
 impl Implicit {
@@ -96,7 +106,7 @@ impl Implicit {
     /// Errors are measured by what belongs to the mean strain ε of that state: ε itself in the densities, the velocity
     /// ε √(EA/m) of a wave with that strain, that velocity over the radius in the speeds, and the largest displacement of
     /// the bristles.
-    fn new(system: &System, state: &[f64], longest: f64) -> Self {
+    pub(crate) fn new(system: &System, state: &[f64], longest: f64) -> Self {
         let unknowns = Unknowns::new(system);
         let cells = system.mesh.cells();
         let density = &state[system.parts.density.clone()][1..];
@@ -165,18 +175,46 @@ impl Implicit {
             next: first,
             first,
             longest,
-            work: Work::default(),
+            work: ImplicitWork::default(),
         }
     }
 
     /// Begins anew at a state whose rates were computed last, with a short step, as at a corner of what is given.
-    fn begin(&mut self, changes: &[f64]) {
+    pub(crate) fn begin(&mut self, changes: &[f64]) {
         self.slopes[2].copy_from_slice(changes);
         self.next = self.first;
     }
 
-    /// Takes a state at a time in s towards another time; the time that it reaches, or none if no step leads on.
-    fn step(
+    /// What the steps took up to now.
+    pub(crate) fn work(&self) -> ImplicitWork {
+        self.work
+    }
+
+    /// Length that the next step will have, s.
+    pub(crate) fn next(&self) -> f64 {
+        self.next
+    }
+
+    /// The state at a share of the last step, which was of a length in s and led to a state: the cubic with the
+    /// states and the rates at both ends (Hermite).
+    pub(crate) fn within(&self, share: f64, step: f64, state: &[f64], to: &mut [f64]) {
+        let left = 1.0 - share;
+        let [from_weight, to_weight] = [
+            left * left * (1.0 + 2.0 * share),
+            share * share * (3.0 - 2.0 * share),
+        ];
+        let [first, last] = [left * left * share * step, -share * share * left * step];
+        for (index, value) in to.iter_mut().enumerate() {
+            *value = from_weight * self.from[index]
+                + to_weight * state[index]
+                + first * self.slopes[0][index]
+                + last * self.slopes[2][index];
+        }
+    }
+
+    /// Takes a state at a time in s towards another time; the time that it reaches. None, with the state as it was, if
+    /// no step leads on or a load would stop a pulley on the way.
+    pub(crate) fn step(
         &mut self,
         rates: &mut Rates<'_>,
         [time, stop]: [f64; 2],
@@ -197,6 +235,10 @@ impl Implicit {
                 return None;
             }
             let error = self.attempt(rates, time, step, state);
+            if error.is_some() && self.stops(rates, time, state) {
+                state.copy_from_slice(&self.from);
+                return None;
+            }
             // The error is in proportion to the third power.
             let factor = error.map_or(0.25, |error| (0.9 * error.powf(-1.0 / 3.0)).clamp(0.2, 4.0));
             if error.is_some_and(|error| error <= 1.0) {
@@ -212,6 +254,14 @@ impl Implicit {
             self.next = step * factor.min(0.5);
             state.copy_from_slice(&self.from);
         }
+    }
+
+    /// Whether the speed of a pulley has changed its sign under a load that opposes motion.
+    fn stops(&self, rates: &Rates<'_>, time: f64, state: &[f64]) -> bool {
+        let mut speeds = rates.system.parts.speed.clone().enumerate();
+        speeds.any(|(pulley, place)| {
+            self.from[place] * state[place] <= 0.0 && rates.holds(pulley, time)
+        })
     }
 
     /// Tries a step; its error, of which 1 is the largest, or none if Newton's method fails.
@@ -388,82 +438,4 @@ fn place(unknowns: Unknowns, system: &System, unknown: usize) -> usize {
     } else {
         parts.speed.start + unknown - of_speed
     }
-}
-
-/// A drive whose driver has a constant speed, with a load in proportion to the speed.
-fn drive(cells: usize) -> System {
-    let driver = Axle {
-        inertia: 0.01,
-        motion: Motion::Speed(Schedule::constant(SPEED)),
-    };
-    let load = Load {
-        per_speed: 0.35,
-        ..Load::new(Schedule::constant(0.0))
-    };
-    let driven = Axle {
-        inertia: 0.005,
-        motion: Motion::Torques { motor: None, load },
-    };
-    let mut system = system(cells, [1.2, 2e8], [driven, driver]);
-    system.axial_damping = 0.5;
-    system
-}
-
-/// Speed of the driver, rad/s.
-const SPEED: f64 = 100.0;
-
-/// The belt runs with the driver, the driven pulley as fast, and no bristle is displaced.
-fn running(system: &System) -> Vec<f64> {
-    let radius = system.wheels[0].radius;
-    let mut state = system.parts.uniform(1.0 / STRETCH, SPEED * radius);
-    state[system.parts.speed.clone()].fill(SPEED);
-    state
-}
-
-/// The state at a time in s, and what it took.
-fn implicitly(system: &System, end: f64) -> (Vec<f64>, Work) {
-    let mut state = running(system);
-    let mut rates = Rates::new(system);
-    let mut changes = vec![0.0; state.len()];
-    let mut implicit = Implicit::new(system, &state, 0.1);
-    rates.begin(0.0);
-    rates.of(0.0, &mut state, &mut changes);
-    implicit.begin(&changes);
-    let mut time = 0.0;
-    while time < end {
-        let reached = implicit.step(&mut rates, [time, end], &mut state);
-        time = reached.expect("a step");
-    }
-    (state, implicit.work)
-}
-
-#[test]
-fn two_integrators_find_one_steady_state() {
-    let system = drive(60);
-    let end = 3.0;
-    let mut explicit = running(&system);
-    let begun = system.energy(&explicit);
-    follow(&system, &mut explicit, end, |_, _| {});
-    let (implicit, work) = implicitly(&system, end);
-    let (parts, speed) = (&system.parts, system.parts.speed.start);
-    println!(
-        "{work:?}: {} and {} rad/s",
-        explicit[speed], implicit[speed]
-    );
-    let [one, other] = [&explicit, &implicit].map(|state| &state[parts.density.clone()]);
-    let off = one.iter().zip(other).map(|(one, other)| {
-        let [one, other] = [one, other].map(|density| system.tension(*density));
-        (one / other - 1.0).abs()
-    });
-    let off = off.fold((explicit[speed] / implicit[speed] - 1.0).abs(), f64::max);
-    let ledger = Ledger::of(&system, &implicit, begun);
-    println!(
-        "off by {off:e}, {:e} J of {} J missing",
-        ledger.residual(),
-        ledger.turnover
-    );
-    assert!(off < 1e-9);
-    assert!(ledger.closes());
-    // With five percent to spare.
-    assert!(work.steps <= 430 && work.iterations <= 2500 && work.factorisations <= 540);
 }
