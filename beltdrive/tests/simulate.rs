@@ -5,7 +5,7 @@ use beltdrive::input::{Argument, DriveFile};
 use beltdrive::transient::{Motion, Until};
 use std::fs;
 use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 fn example(name: &str) -> &'static str {
     examples::find(name).expect("a shipped example").text
@@ -130,6 +130,50 @@ fn the_steady_state_is_reached_or_missed() {
     let output = simulate("unsteady", example("slip-pulse"), &options);
     fails(&output, 1, "the drive is not steady at 0.06 s");
     assert!(String::from_utf8_lossy(&output.stdout).contains("not steady in the end"));
+}
+
+/// Whether a process catches an interrupt: the signal 2 is in the set of those that it has handlers for.
+#[cfg(target_os = "linux")]
+fn catches_interrupts(process: u32) -> bool {
+    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap();
+    let caught = { status.lines() }.find_map(|line| line.strip_prefix("SigCgt:"));
+    let caught = u64::from_str_radix(caught.unwrap().trim(), 16).unwrap();
+    caught & 0b10 != 0
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupted_run_keeps_what_it_has() {
+    let directory = directory("interrupted");
+    fs::write(directory.join("drive.toml"), example("slip-pulse")).unwrap();
+    let options = "--until=100s --csv=history.csv --json=history.json --plot=figures";
+    let mut run = Command::new(env!("CARGO_BIN_EXE_beltdrive"))
+        .args(["simulate", "drive.toml"])
+        .args(options.split(' '))
+        .current_dir(&directory)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    while run.try_wait().unwrap().is_none() && !catches_interrupts(run.id()) {
+        std::thread::yield_now();
+    }
+    let interrupt = Command::new("kill")
+        .args(["-INT", &run.id().to_string()])
+        .status();
+    assert!(interrupt.unwrap().success());
+    let output = run.wait_with_output().unwrap();
+    fails(&output, 130, "interrupted at");
+    let table = String::from_utf8(output.stdout).unwrap();
+    assert!(table.contains("s, interrupted"), "{table}");
+    let read = |name: &str| fs::read_to_string(directory.join(name)).unwrap();
+    let json: serde_json::Value = serde_json::from_str(&read("history.json")).unwrap();
+    assert_eq!(json["run"]["ending"], "interrupted");
+    let samples = json["samples"].as_array().unwrap();
+    assert_eq!(read("history.csv").lines().count(), 1 + samples.len());
+    let reached = samples.last().unwrap()["time_s"].as_f64().unwrap();
+    assert!(reached < 100.0, "{reached}");
+    assert!(read("figures/history.svg").contains("speed of the pulleys"));
 }
 
 #[test]

@@ -13,6 +13,8 @@ pub(super) enum Failure {
     Unmet(String),
     /// An input, an output or the command line is at fault.
     Usage(String),
+    /// An interrupt has ended the command, whose results are written up to there.
+    Interrupted(String),
 }
 
 impl Failure {

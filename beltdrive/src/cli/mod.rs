@@ -9,6 +9,7 @@ mod design;
 mod destinations;
 mod examples;
 mod failure;
+mod interrupt;
 mod limits;
 mod man;
 mod map;
@@ -132,6 +133,10 @@ pub(crate) fn run() -> ExitCode {
         Err(Failure::Unmet(message)) => {
             output::note(&message);
             ExitCode::from(3)
+        }
+        Err(Failure::Interrupted(message)) => {
+            output::note(&message);
+            ExitCode::from(interrupt::STATUS)
         }
     }
 }

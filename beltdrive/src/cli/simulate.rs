@@ -1,6 +1,6 @@
 //! `beltdrive simulate`: a drive in time.
 
-use super::{common::Common, failure::Failure, origin::Origin};
+use super::{common::Common, failure::Failure, interrupt::Interrupt, origin::Origin};
 use beltdrive::input::{Argument, DriveFile};
 use beltdrive::transient::{Ending, TransientError, Until};
 use beltdrive::{plot, quantity, simulate};
@@ -19,7 +19,8 @@ write one row per sample.
 Exit status:
   0  success
   1  there is no state to start from, the energy ledger does not close, or no steady state was reached
-  2  an input, an output or the command line is at fault";
+  2  an input, an output or the command line is at fault
+  130  an interrupt (Ctrl-C) ended the run: everything is written up to there";
 
 #[derive(Args)]
 #[command(after_help = HELP)]
@@ -54,10 +55,11 @@ impl Simulate {
             let instant = argument.time().map_err(Failure::usage)?;
             simulation.instants.push(instant);
         }
+        let interrupt = Interrupt::catch()?;
         let history = self.common.with_progress(|progress| {
             simulate(&simulation, &mut |time, share| {
                 progress(share, &format!("{time:.3} s"));
-                true
+                !interrupt.came()
             })
         })?;
         let answer = &quantity::transient::answer(&simulation.drive, &history);
@@ -70,6 +72,12 @@ impl Simulate {
                 "error: the drive is not steady at {latest} s\nhelp: transient.end is the latest time of the search; \
                  axial damping or a load that rises with the speed ends vibrations"
             ))),
+            (Ending::Interrupted, _) => {
+                let reached = history.samples.last().map_or(0.0, |sample| sample.time);
+                Err(Failure::Interrupted(format!(
+                    "error: interrupted at {reached} s, with everything written up to there"
+                )))
+            }
             _ => Ok(()),
         }
     }

@@ -116,7 +116,7 @@ impl Trace {
                 Failure::Unsolved(text) => Failure::Unsolved(help(text)),
                 // The file itself was read.
                 Failure::Usage(text) => Failure::Usage(help(text)),
-                unmet @ Failure::Unmet(_) => unmet,
+                other @ (Failure::Unmet(_) | Failure::Interrupted(_)) => other,
             }
         };
         let (name, answer) = match &self.curve {
