@@ -46,8 +46,9 @@ def exudyn(elements, step, contact):
     done, _ = timed(command)
     lines = done.stdout.splitlines()
     lines = lines[lines.index("time,speed,tight,slack") + 1 :]
-    samples = np.array([[float(number) for number in line.split(",")] for line in lines])
-    return samples, float(done.stderr.split()[0])
+    samples = np.array([[float(number) for number in line.split(",")] for line in lines if line[:1].isdigit()])
+    # Warnings of the module may stand before.
+    return samples, float(done.stderr.splitlines()[-1].split()[0])
 
 
 # Columns of the samples: time, speed of the driven pulley, tensions of the tight and of the slack span.
