@@ -85,6 +85,10 @@ pub const EXAMPLES: [Example; 18] = [
         name: "soft-start",
         text: include_str!("../examples/soft-start.toml"),
     },
+    Example {
+        name: "pump-resonance",
+        text: include_str!("../examples/pump-resonance.toml"),
+    },
 ];
 
 /// The measured rows that belong to the example `flat-bench`, printed as `flat-bench.csv`.

@@ -4,7 +4,9 @@ use super::{
     Argument, Diagnostic, DriveFile, check, diagnostic::Finding, document::Content, file,
     overrides, schema, values::Values,
 };
-use crate::transient::{Axle, Cells, Load, Motion, Motor, Schedule, Simulation, Start, Until};
+use crate::transient::{
+    Axle, Cells, Load, Motion, Motor, Pulsation, Schedule, Simulation, Start, Until,
+};
 use crate::{Drive, Duty};
 
 /// The list of pulleys of `[transient]`.
@@ -160,7 +162,14 @@ fn axle(values: &Values<'_>, name: &str, duty: Duty, start: Start) -> Result<Axl
         }
         (None, _) => None,
     };
-    let loads = ["load", "load_per_speed", "load_sense"].map(path);
+    let loads = [
+        "load",
+        "load_per_speed",
+        "load_sense",
+        "load_amplitude",
+        "load_frequency",
+    ];
+    let loads = loads.map(path);
     if let Some(speed) = stated {
         let others = motors.iter().chain(&loads);
         if let Some(other) = { others }.find(|path| values.has(path)) {
@@ -186,6 +195,16 @@ fn axle(values: &Values<'_>, name: &str, duty: Duty, start: Start) -> Result<Axl
         (None, Duty::Torque(torque)) => Schedule::constant(torque),
         (None, Duty::Driver(_)) => Schedule::constant(0.0),
         (None, Duty::Power(_) | Duty::Driven) => return Err(values.missing(&[&loads[0]])),
+    };
+    let [amplitude, frequency] = [&loads[3], &loads[4]];
+    let torque = match (values.number(amplitude), values.number(frequency)) {
+        (Some(amplitude), Some(angular_frequency)) => torque.pulsating(Pulsation {
+            amplitude,
+            angular_frequency,
+        }),
+        (None, None) => torque,
+        (Some(_), None) => return Err(values.missing(&[frequency])),
+        (None, Some(_)) => return Err(values.missing(&[amplitude])),
     };
     Ok(Axle {
         inertia: values.required_number(&inertia)?,

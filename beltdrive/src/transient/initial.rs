@@ -2,6 +2,7 @@
 
 use super::axle::{Axle, Motion, Motor};
 use super::mesh::{LEAST_ARC_CELLS, LEAST_SPAN_CELLS, Mesh, Stretch, even};
+use super::schedule::Schedule;
 use super::simulation::{Cells, Simulation, Start, TransientError, Until};
 use super::state::Parts;
 use super::system::{System, Wheel};
@@ -151,7 +152,8 @@ pub(crate) fn check(simulation: &Simulation) -> Result<(), TransientError> {
     }
     let axles = drive.pulleys.iter().zip(&simulation.axles);
     for (pulley, axle) in axles {
-        if let Some(problem) = of_axle(axle, simulation.start) {
+        let problem = of_axle(axle, simulation.start).or_else(|| of_pulsations(axle, simulation));
+        if let Some(problem) = problem {
             return refuse(&pulley.name, problem);
         }
     }
@@ -194,6 +196,33 @@ fn of_axle(axle: &Axle, start: Start) -> Option<String> {
                 .then(|| "the torque per speed of its load must not be negative".to_owned())
         }
     }
+}
+
+/// What is wrong with the sines that are added to what an axle is given.
+fn of_pulsations(axle: &Axle, simulation: &Simulation) -> Option<String> {
+    if let Motion::Torques {
+        motor: Some(Motor::Characteristic(over_speed)),
+        ..
+    } = &axle.motion
+        && over_speed.pulsation().is_some()
+    {
+        return Some("the torque of its motor over the speed cannot pulsate over time".to_owned());
+    }
+    let given = axle.schedule().into_iter().flatten();
+    given.filter_map(Schedule::pulsation).find_map(|pulsation| {
+        let (amplitude, frequency) = (pulsation.amplitude, pulsation.angular_frequency);
+        if !(amplitude >= 0.0 && amplitude.is_finite()) {
+            Some("the amplitude of its pulsation must not be negative".to_owned())
+        } else if !(frequency > 0.0 && frequency.is_finite()) {
+            Some("the frequency of its pulsation must be positive".to_owned())
+        } else {
+            let is_steady_sought = matches!(simulation.until, Until::Steady { .. });
+            is_steady_sought.then(|| {
+                "it pulsates at all times, so that the drive is never steady: end the run at a time"
+                    .to_owned()
+            })
+        }
+    })
 }
 
 /// The belt at rest with a tension in N.

@@ -54,6 +54,6 @@ pub use events::{TransientEvent, TransientEventKind};
 pub use history::{BeltAlongLoop, Effort, Ending, History, PulleySample, Sample};
 pub use implicit::ImplicitWork;
 pub use ledger::Ledger;
-pub use schedule::Schedule;
+pub use schedule::{Pulsation, Schedule};
 pub use simulation::{Cells, Simulation, Start, TransientError, Until};
 pub use vibration::VibrationMode;

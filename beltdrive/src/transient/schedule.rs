@@ -1,11 +1,22 @@
 //! A quantity that is given over time.
 
 /// A number over time: straight lines between points, constant before the first and after the last one. Two points
-/// at one time are a jump.
+/// at one time are a jump. A sine may be added at all times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Schedule {
     /// Times in s that do not fall, with the values there.
     points: Vec<[f64; 2]>,
+    /// The sine, if there is one.
+    pulsation: Option<Pulsation>,
+}
+
+/// A sine over time t, a sin ω t.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulsation {
+    /// Its amplitude a, in the unit of what it is added to; not negative.
+    pub amplitude: f64,
+    /// Its angular frequency ω, rad/s; positive.
+    pub angular_frequency: f64,
 }
 
 impl Schedule {
@@ -14,6 +25,7 @@ impl Schedule {
     pub fn constant(value: f64) -> Self {
         Self {
             points: vec![[0.0, value]],
+            pulsation: None,
         }
     }
 
@@ -22,6 +34,7 @@ impl Schedule {
     pub fn step(at: f64, [before, after]: [f64; 2]) -> Self {
         Self {
             points: vec![[at, before], [at, after]],
+            pulsation: None,
         }
     }
 
@@ -30,6 +43,7 @@ impl Schedule {
     pub fn ramp([from, to]: [f64; 2], [before, after]: [f64; 2]) -> Self {
         Self {
             points: vec![[from, before], [to, after]],
+            pulsation: None,
         }
     }
 
@@ -38,6 +52,7 @@ impl Schedule {
     pub fn pulse([from, to]: [f64; 2], [usual, raised]: [f64; 2]) -> Self {
         Self {
             points: vec![[from, usual], [from, raised], [to, raised], [to, usual]],
+            pulsation: None,
         }
     }
 
@@ -47,10 +62,25 @@ impl Schedule {
     pub fn table(points: Vec<[f64; 2]>) -> Option<Self> {
         let rises = points.windows(2).all(|pair| pair[0][0] <= pair[1][0]);
         let is_finite = points.iter().flatten().all(|number| number.is_finite());
-        (rises && is_finite && !points.is_empty()).then_some(Self { points })
+        (rises && is_finite && !points.is_empty()).then_some(Self {
+            points,
+            pulsation: None,
+        })
     }
 
-    /// The points, times in s with the values there.
+    /// The same with a sine added.
+    #[must_use]
+    pub fn pulsating(mut self, pulsation: Pulsation) -> Self {
+        self.pulsation = Some(pulsation);
+        self
+    }
+
+    /// The sine that is added, if there is one.
+    pub fn pulsation(&self) -> Option<Pulsation> {
+        self.pulsation
+    }
+
+    /// The points, times in s with the values there, without a sine.
     pub fn points(&self) -> &[[f64; 2]] {
         &self.points
     }
@@ -78,8 +108,22 @@ impl Schedule {
         self.points.partition_point(|point| point[0] <= time)
     }
 
-    /// Value and slope at a time in s on a straight line of [`Self::line`], which holds beyond its ends.
+    /// Value and slope at a time in s on a straight line of [`Self::line`], which holds beyond its ends, with the sine.
     pub(crate) fn on(&self, line: usize, time: f64) -> [f64; 2] {
+        let [value, slope] = self.on_line(line, time);
+        let Some(Pulsation {
+            amplitude,
+            angular_frequency,
+        }) = self.pulsation
+        else {
+            return [value, slope];
+        };
+        let (sine, cosine) = (angular_frequency * time).sin_cos();
+        let rate = amplitude * angular_frequency;
+        [value + amplitude * sine, slope + rate * cosine]
+    }
+
+    fn on_line(&self, line: usize, time: f64) -> [f64; 2] {
         let Some([start, before]) = line.checked_sub(1).map(|last| self.points[last]) else {
             return [self.points[0][1], 0.0];
         };

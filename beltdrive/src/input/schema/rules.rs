@@ -365,6 +365,17 @@ const TRANSIENT: &[Rule] = &[
         Dimension::TORQUE_PER_SPEED,
         Range::NotNegative,
     ),
+    ranged(
+        "transient.pulley.*.load_amplitude",
+        "\"5 N*m\"",
+        Dimension::TORQUE,
+        Range::NotNegative,
+    ),
+    quantity(
+        "transient.pulley.*.load_frequency",
+        "\"120 Hz\"",
+        Dimension::ANGULAR_SPEED,
+    ),
     word(
         "transient.pulley.*.load_sense",
         "\"one-way\"",

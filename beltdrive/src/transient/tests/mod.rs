@@ -4,6 +4,7 @@ mod conservation;
 mod integrators;
 mod linearised;
 mod modes;
+mod pulsation;
 mod waves;
 
 use super::axle::{Axle, Motion};
