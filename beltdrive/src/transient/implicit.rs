@@ -42,8 +42,13 @@ const ERROR: [f64; 3] = [
 /// Largest error of a step, in the scales of [`Implicit::new`]: the steady state does not depend on it.
 const TOLERANCE: f64 = 1e-3;
 
-/// Newton's method ends with a correction of this share of the largest error, so that it does not show in that.
+/// Newton's method ends with a correction of this share of the largest error, or of the change in a stage where that is
+/// smaller: what it leaves is not taken for a motion, and dies out with it on the way to a steady state.
 const NEWTON: f64 = 1e-2;
+
+/// Smaller corrections, in the scales of [`Implicit::new`], are of rounding: strains of 1e-3 have eleven digits beside
+/// densities of 1.
+const ROUNDING: f64 = 1e-11;
 
 /// Worse contraction than this refreshes the derivatives: four digits then take eight iterations.
 const CONTRACTION: f64 = 0.3;
@@ -183,6 +188,11 @@ impl Implicit {
     pub(crate) fn begin(&mut self, changes: &[f64]) {
         self.slopes[2].copy_from_slice(changes);
         self.next = self.first;
+    }
+
+    /// The rates at the end of the last step.
+    pub(crate) fn changes(&self) -> &[f64] {
+        &self.slopes[2]
     }
 
     /// What the steps took up to now.
@@ -341,6 +351,10 @@ impl Implicit {
         state: &mut [f64],
     ) -> Option<()> {
         let parts = &rates.system.parts;
+        for (value, &(index, _)) in self.side.iter_mut().zip(&self.order) {
+            *value = ahead * self.slopes[0][index];
+        }
+        let enough = (NEWTON * self.norm().min(TOLERANCE)).max(ROUNDING);
         let mut refresh = self.factorised != ahead;
         let mut last = f64::INFINITY;
         for _ in 0..MOST_ITERATIONS {
@@ -359,7 +373,7 @@ impl Implicit {
             if !size.is_finite() {
                 break;
             }
-            if size <= NEWTON * TOLERANCE {
+            if size <= enough {
                 parts.close(state);
                 rates.of(time, state, &mut self.rates);
                 return Some(());

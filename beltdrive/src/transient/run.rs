@@ -38,7 +38,10 @@ pub(crate) fn run(
     loop {
         // What is given over time is that from here on.
         run.rates.begin(time);
-        let changes = explicit.rates(&mut run.rates, time, &mut state);
+        let mut changes = explicit.rates(&mut run.rates, time, &mut state);
+        if let (true, Some(implicit)) = (is_implicit, &implicit) {
+            changes = implicit.changes();
+        }
         run.watch.look(time, &run.rates, &state);
         if time >= run.next_sample() {
             run.sample(time, &state)?;
