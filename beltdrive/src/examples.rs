@@ -12,7 +12,7 @@ pub struct Example {
 }
 
 /// Every shipped drive file.
-pub const EXAMPLES: [Example; 18] = [
+pub const EXAMPLES: [Example; 20] = [
     Example {
         name: "kim2009",
         text: include_str!("../examples/kim2009.toml"),
@@ -88,6 +88,10 @@ pub const EXAMPLES: [Example; 18] = [
     Example {
         name: "pump-resonance",
         text: include_str!("../examples/pump-resonance.toml"),
+    },
+    Example {
+        name: "parametric-resonance",
+        text: include_str!("../examples/parametric-resonance.toml"),
     },
 ];
 

@@ -110,6 +110,7 @@ pub fn modes(
         step: None,
         axles: simulation.axles.clone(),
         drive: simulation.drive.clone(),
+        transverse: simulation.transverse.clone(),
         ..*simulation
     };
     initial::check(&checked)?;
@@ -178,6 +179,8 @@ fn about(
     (count, slips): (usize, bool),
 ) -> Result<(Vec<VibrationMode>, Mesh), TransientError> {
     let mut simulation = simulation.clone();
+    // Spans that move across leave straight ones alone to first order.
+    simulation.transverse = None;
     simulation.cells = match simulation.cells {
         Cells::Total(cells) => Cells::Total(cells.div_ceil(2)),
         Cells::Each { arc, span } => initial::halved(arc, span),

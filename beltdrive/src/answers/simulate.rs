@@ -28,6 +28,7 @@ use crate::{BeltKind, Closure, Drive, NormalForce, SolveOptions};
 ///     ],
 ///     drive,
 ///     axial_damping: 0.1,
+///     transverse: None,
 ///     start: Start::Rest,
 ///     cells: Cells::Total(60),
 ///     until: Until::Time(0.12),
@@ -54,7 +55,7 @@ pub fn simulate(
     let drive = closed_once(&stated, &options)?;
     let layout = drive.layout(0.0).map_err(crate::SolveError::from)?;
     let system = initial::system(simulation, &drive, &layout)?;
-    let state = match (simulation.start, drive.closure) {
+    let mut state = match (simulation.start, drive.closure) {
         (Start::Running, _) => initial::running(&system, &solve_to(&drive, &options)?)?,
         (Start::Rest, Closure::SetupTension(_) | Closure::UnstretchedLength(_)) => {
             let rest = model(drive.belt.kind).at_rest(&drive, &options)?;
@@ -65,6 +66,9 @@ pub fn simulate(
             initial::at_rest(&system, running.rest_tension)
         }
     };
+    if let Some(stated) = &simulation.transverse {
+        initial::pluck(&system, stated, &mut state);
+    }
     run::run(simulation, (&system, &layout), state, progress)
 }
 

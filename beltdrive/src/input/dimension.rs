@@ -35,10 +35,11 @@ impl Dimension {
     pub(super) const BENDING_STIFFNESS: Self = Self::new(1, 3, -2, 0);
     pub(super) const MOMENT_OF_INERTIA: Self = Self::new(1, 2, 0, 0);
     pub(super) const AXIAL_DAMPING: Self = Self::new(1, 1, -1, 0);
+    pub(super) const DAMPING_PER_LENGTH: Self = Self::new(1, -1, -1, 0);
     pub(super) const TORQUE_PER_SPEED: Self = Self::new(1, 2, -1, -1);
 
     /// The dimensions that have a name in messages.
-    const NAMES: [(Self, &str); 22] = [
+    const NAMES: [(Self, &str); 23] = [
         (Self::NUMBER, "a pure number"),
         (Self::MASS, "a mass"),
         (Self::LENGTH, "a length"),
@@ -60,6 +61,7 @@ impl Dimension {
         (Self::TORQUE_PER_ANGLE, "a torque per angle"),
         (Self::MOMENT_OF_INERTIA, "a moment of inertia"),
         (Self::AXIAL_DAMPING, "an axial damping"),
+        (Self::DAMPING_PER_LENGTH, "a damping per length"),
         (Self::TORQUE_PER_SPEED, "a torque per angular speed"),
     ];
 

@@ -5,12 +5,19 @@ use super::{
     overrides, schema, values::Values,
 };
 use crate::transient::{
-    Axle, Cells, Load, Motion, Motor, Pulsation, Schedule, Simulation, Start, Until,
+    Axle, Cells, Load, Motion, Motor, Pluck, Pulsation, RunOut, Schedule, Simulation, Start,
+    Transverse, Until,
 };
 use crate::{Drive, Duty};
 
 /// The list of pulleys of `[transient]`.
 const PULLEY: &str = "transient.pulley";
+
+/// The table of the motion of the spans across.
+const TRANSVERSE: &str = "transient.transverse";
+
+/// Direction of gravity without `transient.transverse.gravity_direction`, rad: against y.
+const DOWNWARDS: f64 = -std::f64::consts::FRAC_PI_2;
 
 /// The end of a run, or the latest end of one to the steady state.
 const END: &str = "transient.end";
@@ -99,16 +106,12 @@ impl DriveFile {
         };
         let axles = drive.pulleys.iter();
         let axles = axles.map(|pulley| axle(values, &pulley.name, pulley.duty, start));
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a whole number from 1 to 1000"
-        )]
-        let cells = values.number("transient.cells").map(|cells| cells as usize);
+        let cells = whole(values, "transient.cells");
         Ok(Simulation {
             axles: axles.collect::<Result<_, _>>()?,
             drive,
             axial_damping: values.number("transient.axial_damping").unwrap_or(0.0),
+            transverse: transverse(values, &names)?,
             start,
             cells: Cells::Total(cells.unwrap_or(CELLS)),
             until,
@@ -139,6 +142,67 @@ impl DriveFile {
         }
         Ok(())
     }
+}
+
+/// A whole number of the file.
+fn whole(values: &Values<'_>, path: &str) -> Option<usize> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a whole number from 1 to 1000"
+    )]
+    let whole = values.number(path).map(|number| number as usize);
+    whole
+}
+
+/// Motion of the spans across: there is one with a table of it.
+fn transverse(values: &Values<'_>, names: &[String]) -> Result<Option<Transverse>, Finding> {
+    let of_pulleys = |key: &str| {
+        let path = move |name: &String| format!("{PULLEY}.{name}.{key}");
+        names.iter().map(path).collect::<Vec<_>>()
+    };
+    let [run_outs, orders, plucks, modes] =
+        ["run_out", "run_out_order", "pluck", "pluck_mode"].map(of_pulleys);
+    if !values.has(TRANSVERSE) {
+        let mut keys = [&run_outs, &orders, &plucks, &modes].into_iter().flatten();
+        return match keys.find(|path| values.has(path)) {
+            Some(path) => {
+                let message = "nothing says that the spans move across";
+                Err(Finding::new(values.key_place(path), message)
+                    .expected("[transient.transverse], which may be empty"))
+            }
+            None => Ok(None),
+        };
+    }
+    for (whole, of) in [(&orders, &run_outs), (&modes, &plucks)] {
+        let mut pairs = whole.iter().zip(of);
+        if let Some((path, needed)) = pairs.find(|(path, of)| values.has(path) && !values.has(of)) {
+            let message = format!("`{}` needs an amplitude", schema::split(path).1);
+            let expected = format!("`{}`", schema::split(needed).1);
+            return Err(Finding::new(values.key_place(path), message).expected(expected));
+        }
+    }
+    let of = |key: &str| values.number(&format!("{TRANSVERSE}.{key}"));
+    let gravity = of("gravity").unwrap_or(0.0);
+    let direction = of("gravity_direction").unwrap_or(DOWNWARDS);
+    let plucks = plucks.iter().zip(&modes).map(|(path, mode)| {
+        values.number(path).map(|amplitude| Pluck {
+            amplitude,
+            mode: whole(values, mode).unwrap_or(1),
+        })
+    });
+    let run_outs = run_outs.iter().zip(&orders).map(|(path, order)| {
+        values.number(path).map(|amplitude| RunOut {
+            amplitude,
+            order: whole(values, order).unwrap_or(1),
+        })
+    });
+    Ok(Some(Transverse {
+        damping: of("damping").unwrap_or(0.0),
+        gravity: [gravity * direction.cos(), gravity * direction.sin()],
+        plucks: plucks.collect(),
+        run_outs: run_outs.collect(),
+    }))
 }
 
 /// The axle of a pulley.

@@ -37,7 +37,7 @@ pub(super) fn figure(drive: &Drive, history: &History) -> String {
     let spans = spans(history)
         .into_iter()
         .map(|[from, to]| format!("{from} to {to}"));
-    let panels = [
+    let mut panels = vec![
         Quantities {
             title: "speed of the pulleys",
             measure: Measure::AngularSpeed,
@@ -63,6 +63,14 @@ pub(super) fn figure(drive: &Drive, history: &History) -> String {
             values: |sample| of_pulleys(sample, |pulley| pulley.slip_arc),
         },
     ];
+    if (history.samples.first()).is_some_and(|first| !first.amplitudes.is_empty()) {
+        panels.push(Quantities {
+            title: "largest displacement of the spans across between two samples",
+            measure: Measure::Length,
+            names: pulleys(),
+            values: |sample| sample.amplitudes.clone(),
+        });
+    }
     let color = |index: usize| PALETTE[index % PALETTE.len()];
     let curves = history.pulleys.iter().enumerate().map(|(index, name)| {
         let stroke = Stroke::solid(color(index), CURVE);
@@ -175,15 +183,8 @@ pub(super) fn along_loop(drive: &Drive, history: &History) -> Option<String> {
         history.pulleys[0]
     );
     let header = Header::new(&heading, &caption, curves, WIDTH);
-    let size = spot(WIDTH, header.height + 2.0 * ALONG);
-    let mut sheet = Sheet::new(size);
-    header.draw(&mut sheet);
-    let below = Frame {
-        from: spot(0.0, header.height),
-        to: size,
-    };
     type Values = fn(&BeltAlongLoop) -> &[f64];
-    let panels: [(&str, &str, f64, Values); 2] = [
+    let mut panels: Vec<(&str, &str, f64, Values)> = vec![
         ("belt tension", "T in N", 1.0, |belt| &belt.tension),
         (
             "friction on the belt against its motion",
@@ -192,7 +193,23 @@ pub(super) fn along_loop(drive: &Drive, history: &History) -> Option<String> {
             |belt| &belt.friction,
         ),
     ];
-    for ((name, unit, factor, values), part) in panels.into_iter().zip(grid(below, 1, 2)) {
+    if !first.displacement.is_empty() {
+        panels.push((
+            "displacement across, away from the inside of the loop",
+            "w in mm",
+            1e3,
+            |belt| &belt.displacement,
+        ));
+    }
+    let size = spot(WIDTH, header.height + ALONG * panels.len() as f64);
+    let mut sheet = Sheet::new(size);
+    header.draw(&mut sheet);
+    let below = Frame {
+        from: spot(0.0, header.height),
+        to: size,
+    };
+    let rows = grid(below, 1, panels.len());
+    for ((name, unit, factor, values), part) in panels.into_iter().zip(rows) {
         let all = history
             .belts
             .iter()

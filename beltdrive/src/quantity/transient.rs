@@ -32,6 +32,7 @@ pub fn answer(drive: &Drive, history: &History) -> Answer {
             Group::single("run", run(history)),
             Group::new("samples", Layout::Rows, samples.collect()),
             Group::new("events", Layout::Rows, events.collect()),
+            Group::new("slack_spans", Layout::Rows, slack_spans(history)),
             Group::single("energy", energy(history)),
         ],
         ..Answer::default()
@@ -56,9 +57,12 @@ fn remarks(history: &History) -> Vec<String> {
     let slack = { events }.find(|event| event.kind == TransientEventKind::Slack);
     if let Some(slack) = slack {
         remarks.push(format!(
-            "the belt is slack from {:.6} s on: the model carries compression there, so that what follows is not what a \
-             belt does",
-            slack.time
+            "the belt is slack from {:.6} s on, where it has a thousandth of its stiffness in compression{}",
+            slack.time,
+            match history.samples[0].amplitudes.is_empty() {
+                true => " and stays straight",
+                false => "",
+            }
         ));
     }
     if history.ending == Ending::NotSteady {
@@ -150,7 +154,24 @@ fn row(history: &History, sample: &Sample) -> Subject {
     }
     let data =
         |key: &'static str, measure, value: f64| Quantity::number(key, "", measure, value, SHOWN);
+    let amplitudes = spans(history).into_iter().zip(&sample.amplitudes);
+    quantities.extend(amplitudes.map(|([from, to], &amplitude)| {
+        let key = format!("{}_to_{}_amplitude", stem(from), stem(to));
+        let label = format!("w {from} to {to}");
+        number(key, label, Measure::Length, amplitude)
+    }));
     let ledger = sample.ledger;
+    if !sample.amplitudes.is_empty() {
+        quantities.extend([
+            data("gravity_work", Measure::Energy, ledger.gravity),
+            data("run_out_work", Measure::Energy, ledger.run_out),
+            data(
+                "damped_across_energy",
+                Measure::Energy,
+                ledger.damped_across,
+            ),
+        ]);
+    }
     quantities.extend([
         data("smallest_tension", Measure::Force, sample.smallest_tension),
         data("work", Measure::Energy, ledger.work),
@@ -160,6 +181,32 @@ fn row(history: &History, sample: &Sample) -> Subject {
         data("energy_residual", Measure::Energy, ledger.residual()),
     ]);
     Subject::new("", quantities)
+}
+
+/// The spans that were slack.
+fn slack_spans(history: &History) -> Vec<Subject> {
+    let names = spans(history);
+    let slack = names.iter().zip(&history.slack_spans);
+    let slack = slack.filter(|(_, span)| span.largest_tension >= 0.0);
+    let rows = slack.map(|([from, to], span)| {
+        let number =
+            |key, label, measure, value| Quantity::number(key, label, measure, value, SHOWN);
+        Subject::new(
+            // With a head no row is left out.
+            "slack span",
+            vec![
+                Quantity::word("span", "span", format!("{from} to {to}")),
+                number("time", "slack for", Measure::Time, span.time),
+                number(
+                    "largest_tension",
+                    "largest T after",
+                    Measure::Force,
+                    span.largest_tension,
+                ),
+            ],
+        )
+    });
+    rows.collect()
 }
 
 /// How the run was computed and how it ended.
@@ -202,10 +249,26 @@ fn energy(history: &History) -> Vec<Quantity> {
         return vec![];
     };
     let number = |key, label, value| Quantity::number(key, label, Measure::Energy, value, SHOWN);
-    vec![
-        number("work", "work of the axles", ledger.work),
+    let mut quantities = vec![number("work", "work of the axles", ledger.work)];
+    let moves_across = (history.samples.first()).is_some_and(|first| !first.amplitudes.is_empty());
+    if moves_across {
+        quantities.extend([
+            number("gravity", "work of gravity on the spans", ledger.gravity),
+            number("run_out", "work of run-out on the spans", ledger.run_out),
+        ]);
+    }
+    quantities.extend([
         number("stored", "  stored", ledger.stored),
         number("damped", "  lost in axial damping", ledger.damped),
+    ]);
+    if moves_across {
+        quantities.push(number(
+            "damped_across",
+            "  lost in damping across",
+            ledger.damped_across,
+        ));
+    }
+    quantities.extend([
         number("contact", "  lost in the contact", ledger.contact),
         Quantity::error(
             "residual",
@@ -214,5 +277,6 @@ fn energy(history: &History) -> Vec<Quantity> {
             ledger.residual().abs(),
         ),
         number("turnover", "", ledger.turnover),
-    ]
+    ]);
+    quantities
 }

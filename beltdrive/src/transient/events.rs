@@ -1,6 +1,8 @@
 //! What happens on the way: gross slip and slack, located to a time step.
 
 use super::rates::Rates;
+use super::string;
+use super::system::System;
 
 /// Something that happened.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,10 +22,28 @@ pub enum TransientEventKind {
     GrossSlip(usize),
     /// It ends.
     GrossSlipEnds(usize),
-    /// The tension falls below zero somewhere. The model goes on with the same stiffness in compression.
+    /// The tension falls below zero somewhere. The belt then has a thousandth of its stiffness there.
     Slack,
     /// It is above zero everywhere again.
     SlackEnds,
+}
+
+/// How slack a span was in a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct SlackSpan {
+    /// Time with a tension below zero somewhere on the span, s; to the time steps at its ends.
+    pub time: f64,
+    /// Largest tension EA (λ − 1) on the span after it was slack first, as it snaps taut or later, N; −∞ if it never was.
+    pub largest_tension: f64,
+}
+
+impl SlackSpan {
+    /// A span that was not.
+    const NEVER: Self = Self {
+        time: 0.0,
+        largest_tension: f64::NEG_INFINITY,
+    };
 }
 
 /// A condition that holds or does not, interrupted for no longer than a wave takes round the loop: the waves of
@@ -60,19 +80,34 @@ pub(crate) struct Watch {
     slip: Vec<Condition>,
     slack: Condition,
     pause: f64,
-    /// The smallest density since it was last asked for.
+    /// The smallest stretch since it was last asked for.
     least_stretch: f64,
+    /// Whether any tension was ever below zero.
+    is_slack: bool,
+    /// The last time, s.
+    last: f64,
+    pub(crate) slack_spans: Vec<SlackSpan>,
+    /// The largest displacement across of each span since it was last asked for, m; none where spans do not move so.
+    largest: Vec<f64>,
     pub(crate) events: Vec<TransientEvent>,
 }
 
 impl Watch {
-    /// Watches a drive with a number of pulleys and a time in s that a wave takes round the loop.
-    pub(crate) fn new(pulleys: usize, pause: f64) -> Self {
+    /// Watches a drive whose waves take a time in s round the loop.
+    pub(crate) fn new(system: &System, pause: f64) -> Self {
+        let pulleys = system.wheels.len();
         Self {
+            largest: match system.across {
+                Some(_) => vec![0.0; pulleys],
+                None => vec![],
+            },
             slip: vec![Condition::default(); pulleys],
             slack: Condition::default(),
             pause,
             least_stretch: f64::INFINITY,
+            is_slack: false,
+            last: 0.0,
+            slack_spans: vec![SlackSpan::NEVER; pulleys],
             events: vec![],
         }
     }
@@ -86,6 +121,15 @@ impl Watch {
             false => least,
         });
         self.least_stretch = self.least_stretch.min(least);
+        self.is_slack |= least < 1.0;
+        if self.is_slack {
+            self.look_at_spans(time, rates);
+        }
+        self.last = time;
+        for (span, largest) in self.largest.iter_mut().enumerate() {
+            let displaced = string::displacements(system, state, span).iter();
+            *largest = displaced.fold(*largest, |largest, w| largest.max(w.abs()));
+        }
         let bristles = &state[system.parts.bristle.clone()];
         let Self {
             slip,
@@ -117,9 +161,32 @@ impl Watch {
         note(slack.look(time, least < 1.0, *pause), kinds);
     }
 
+    /// Looks at the tensions of the spans.
+    fn look_at_spans(&mut self, time: f64, rates: &Rates<'_>) {
+        let system = rates.system;
+        for (span, slack) in system.mesh.spans.iter().zip(&mut self.slack_spans) {
+            let stretches = &rates.stretches()[span.clone()];
+            if stretches.iter().any(|&stretch| stretch < 1.0) {
+                slack.time += time - self.last;
+                slack.largest_tension = slack.largest_tension.max(0.0);
+            }
+            if slack.largest_tension >= 0.0 {
+                let largest = stretches.iter().copied().fold(0.0, f64::max);
+                let tension = system.tension(largest);
+                slack.largest_tension = slack.largest_tension.max(tension);
+            }
+        }
+    }
+
     /// The smallest stretch since this was last asked.
     pub(crate) fn take_least_stretch(&mut self) -> f64 {
         std::mem::replace(&mut self.least_stretch, f64::INFINITY)
+    }
+
+    /// The largest displacement across of each span since this was last asked, m; none where spans do not move so.
+    pub(crate) fn take_largest(&mut self) -> Vec<f64> {
+        let asked = vec![0.0; self.largest.len()];
+        std::mem::replace(&mut self.largest, asked)
     }
 
     /// The events in the order of time.

@@ -85,11 +85,13 @@ fn fastest(system: &System, state: &[f64]) -> f64 {
         axial_stiffness,
         axial_damping,
         friction_stiffness,
+        ref across,
         ref wheels,
         ref mesh,
         ref parts,
     } = *system;
     let densities = state[parts.density.clone()].iter().copied();
+    // Waves across are slower than axial ones by the root of the strain.
     let stretch = densities.fold(f64::INFINITY, f64::min).recip();
     let speeds = state[parts.velocity.clone()].iter().copied();
     let speed = speeds.map(f64::abs).fold(0.0, f64::max);
@@ -111,5 +113,7 @@ fn fastest(system: &System, state: &[f64]) -> f64 {
         .map(|wheel| wheel.axle.rate())
         .fold(0.0, f64::max);
     let damping = 4.0 * axial_damping / (mass * cell * cell);
+    let across = across.as_ref().map_or(0.0, |across| across.damping);
+    let damping = damping.max(across * stretch / mass);
     (wave * wave + held).sqrt().max(damping).max(axles)
 }

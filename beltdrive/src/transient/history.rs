@@ -1,10 +1,11 @@
 //! What is told of a run over time.
 
-use super::events::TransientEvent;
+use super::events::{SlackSpan, TransientEvent};
 use super::implicit::ImplicitWork;
 use super::ledger::Ledger;
 use super::rates::Rates;
 use super::slip::slipping;
+use super::string;
 use crate::drive::layout::Layout;
 use nalgebra::Vector2;
 
@@ -18,6 +19,8 @@ pub struct History {
     pub samples: Vec<Sample>,
     /// What happened, in the order of time.
     pub events: Vec<TransientEvent>,
+    /// How slack each span was; span i leaves pulley i.
+    pub slack_spans: Vec<SlackSpan>,
     /// The belt along the loop at the instants asked for.
     pub belts: Vec<BeltAlongLoop>,
     /// How the run ended.
@@ -67,6 +70,8 @@ pub struct Sample {
     pub tensions: Vec<f64>,
     /// Smallest tension EA (λ − 1) of the belt since the sample before, N.
     pub smallest_tension: f64,
+    /// Largest displacement of each span across since the sample before, m; none where spans stay straight.
+    pub amplitudes: Vec<f64>,
     /// Where the energy went.
     pub ledger: Ledger,
 }
@@ -104,6 +109,8 @@ pub struct BeltAlongLoop {
     pub speed: Vec<f64>,
     /// Friction per length on the belt against its motion, N/m; 0 on the spans.
     pub friction: Vec<f64>,
+    /// Displacement across away from the inside of the loop, m; 0 on the arcs, none where spans stay straight.
+    pub displacement: Vec<f64>,
 }
 
 /// What takes samples.
@@ -163,9 +170,8 @@ impl Observer {
                 hub_load: self.hub_load(rates, state, index).into(),
             }
         };
-        let density = &state[parts.density.clone()];
         let middle = |span: &std::ops::Range<usize>| {
-            let at = |cell: usize| system.tension(density[cell + 1]);
+            let at = |cell: usize| system.tension(rates.stretches()[cell]);
             let middle = span.start + span.len() / 2;
             match span.len() % 2 {
                 0 => 0.5 * (at(middle - 1) + at(middle)),
@@ -176,7 +182,8 @@ impl Observer {
             time,
             pulleys: (0..count).map(pulley).collect(),
             tensions: system.mesh.spans.iter().map(middle).collect(),
-            smallest_tension: system.tension(least_stretch.recip()),
+            smallest_tension: system.tension(least_stretch),
+            amplitudes: vec![],
             ledger: Ledger::of(system, state, self.energy),
         }
     }
@@ -216,12 +223,12 @@ impl Observer {
         BeltAlongLoop {
             time,
             position: mesh.middles().collect(),
-            tension: density
-                .iter()
-                .map(|&density| system.tension(density))
+            tension: { rates.stretches().iter() }
+                .map(|&stretch| system.tension(stretch))
                 .collect(),
             speed: rates.middles().to_vec(),
             friction,
+            displacement: string::along_loop(system, state),
         }
     }
 }

@@ -5,10 +5,13 @@ use super::mesh::{LEAST_ARC_CELLS, LEAST_SPAN_CELLS, Mesh, Stretch, even};
 use super::schedule::Schedule;
 use super::simulation::{Cells, Simulation, Start, TransientError, Until};
 use super::state::Parts;
+use super::string;
 use super::system::{System, Wheel};
+use super::transverse::{Across, End, RunOut, SpanAcross, Transverse};
 use crate::drive::layout::Layout;
 use crate::results::loop_state::LoopState;
 use crate::{BeltKind, Drive, FrictionLaw, Pulley};
+use nalgebra::Vector2;
 
 /// Most cells of a mesh: a second of motion then takes an hour.
 const MOST_CELLS: usize = 10_000;
@@ -93,10 +96,71 @@ pub(crate) fn system(
         axial_stiffness: drive.belt.axial_stiffness,
         axial_damping: simulation.axial_damping,
         friction_stiffness: stiffness,
+        across: simulation
+            .transverse
+            .as_ref()
+            .map(|stated| across(stated, layout)),
         wheels: wheels.map(wheel).collect(),
-        parts: Parts::new(&mesh),
+        parts: match simulation.transverse {
+            Some(_) => Parts::across(&mesh),
+            None => Parts::new(&mesh),
+        },
         mesh,
     })
+}
+
+/// What moves the spans of a drive that is laid out across.
+fn across(stated: &Transverse, layout: &Layout) -> Across {
+    let count = layout.spans().len();
+    let sense = layout.sense();
+    let end = |pulley: usize, ahead: f64| {
+        let round = stated.run_outs[pulley].unwrap_or(RunOut {
+            amplitude: 0.0,
+            order: 1,
+        });
+        End {
+            pulley,
+            // A pulley round which the belt turns the other way lies outside the loop.
+            amplitude: round.amplitude * layout.pulleys()[pulley].turns(sense) * sense.sign(),
+            order: round.order as f64,
+            ahead,
+        }
+    };
+    let spans = layout.spans().iter().enumerate().map(|(span, laid)| {
+        let next = (span + 1) % count;
+        let inward = sense.sign() * laid.normal();
+        SpanAcross {
+            gravity: -inward.dot(&Vector2::from(stated.gravity)),
+            ends: [end(span, 0.0), end(next, layout.wraps()[next])],
+        }
+    });
+    Across {
+        damping: stated.damping,
+        spans: spans.collect(),
+    }
+}
+
+/// What is wrong with a motion of the spans across.
+fn of_transverse(stated: &Transverse, pulleys: usize) -> Option<&'static str> {
+    if !(stated.damping >= 0.0 && stated.damping.is_finite()) {
+        return Some("the damping must not be negative");
+    }
+    if !stated.gravity.iter().all(|part| part.is_finite()) {
+        return Some("gravity must be finite");
+    }
+    if [stated.plucks.len(), stated.run_outs.len()] != [pulleys; 2] {
+        return Some("there must be a pluck of every span and a run-out of every pulley, or none");
+    }
+    let mut plucks = stated.plucks.iter().flatten();
+    if plucks.any(|pluck| !pluck.amplitude.is_finite() || pluck.mode == 0) {
+        return Some("a pluck needs an amplitude and at least one half wave");
+    }
+    let mut run_outs = stated.run_outs.iter().flatten();
+    let is_wrong = |run_out: &RunOut| {
+        !(run_out.amplitude >= 0.0 && run_out.amplitude.is_finite()) || run_out.order == 0
+    };
+    (run_outs.any(is_wrong))
+        .then_some("a run-out needs an amplitude that is not negative and at least one wave")
 }
 
 /// Refuses what is out of range, whatever the state at time 0.
@@ -115,6 +179,11 @@ pub(crate) fn check(simulation: &Simulation) -> Result<(), TransientError> {
     let damping = simulation.axial_damping;
     if !(damping >= 0.0 && damping.is_finite()) {
         return refuse("axial damping", "it must not be negative");
+    }
+    if let Some(stated) = &simulation.transverse
+        && let Some(problem) = of_transverse(stated, drive.pulleys.len())
+    {
+        return refuse("motion of the spans across", problem);
     }
     let cells_are_in_range = match simulation.cells {
         Cells::Total(cells) => (1..=MOST_CELLS).contains(&cells),
@@ -280,6 +349,11 @@ pub(crate) fn running(system: &System, found: &LoopState) -> Result<Vec<f64>, Tr
         state[parts.speed.start + pulley] = known.angular_speed;
     }
     Ok(state)
+}
+
+/// Displaces the spans of a state as they are plucked.
+pub(crate) fn pluck(system: &System, stated: &Transverse, state: &mut [f64]) {
+    string::pluck(system, &stated.plucks, state);
 }
 
 /// The value of a list at a place between others that rise.

@@ -121,7 +121,7 @@ fn belt(rates: &Rates<'_>, state: &[f64], entry: &mut impl FnMut(usize, usize, f
         for (cell, sign) in [(behind, -1.0), (ahead, 1.0)] {
             let stretch = rates.stretch[cell + 1];
             let per_stretch = -stretch * stretch;
-            let elastic = system.axial_stiffness * stretch;
+            let elastic = system.stiffness(stretch) * stretch;
             let stretching = rates.stretching[cell + 1];
             // The rate of stretch λ Δv/h in proportion to λ and to Δv.
             let damped = damping * (relative + sign * both * stretching / stretch);

@@ -1,5 +1,6 @@
 //! Where the energy of a run goes.
 
+use super::state::AcrossParts;
 use super::system::System;
 
 /// Largest share of the turnover that may not be accounted for. The residual falls with the square of the cell
@@ -9,20 +10,27 @@ pub(crate) const BOUND: f64 = 1e-4;
 
 /// Energy since the start of a run, J:
 ///
-/// work of the axles = change of kinetic and strain energy + loss in axial damping + work into the contact.
+/// work of the axles + work of gravity and of run-out on the spans = change of kinetic and strain energy + loss in
+/// damping + work into the contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Ledger {
     /// Work that all axles have done on the pulleys: of motors less of loads.
     pub work: f64,
+    /// Work of gravity on the spans; 0 unless they move across.
+    pub gravity: f64,
+    /// Work of the run-out of pulleys on the spans, which is not taken from their axles; 0 unless they move across.
+    pub run_out: f64,
     /// Change of the kinetic energy of pulleys and belt and the strain energy of the belt.
     pub stored: f64,
     /// Work lost in axial damping.
     pub damped: f64,
+    /// Work lost in the damping of the motion of the spans across.
+    pub damped_across: f64,
     /// Work that went into the contact between belt and pulleys: sliding, bristle energy carried out where the belt
     /// leaves, and the change of bristle energy.
     pub contact: f64,
-    /// What the residual is measured by: the energy at the start and the work of all axles without regard to sign.
+    /// What the residual is measured by: the energy at the start and all work without regard to sign.
     pub turnover: f64,
 }
 
@@ -30,7 +38,12 @@ impl Ledger {
     /// The ledger of a state, of a run that started with an energy in J.
     pub(crate) fn of(system: &System, state: &[f64], at_start: f64) -> Self {
         let parts = &system.parts;
+        let across = parts.across.as_ref();
+        let of = |place: fn(&AcrossParts) -> usize| across.map_or(0.0, |own| state[place(own)]);
         Self {
+            gravity: of(|own| own.gravity),
+            run_out: of(|own| own.run_out),
+            damped_across: of(|own| own.damped),
             work: state[parts.work.clone()].iter().sum(),
             stored: system.energy(state) - at_start,
             damped: state[parts.damped],
@@ -42,7 +55,8 @@ impl Ledger {
     /// Energy that is not accounted for, J.
     #[must_use]
     pub fn residual(&self) -> f64 {
-        self.work - self.stored - self.damped - self.contact
+        let given = self.work + self.gravity + self.run_out;
+        given - self.stored - self.damped - self.damped_across - self.contact
     }
 
     /// Whether it closes.

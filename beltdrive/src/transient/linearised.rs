@@ -57,7 +57,7 @@ pub(crate) fn linearised(rates: &Rates<'_>, state: &[f64], slips: &[bool]) -> Li
 
     let mut energies = vec![0.0; unknowns];
     for (cell, length) in mesh.lengths.iter().enumerate() {
-        energies[cell] = system.axial_stiffness * length;
+        energies[cell] = system.stiffness(rates.stretches()[cell]) * length;
         energies[all.velocity(cell)] = rates.per_mass[cell].recip();
     }
     let on_arcs = (0..mesh.arcs.len())

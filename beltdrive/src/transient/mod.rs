@@ -43,17 +43,20 @@ mod simulation;
 mod slip;
 mod state;
 mod steady;
+mod string;
 mod sums;
 mod system;
 #[cfg(test)]
 mod tests;
+mod transverse;
 pub(crate) mod vibration;
 
 pub use axle::{Axle, Load, Motion, Motor};
-pub use events::{TransientEvent, TransientEventKind};
+pub use events::{SlackSpan, TransientEvent, TransientEventKind};
 pub use history::{BeltAlongLoop, Effort, Ending, History, PulleySample, Sample};
 pub use implicit::ImplicitWork;
 pub use ledger::Ledger;
 pub use schedule::{Pulsation, Schedule};
 pub use simulation::{Cells, Simulation, Start, TransientError, Until};
+pub use transverse::{Pluck, RunOut, Transverse};
 pub use vibration::VibrationMode;

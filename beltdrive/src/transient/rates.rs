@@ -11,8 +11,9 @@
 
 use super::axle::{Load, Motion, Motor};
 use super::bristle::transport;
+use super::string::Room;
 use super::sums::{LANES, dot, total};
-use super::system::System;
+use super::system::{SLACK, System};
 
 /// The rates of the states of a system; what they are computed from stays until the next ones.
 pub(crate) struct Rates<'s> {
@@ -26,12 +27,12 @@ pub(crate) struct Rates<'s> {
     /// Of the cells, after that of the last one: stretch λ, its rate in 1/s, ½ EA λ² − ½ m v̂² in N, friction q h in N.
     pub(super) stretch: Vec<f64>,
     pub(super) stretching: Vec<f64>,
-    pressure: Vec<f64>,
+    pub(super) pressure: Vec<f64>,
     friction: Vec<f64>,
     /// Velocity in the middles of the cells, m/s.
     pub(super) middle: Vec<f64>,
     /// Mass flow over m through the faces, m/s.
-    flux: Vec<f64>,
+    pub(super) flux: Vec<f64>,
     /// Largest displacement μ n λ/`k_f` of the bristles, m.
     pub(super) caps: Vec<f64>,
     /// Friction q ρ h on the arcs, N.
@@ -42,6 +43,16 @@ pub(crate) struct Rates<'s> {
     pub(crate) shaft: Vec<f64>,
     /// On which straight line of its schedules each axle is.
     lines: Vec<[usize; 2]>,
+    /// What the rates of a span across are computed from.
+    pub(super) room: Room,
+}
+
+/// ½ EA λ² − ½ m v² of a stretch and a velocity, N; its slope over λ is λ times that of the tension, also in compression.
+pub(super) fn pressure(axial_stiffness: f64, mass: f64, [stretch, middle]: [f64; 2]) -> f64 {
+    let elastic = axial_stiffness * stretch * stretch;
+    // In compression the second is larger.
+    let elastic = elastic.max((1.0 - SLACK) * axial_stiffness + SLACK * elastic);
+    0.5 * (elastic - mass * middle * middle)
 }
 
 impl<'s> Rates<'s> {
@@ -75,6 +86,7 @@ impl<'s> Rates<'s> {
             torque: vec![0.0; pulleys],
             shaft: vec![0.0; pulleys],
             lines: vec![[0; 2]; pulleys],
+            room: Room::default(),
             system,
         }
     }
@@ -92,9 +104,11 @@ impl<'s> Rates<'s> {
     pub(crate) fn of(&mut self, time: f64, state: &mut [f64], rates: &mut [f64]) {
         self.cells(state);
         self.prescribe(time, state);
+        self.raise(state);
         let contact = self.arcs(state, rates);
         self.faces(state, rates);
         self.axles(time, state, rates);
+        self.across(state, rates);
         let parts = &self.system.parts;
         let damped = self.damped(&state[parts.density.clone()]);
         rates[parts.damped] = damped;
@@ -122,7 +136,7 @@ impl<'s> Rates<'s> {
             let middle = 0.5 * (behind[cell] + before[cell]);
             stretches[cell] = stretch;
             stretching[cell] = stretch * (before[cell] - behind[cell]) * per_cell[cell];
-            pressures[cell] = 0.5 * (axial_stiffness * stretch * stretch - mass * middle * middle);
+            pressures[cell] = pressure(axial_stiffness, mass, [stretch, middle]);
             middles[cell] = middle;
         }
         for closed in [&mut self.stretch, &mut self.stretching, &mut self.pressure] {

@@ -2,7 +2,7 @@
 //!
 //! Steps are explicit. On the way to a steady state, after the last corner of what is given over time, they are
 //! implicit, and end at samples or lie between two of them; where no implicit step leads on, because a load stops a
-//! pulley, they are explicit up to the next sample.
+//! pulley, they are explicit up to the next sample. Spans that move across take explicit steps only.
 
 use super::events::Watch;
 use super::explicit::{Explicit, stable_step};
@@ -11,6 +11,7 @@ use super::implicit::Implicit;
 use super::rates::Rates;
 use super::simulation::{Simulation, TransientError, Until};
 use super::steady::Stillness;
+use super::string;
 use super::system::System;
 use crate::drive::layout::Layout;
 use web_time::Instant;
@@ -69,6 +70,7 @@ pub(crate) fn run(
         let stop = instants.peek().map_or(stop, |&instant| instant.min(stop));
         if run.is_steady_sought
             && simulation.step.is_none()
+            && system.across.is_none()
             && stillness.is_after_corners(time)
             && time >= explicit_until
         {
@@ -114,6 +116,7 @@ pub(crate) fn run(
         possible(system, &state, time)?;
         time = stop;
     }
+    run.history.slack_spans = run.watch.slack_spans.clone();
     run.history.events = run.watch.into_events();
     run.history.effort.seconds = begun.elapsed().as_secs_f64();
     Ok(run.history)
@@ -122,6 +125,9 @@ pub(crate) fn run(
 /// Longest implicit step in intervals between samples: five samples without a change, of which each step has one, are
 /// then as far apart as a hundred times five of those that an explicit run looks at.
 const LONGEST: f64 = 100.0;
+
+/// Largest slope of a span that moves across: the stretch leaves out s⁴/8, which is then a thousandth.
+const STEEPEST: f64 = 0.3;
 
 /// Most steps between two looks at the largest stable one: in so many a wave passes 40 cells at most.
 const MOST_STEPS: usize = 100;
@@ -153,7 +159,7 @@ impl<'s> Run<'s> {
         let wave = (system.axial_stiffness / system.mass).sqrt();
         Self {
             observer: Observer::new(&rates, layout, system.energy(state)),
-            watch: Watch::new(system.wheels.len(), system.mesh.length() / wave),
+            watch: Watch::new(system, system.mesh.length() / wave),
             rates,
             history: History {
                 pulleys: layout
@@ -163,6 +169,7 @@ impl<'s> Run<'s> {
                     .collect(),
                 samples: vec![],
                 events: vec![],
+                slack_spans: vec![],
                 belts: vec![],
                 ending: match is_steady_sought {
                     true => Ending::NotSteady,
@@ -199,9 +206,10 @@ impl<'s> Run<'s> {
     /// Takes a sample of a state at a time in s whose rates were computed last.
     fn sample(&mut self, time: f64, state: &[f64]) -> Result<(), TransientError> {
         let least_stretch = self.watch.take_least_stretch();
-        let sample = self
+        let mut sample = self
             .observer
             .sample(time, &self.rates, state, least_stretch);
+        sample.amplitudes = self.watch.take_largest();
         let ledger = sample.ledger;
         self.history.samples.push(sample);
         match ledger.closes() {
@@ -265,6 +273,9 @@ fn possible(system: &System, state: &[f64], time: f64) -> Result<(), TransientEr
     let mut densities = state[system.parts.density.clone()].iter();
     if densities.any(|density| *density <= 0.0) {
         return impossible("the belt is stretched without bounds");
+    }
+    if string::steepest(system, state) > STEEPEST {
+        return impossible("a span moves across with a slope beyond which its stretch is wrong");
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! What is simulated, and why it cannot be.
 
 use super::axle::Axle;
+use super::transverse::Transverse;
 use crate::{Drive, SolveError};
 
 /// A drive with a flat belt in time.
@@ -13,6 +14,8 @@ pub struct Simulation {
     pub axles: Vec<Axle>,
     /// Axial damping `c_d` of the belt, N·s: the tension is EA (λ − 1) + `c_d` λ̇. Not negative; 0 is no damping.
     pub axial_damping: f64,
+    /// Motion of the spans across; without it they stay straight.
+    pub transverse: Option<Transverse>,
     /// The state at time 0.
     pub start: Start,
     /// Cells of the mesh.

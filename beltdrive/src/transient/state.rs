@@ -23,8 +23,27 @@ pub(crate) struct Parts {
     pub(crate) damped: usize,
     /// Work that went into the contact between belt and pulleys, J.
     pub(crate) contact: usize,
-    /// Work done on all pulleys without regard to its sign, J.
+    /// Work done on all pulleys, by gravity and by run-out without regard to its sign, J.
     pub(crate) turnover: usize,
+    /// Those of spans that move across, if they do.
+    pub(crate) across: Option<AcrossParts>,
+}
+
+/// Where the parts of spans that move across stand.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct AcrossParts {
+    /// Displacement w away from the inside of the loop at the faces of all spans, both ends included, m.
+    pub(crate) displacement: Range<usize>,
+    /// Velocity u of the belt in that direction at the same places, m/s.
+    pub(crate) velocity: Range<usize>,
+    /// Angle by which each pulley has turned, rad.
+    pub(crate) angle: Range<usize>,
+    /// Work of gravity, J.
+    pub(crate) gravity: usize,
+    /// Work of the run-out of pulleys, J.
+    pub(crate) run_out: usize,
+    /// Work lost in the damping of motion across, J.
+    pub(crate) damped: usize,
 }
 
 impl Parts {
@@ -46,12 +65,38 @@ impl Parts {
             damped: next(1).start,
             contact: next(1).start,
             turnover: next(1).start,
+            across: None,
+        }
+    }
+
+    /// The parts of a state on a mesh whose spans move across.
+    pub(crate) fn across(mesh: &Mesh) -> Self {
+        let parts = Self::new(mesh);
+        let faces = mesh.spans.iter().map(|span| span.len() + 1).sum();
+        let mut end = parts.len();
+        let mut next = |count: usize| {
+            let start = end;
+            end += count;
+            start..end
+        };
+        let across = AcrossParts {
+            displacement: next(faces),
+            velocity: next(faces),
+            angle: next(mesh.arcs.len()),
+            gravity: next(1).start,
+            run_out: next(1).start,
+            damped: next(1).start,
+        };
+        Self {
+            across: Some(across),
+            ..parts
         }
     }
 
     /// Length of the list.
     pub(crate) fn len(&self) -> usize {
-        self.turnover + 1
+        let across = self.across.as_ref();
+        across.map_or(self.turnover, |across| across.damped) + 1
     }
 
     /// A state with one density and one belt speed, and everything else 0.

@@ -1,6 +1,7 @@
 //! Whether nothing changes any more.
 
 use super::rates::Rates;
+use super::string;
 
 /// Largest change in a second, relative.
 const STILL: f64 = 1e-6;
@@ -54,7 +55,9 @@ impl Stillness {
         let tension =
             tensions.map(|(density, change)| (change / (density * (1.0 - density))).abs());
         let tension = tension.fold(0.0, f64::max);
-        let is_still = tension < STILL && rims(changes) <= STILL * rims(state);
+        let is_still = tension < STILL
+            && rims(changes) <= STILL * rims(state)
+            && string::fastest(system, changes) <= STILL * system.mesh.length();
         self.still = match is_still && self.is_after_corners(time) {
             true => self.still + 1,
             false => 0,

@@ -3,6 +3,12 @@
 use super::axle::Axle;
 use super::mesh::Mesh;
 use super::state::Parts;
+use super::string;
+use super::transverse::Across;
+
+/// Share of the axial stiffness that the belt has in compression. A slack belt gives way, but with none of it nothing
+/// would hold its cells at a length; with this one the excess of 1 % pushes with 1e-5 EA, a newton of a belt of 100 kN.
+pub(crate) const SLACK: f64 = 1e-3;
 
 /// A flat belt on its pulleys.
 #[derive(Clone, Debug)]
@@ -15,6 +21,8 @@ pub(crate) struct System {
     pub(crate) axial_damping: f64,
     /// Stiffness `k_f` of friction per unstretched length, N/m².
     pub(crate) friction_stiffness: f64,
+    /// What moves the spans across, if they move so.
+    pub(crate) across: Option<Across>,
     /// The pulleys in belt order.
     pub(crate) wheels: Vec<Wheel>,
     /// The mesh.
@@ -35,20 +43,29 @@ pub(crate) struct Wheel {
 }
 
 impl System {
-    /// The same drive with so many cells in place of each.
+    /// The same drive with so many cells in place of each; its spans do not move across.
     pub(crate) fn refined(&self, by: usize) -> Self {
         let mesh = self.mesh.refined(by);
         Self {
             parts: Parts::new(&mesh),
             mesh,
+            across: None,
             wheels: self.wheels.clone(),
             ..*self
         }
     }
 
-    /// Tension EA (1/ρ − 1) without damping, N.
-    pub(crate) fn tension(&self, density: f64) -> f64 {
-        self.axial_stiffness * (density.recip() - 1.0)
+    /// How much the tension rises with a stretch, N: EA, and [`SLACK`] of it in compression.
+    pub(crate) fn stiffness(&self, stretch: f64) -> f64 {
+        match stretch < 1.0 {
+            true => SLACK * self.axial_stiffness,
+            false => self.axial_stiffness,
+        }
+    }
+
+    /// Tension EA (λ − 1) without damping at a stretch, N; with [`SLACK`] of EA in compression.
+    pub(crate) fn tension(&self, stretch: f64) -> f64 {
+        self.stiffness(stretch) * (stretch - 1.0)
     }
 
     /// Unstretched length of the belt, m.
@@ -72,11 +89,12 @@ impl System {
         let belt = (0..cells).map(|cell| {
             let before = lengths[(cell + cells - 1) % cells];
             let on_face = 0.5 * (density[cell] * before + density[cell + 1] * lengths[cell]);
-            let strain = density[cell + 1].recip() - 1.0;
-            let elastic = 0.5 * self.axial_stiffness * strain * strain;
+            let stretch = density[cell + 1].recip();
+            let strain = stretch - 1.0;
+            let elastic = 0.5 * self.stiffness(stretch) * strain * strain;
             0.5 * self.mass * on_face * velocity[cell] * velocity[cell]
                 + elastic * density[cell + 1] * lengths[cell]
         });
-        pulleys.sum::<f64>() + belt.sum::<f64>()
+        pulleys.sum::<f64>() + belt.sum::<f64>() + string::energy(self, state)
     }
 }

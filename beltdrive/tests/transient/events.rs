@@ -1,8 +1,10 @@
 //! Gross slip, its end, slack, loads that hold and loads that do not.
 
 use super::{driver, follow, from_rest, kim, loaded};
-use beltdrive::simulate;
-use beltdrive::transient::{Ending, Load, Motion, Motor, Schedule, Start, TransientEventKind};
+use beltdrive::transient::{
+    Ending, History, Load, Motion, Motor, Schedule, Start, TransientEventKind,
+};
+use beltdrive::{Duty, simulate};
 
 #[test]
 fn a_pulse_of_load_makes_the_driven_pulley_slip_and_it_recovers() {
@@ -139,4 +141,52 @@ fn a_run_ends_where_it_is_told_to() {
         assert!((share - time / 0.02).abs() < 1e-12);
     }
     assert!((history.samples.last().unwrap().time - 0.01).abs() < 1e-12);
+}
+
+/// A drive with little tension that a pulse of the load makes slack, on a mesh.
+fn slackened(cells: usize) -> History {
+    let axles = vec![
+        driver(Schedule::constant(20.0)),
+        loaded(
+            0.005,
+            Load::new(Schedule::pulse([0.01, 0.012], [1.0, 12.0])),
+        ),
+    ];
+    let mut simulation = from_rest(kim(2.0e8, 6e-4, 1.0), axles, cells, 0.04);
+    simulation.drive.pulleys[0].duty = Duty::Driver(20.0);
+    simulation.start = Start::Running;
+    simulation.axial_damping = 1.0;
+    follow(&simulation)
+}
+
+#[test]
+fn a_slack_span_gives_way_and_snaps() {
+    let histories = [60, 120, 240].map(slackened);
+    let residuals = histories.each_ref().map(|history| {
+        let ledger = history.samples.last().unwrap().ledger;
+        ledger.residual() / ledger.turnover
+    });
+    println!("{residuals:?}");
+    let history = &histories[2];
+    println!("{:?} {:?}", history.events, history.slack_spans);
+    let is_slack = |kind| history.events.iter().any(|event| event.kind == kind);
+    assert!(is_slack(TransientEventKind::Slack) && is_slack(TransientEventKind::SlackEnds));
+    // The span behind the driver is slack; the one behind the driven pulley never is.
+    let [slack, taut] = history.slack_spans[..] else {
+        panic!("two spans")
+    };
+    assert!(slack.time > 1e-3 && slack.time < 0.03, "{slack:?}");
+    assert_eq!((taut.time, taut.largest_tension), (0.0, f64::NEG_INFINITY));
+    // What pushes is a thousandth of what the same stretch would pull.
+    let samples = || history.samples.iter();
+    let least = samples().map(|sample| sample.smallest_tension);
+    let least = least.fold(f64::INFINITY, f64::min);
+    assert!(least < 0.0 && least > -0.5, "{least}");
+    let after = samples().skip_while(|sample| sample.tensions[0] >= 0.0);
+    let largest = after.map(|sample| sample.tensions[0]).fold(0.0, f64::max);
+    assert!(
+        slack.largest_tension >= largest && largest > 40.0,
+        "{slack:?} {largest}"
+    );
+    assert!(residuals[2].abs() < 1e-6, "{residuals:?}");
 }

@@ -61,6 +61,7 @@ pub(crate) fn from_rest(drive: Drive, axles: Vec<Axle>, cells: usize, end: f64) 
         drive,
         axles,
         axial_damping: 0.1,
+        transverse: None,
         start: Start::Rest,
         cells: Cells::Total(cells),
         until: Until::Time(end),

@@ -334,6 +334,48 @@ const TRANSIENT: &[Rule] = &[
         Dimension::AXIAL_DAMPING,
         Range::NotNegative,
     ),
+    ranged(
+        "transient.transverse.damping",
+        "\"0.2 N*s/m^2\"",
+        Dimension::DAMPING_PER_LENGTH,
+        Range::NotNegative,
+    ),
+    ranged(
+        "transient.transverse.gravity",
+        "\"9.81 m/s^2\"",
+        Dimension::ACCELERATION,
+        Range::NotNegative,
+    ),
+    ranged(
+        "transient.transverse.gravity_direction",
+        "\"-90 deg\"",
+        Dimension::ANGLE,
+        Range::Any,
+    ),
+    ranged(
+        "transient.pulley.*.run_out",
+        "\"0.05 mm\"",
+        Dimension::LENGTH,
+        Range::NotNegative,
+    ),
+    ranged(
+        "transient.pulley.*.run_out_order",
+        "1",
+        Dimension::NUMBER,
+        Range::Whole,
+    ),
+    ranged(
+        "transient.pulley.*.pluck",
+        "\"1 mm\"",
+        Dimension::LENGTH,
+        Range::Any,
+    ),
+    ranged(
+        "transient.pulley.*.pluck_mode",
+        "1",
+        Dimension::NUMBER,
+        Range::Whole,
+    ),
     quantity(
         "transient.pulley.*.inertia",
         "\"0.005 kg*m^2\"",

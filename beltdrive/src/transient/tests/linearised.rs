@@ -22,6 +22,13 @@ fn free(inertia: f64, motor: Option<Motor>, per_speed: f64) -> Axle {
 
 #[test]
 fn the_linearised_rates_are_the_derivatives_of_the_rates() {
+    // With the cells of a span that are slack.
+    for slack in [0..0, 6..9] {
+        rates_have_derivatives(slack);
+    }
+}
+
+fn rates_have_derivatives(slack: std::ops::Range<usize>) {
     let motor = Motor::line(40.0, 150.0);
     let axles = [free(0.005, None, 0.02), free(0.01, Some(motor), 0.0)];
     let mut system = system(24, [0.4, 2.0e8], axles);
@@ -31,6 +38,9 @@ fn the_linearised_rates_are_the_derivatives_of_the_rates() {
     let mut state = parts.uniform(1.0 / STRETCH, 9.75);
     for (index, place) in parts.density.clone().skip(1).enumerate() {
         state[place] += 5e-4 * (1.3 * index as f64).sin();
+        if slack.contains(&index) {
+            state[place] += 0.01;
+        }
     }
     for (index, place) in parts.velocity.clone().enumerate() {
         state[place] += 0.05 * (0.7 * index as f64).cos();

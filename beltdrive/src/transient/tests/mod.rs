@@ -5,6 +5,7 @@ mod integrators;
 mod linearised;
 mod modes;
 mod pulsation;
+mod spans;
 mod waves;
 
 use super::axle::{Axle, Motion};
@@ -39,6 +40,7 @@ fn system(cells: usize, friction: [f64; 2], axles: [Axle; 2]) -> System {
         axial_stiffness: 80_068.0,
         axial_damping: 0.0,
         friction_stiffness,
+        across: None,
         wheels: axles.map(wheel).into(),
         parts: Parts::new(&mesh),
         mesh,

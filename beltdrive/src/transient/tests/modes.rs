@@ -29,11 +29,15 @@ fn frequency(cells: usize, stiffness: f64, driver: Axle, near: f64) -> f64 {
             next = time + 2e-4;
         }
     });
-    // The frequency at which a sinusoid leaves least, sought between two others.
+    fitted(&samples, near)
+}
+
+/// The angular frequency near a known one at which a sinusoid leaves least of samples of time and value, rad/s.
+pub(super) fn fitted(samples: &[[f64; 2]], near: f64) -> f64 {
     let [mut low, mut high] = [0.995 * near, 1.005 * near];
     while high - low > 1e-7 * near {
         let inner = [1.0, 2.0].map(|third| low + third * (high - low) / 3.0);
-        let [one, other] = inner.map(|frequency| left(&samples, frequency));
+        let [one, other] = inner.map(|frequency| left(samples, frequency));
         match one < other {
             true => high = inner[1],
             false => low = inner[0],
@@ -43,7 +47,7 @@ fn frequency(cells: usize, stiffness: f64, driver: Axle, near: f64) -> f64 {
 }
 
 /// Time over which a frequency is fitted, s.
-const DURATION: f64 = 0.3;
+pub(super) const DURATION: f64 = 0.3;
 
 /// What is left of samples of time and value without a constant and a sinusoid, with a weight that fades at both ends:
 /// waves ride on the vibration.
