@@ -21,7 +21,9 @@
 //! On the way to a steady state, from where nothing changes any more of what is given, they are those of an implicit
 //! method, as long as the motion allows, which damps vibrations.
 //!
-//! Not modelled: V-belts, tensioners, motion across the spans, bending, friction laws other than
+//! As an option the spans move across ([`Transverse`]), with explicit steps only.
+//!
+//! Not modelled: V-belts, tensioners, bending, friction laws other than
 //! elastic/perfectly-plastic.
 
 mod axle;
