@@ -119,6 +119,13 @@ fn the_steady_state_is_reached_or_missed() {
     let without_pulse = example("slip-pulse").replace("100 N*m", "30 N*m");
     let text = stdout(&simulate("steady", &without_pulse, &options));
     assert!(text.contains("to the steady state"), "{text}");
+    // A motor and a load that depend on the speed, whose steady state the end of the example leaves time for.
+    let text = stdout(&simulate(
+        "steady",
+        example("soft-start"),
+        &["--until", "steady"],
+    ));
+    assert!(text.contains("to the steady state"), "{text}");
     let options = [
         "--until",
         "steady",

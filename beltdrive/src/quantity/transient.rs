@@ -220,6 +220,7 @@ fn run(history: &History) -> Vec<Quantity> {
         Ending::Interrupted => "interrupted",
     };
     let [shortest, longest] = effort.step;
+    let implicit = effort.implicit;
     vec![
         Quantity::word("ending", "", ending.to_owned()),
         Quantity::number(
@@ -231,6 +232,13 @@ fn run(history: &History) -> Vec<Quantity> {
         ),
         Quantity::count("cells", "cells", effort.cells),
         Quantity::count("steps", "time steps", effort.steps),
+        Quantity::count(
+            "implicit_steps",
+            if implicit.steps > 0 { "  implicit" } else { "" },
+            implicit.steps,
+        ),
+        Quantity::count("newton_iterations", "", implicit.iterations),
+        Quantity::count("factorisations", "", implicit.factorisations),
         Quantity::number("shortest_step", "", Measure::Time, shortest, SHOWN),
         Quantity::number(
             "longest_step",

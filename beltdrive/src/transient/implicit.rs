@@ -25,6 +25,7 @@ use super::jacobian::{Unknowns, derivatives, of_cap};
 use super::rates::Rates;
 use super::system::System;
 use std::f64::consts::SQRT_2;
+use std::ops::Range;
 
 /// d.
 const DIAGONAL: f64 = 1.0 - 0.5 * SQRT_2;
@@ -95,8 +96,9 @@ pub(crate) struct Implicit {
     from: Vec<f64>,
     constant: Vec<f64>,
     rates: Vec<f64>,
-    /// Whether bristles are at their bounds.
+    /// Whether bristles are at their bounds, and their places in the state.
     slips: Vec<bool>,
+    bristles: Range<usize>,
     side: Vec<f64>,
     /// Length of the next step, s.
     next: f64,
@@ -171,6 +173,7 @@ impl Implicit {
             entries: vec![],
             factorised: 0.0,
             slips: vec![false; arcs.len()],
+            bristles: system.parts.bristle.clone(),
             arcs,
             slopes: [room(), room(), room()],
             from: state.to_vec(),
@@ -206,7 +209,8 @@ impl Implicit {
     }
 
     /// The state at a share of the last step, which was of a length in s and led to a state: the cubic with the
-    /// states and the rates at both ends (Hermite).
+    /// states and the rates at both ends (Hermite). Bristles that slip at the end of the step are beyond their bounds, to
+    /// which rates cut them back.
     pub(crate) fn within(&self, share: f64, step: f64, state: &[f64], to: &mut [f64]) {
         let left = 1.0 - share;
         let [from_weight, to_weight] = [
@@ -219,6 +223,10 @@ impl Implicit {
                 + to_weight * state[index]
                 + first * self.slopes[0][index]
                 + last * self.slopes[2][index];
+        }
+        let slipping = self.slips.iter().zip(self.bristles.clone());
+        for (_, index) in slipping.filter(|(slips, _)| **slips) {
+            to[index] = f64::MAX.copysign(state[index]);
         }
     }
 
@@ -376,6 +384,11 @@ impl Implicit {
             if size <= enough {
                 parts.close(state);
                 rates.of(time, state, &mut self.rates);
+                let bristles = &mut state[parts.bristle.clone()];
+                let at_bounds = self.slips.iter().zip(bristles).zip(&rates.caps);
+                for ((_, bristle), cap) in at_bounds.filter(|((slips, _), _)| **slips) {
+                    *bristle = cap.copysign(*bristle);
+                }
                 return Some(());
             }
             refresh = size > CONTRACTION * last;

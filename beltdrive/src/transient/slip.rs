@@ -1,17 +1,10 @@
 //! The arc on which the belt slips.
 
-/// Share of the largest displacement by which a bristle may be below it and slip: the implicit steps reach it to 1e-5
-/// in the mean, and where friction reaches its limit the margin falls by far more from cell to cell.
-const AT_LIMIT: f64 = 1e-4;
-
 /// Length of the part of an arc on which the bristles are at their largest displacement, in cells.
 ///
 /// The margin between the two is continued from the cells that stick through a parabola, to where it is used up.
 pub(crate) fn slipping(bristles: &[f64], caps: &[f64]) -> f64 {
-    let margin = |cell: usize| match caps[cell] - bristles[cell].abs() {
-        margin if margin > AT_LIMIT * caps[cell] => margin,
-        _ => 0.0,
-    };
+    let margin = |cell: usize| caps[cell] - bristles[cell].abs();
     let sticks = |cell: usize, offset: isize| {
         let other = cell
             .checked_add_signed(offset)
@@ -75,7 +68,5 @@ mod tests {
         }
         assert_eq!(slipping(&[1.0; 5], &[1.0; 5]), 5.0);
         assert_eq!(slipping(&[0.5; 5], &[1.0; 5]), 0.0);
-        // As close to the limit as an implicit step leaves them.
-        assert_eq!(slipping(&[1.0 - 1e-5; 5], &[1.0; 5]), 5.0);
     }
 }

@@ -143,19 +143,17 @@ fn a_run_ends_where_it_is_told_to() {
     assert!((history.samples.last().unwrap().time - 0.01).abs() < 1e-12);
 }
 
-/// A drive with little tension that a pulse of the load makes slack, on a mesh.
+/// A drive with little tension whose driver is stopped in half a millisecond, on a mesh.
 fn slackened(cells: usize) -> History {
     let axles = vec![
-        driver(Schedule::constant(20.0)),
-        loaded(
-            0.005,
-            Load::new(Schedule::pulse([0.01, 0.012], [1.0, 12.0])),
-        ),
+        driver(Schedule::ramp([0.01, 0.0105], [100.0, 0.0])),
+        loaded(5e-4, Load::new(Schedule::constant(0.5))),
     ];
-    let mut simulation = from_rest(kim(2.0e8, 6e-4, 1.0), axles, cells, 0.04);
-    simulation.drive.pulleys[0].duty = Duty::Driver(20.0);
+    let mut simulation = from_rest(kim(2.0e8, 6e-4, 0.5), axles, cells, 0.03);
+    simulation.drive.pulleys[0].duty = Duty::Driver(100.0);
     simulation.start = Start::Running;
-    simulation.axial_damping = 1.0;
+    simulation.axial_damping = 0.1;
+    simulation.interval = 1e-4;
     follow(&simulation)
 }
 
@@ -166,27 +164,37 @@ fn a_slack_span_gives_way_and_snaps() {
         let ledger = history.samples.last().unwrap().ledger;
         ledger.residual() / ledger.turnover
     });
-    println!("{residuals:?}");
     let history = &histories[2];
-    println!("{:?} {:?}", history.events, history.slack_spans);
-    let is_slack = |kind| history.events.iter().any(|event| event.kind == kind);
-    assert!(is_slack(TransientEventKind::Slack) && is_slack(TransientEventKind::SlackEnds));
-    // The span behind the driver is slack; the one behind the driven pulley never is.
-    let [slack, taut] = history.slack_spans[..] else {
-        panic!("two spans")
+    println!(
+        "{residuals:?} {:?} {:?}",
+        history.events, history.slack_spans
+    );
+    let first = |kind| {
+        let mut events = history.events.iter();
+        events.find(|event| event.kind == kind).unwrap().time
     };
-    assert!(slack.time > 1e-3 && slack.time < 0.03, "{slack:?}");
-    assert_eq!((taut.time, taut.largest_tension), (0.0, f64::NEG_INFINITY));
-    // What pushes is a thousandth of what the same stretch would pull.
+    let [slack, taut] = [TransientEventKind::Slack, TransientEventKind::SlackEnds].map(first);
+    assert!(slack > 0.01 && taut > slack, "{slack} {taut}");
     let samples = || history.samples.iter();
     let least = samples().map(|sample| sample.smallest_tension);
     let least = least.fold(f64::INFINITY, f64::min);
+    // What pushes is a thousandth of what the same stretch would pull: the 48 N at rest are the scale of that.
     assert!(least < 0.0 && least > -0.5, "{least}");
-    let after = samples().skip_while(|sample| sample.tensions[0] >= 0.0);
-    let largest = after.map(|sample| sample.tensions[0]).fold(0.0, f64::max);
-    assert!(
-        slack.largest_tension >= largest && largest > 40.0,
-        "{slack:?} {largest}"
-    );
-    assert!(residuals[2].abs() < 1e-6, "{residuals:?}");
+    // The tension in the middle of a span is below zero in some of the samples while the span is slack, and never rises
+    // above what is told of the time after that.
+    let mut is_any_slack = false;
+    for (index, span) in history.slack_spans.iter().enumerate() {
+        let is_slack = |tension: f64| tension < 0.0;
+        let in_samples = samples().filter(|sample| is_slack(sample.tensions[index]));
+        let time = in_samples.count() as f64 * 1e-4;
+        assert!(span.time >= time - 2e-4, "{span:?} {time}");
+        let after = samples().skip_while(|sample| !is_slack(sample.tensions[index]));
+        let largest = after.map(|sample| sample.tensions[index]);
+        let largest = largest.fold(f64::NEG_INFINITY, f64::max);
+        assert!(span.largest_tension >= largest, "{span:?} {largest}");
+        is_any_slack |= span.time > 1e-3 && span.largest_tension > 48.0;
+    }
+    assert!(is_any_slack, "{:?}", history.slack_spans);
+    // Second order, where the kink of the stiffness allows it.
+    assert!(residuals[2].abs() < 1e-5, "{residuals:?}");
 }
