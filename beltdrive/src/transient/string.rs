@@ -30,7 +30,7 @@ pub(super) struct Room {
     /// T s without damping, and what damping adds, N.
     elastic: Vec<f64>,
     damped: Vec<f64>,
-    /// Force of damping along, c_d λ̇ (1 − s²/2), N.
+    /// Force of damping along, `c_d` λ̇ (1 − s²/2), N.
     along: Vec<f64>,
 }
 
