@@ -5,14 +5,41 @@
 
 use super::rates::Rates;
 use super::system::System;
+use std::ops::Range;
 
 /// Radius of the half disc in the left half plane in which the method is stable: 2.78 on the real axis, 2.82 on
 /// the imaginary one, rounded down.
-const STABLE: f64 = 2.7;
+pub(super) const STABLE: f64 = 2.7;
 
 /// Share of the largest stable step that is taken: the stretch and the speed of the belt grow until the next look
 /// at it, by far less than a tenth of the speed of waves.
-const SAFETY: f64 = 0.9;
+pub(super) const SAFETY: f64 = 0.9;
+
+/// Rates over which steps are taken.
+pub(crate) trait Dynamics {
+    /// Where the speeds of the pulleys stand in a state.
+    fn speeds(&self) -> Range<usize>;
+
+    /// The rates of a state at a time in s, which is set right.
+    fn of(&mut self, time: f64, state: &mut [f64], rates: &mut [f64]);
+
+    /// Whether the load of a pulley stops it where its speed changes sign at a time in s.
+    fn holds(&self, pulley: usize, time: f64) -> bool;
+}
+
+impl Dynamics for Rates<'_> {
+    fn speeds(&self) -> Range<usize> {
+        self.system.parts.speed.clone()
+    }
+
+    fn of(&mut self, time: f64, state: &mut [f64], rates: &mut [f64]) {
+        self.of(time, state, rates);
+    }
+
+    fn holds(&self, pulley: usize, time: f64) -> bool {
+        self.holds(pulley, time)
+    }
+}
 
 /// A Runge–Kutta step and what it works with.
 pub(crate) struct Explicit {
@@ -24,7 +51,12 @@ pub(crate) struct Explicit {
 impl Explicit {
     /// Room for the states of a system.
     pub(crate) fn new(system: &System) -> Self {
-        let room = || vec![0.0; system.parts.len()];
+        Self::with_room(system.parts.len())
+    }
+
+    /// Room for states of a length.
+    pub(crate) fn with_room(length: usize) -> Self {
+        let room = || vec![0.0; length];
         Self {
             rates: room(),
             from: room(),
@@ -33,13 +65,13 @@ impl Explicit {
     }
 
     /// Rates of a state, which is set right as by [`Rates::of`].
-    pub(crate) fn rates(&mut self, rates: &mut Rates<'_>, time: f64, state: &mut [f64]) -> &[f64] {
+    pub(crate) fn rates(&mut self, rates: &mut impl Dynamics, time: f64, state: &mut [f64]) -> &[f64] {
         rates.of(time, state, &mut self.rates);
         &self.rates
     }
 
     /// Takes a state at a time in s over a step in s, whose first rates are those of [`Self::rates`].
-    pub(crate) fn step(&mut self, rates: &mut Rates<'_>, time: f64, step: f64, state: &mut [f64]) {
+    pub(crate) fn step(&mut self, rates: &mut impl Dynamics, time: f64, step: f64, state: &mut [f64]) {
         self.from.copy_from_slice(state);
         self.sum.copy_from_slice(state);
         // Weight of the rates in the sum, place of the next evaluation.
@@ -63,8 +95,8 @@ impl Explicit {
     }
 
     /// Stops the pulleys whose speed has changed its sign under a load that opposes motion.
-    fn stop(&self, rates: &Rates<'_>, time: f64, state: &mut [f64]) {
-        for (pulley, place) in rates.system.parts.speed.clone().enumerate() {
+    fn stop(&self, rates: &impl Dynamics, time: f64, state: &mut [f64]) {
+        for (pulley, place) in rates.speeds().enumerate() {
             if self.from[place] * state[place] < 0.0 && rates.holds(pulley, time) {
                 state[place] = 0.0;
             }

@@ -21,7 +21,7 @@ const MOST_SAMPLES: f64 = 1e6;
 
 /// A prescribed speed is that of the steady state from which it starts to this, relative: a number that is stated
 /// with seven digits.
-const SAME_SPEED: f64 = 1e-6;
+pub(super) const SAME_SPEED: f64 = 1e-6;
 
 /// Refuses a part of the statement.
 pub(crate) fn refuse<T>(subject: &str, problem: impl Into<String>) -> Result<T, TransientError> {
@@ -36,6 +36,22 @@ pub(crate) fn halved(arc: usize, span: usize) -> Cells {
     Cells::Each {
         arc: arc.div_ceil(2).max(LEAST_ARC_CELLS),
         span: span.div_ceil(2).max(LEAST_SPAN_CELLS),
+    }
+}
+
+/// The stretches of a loop with lengths of arc and span of each pulley in m.
+pub(super) fn stretches(cells: Cells, parts: &[[f64; 2]]) -> Vec<Stretch> {
+    match cells {
+        Cells::Total(cells) => even(parts, cells),
+        Cells::Each { arc, span } => {
+            let cells = |&[arc_length, span_length]: &[f64; 2]| Stretch {
+                arc: arc_length,
+                arc_cells: arc,
+                span: span_length,
+                span_cells: span,
+            };
+            parts.iter().map(cells).collect()
+        }
     }
 }
 
@@ -72,18 +88,7 @@ pub(crate) fn system(
             "the span behind it has no length",
         );
     }
-    let stretches = match simulation.cells {
-        Cells::Total(cells) => even(&parts, cells),
-        Cells::Each { arc, span } => {
-            let cells = |&[arc_length, span_length]: &[f64; 2]| Stretch {
-                arc: arc_length,
-                arc_cells: arc,
-                span: span_length,
-                span_cells: span,
-            };
-            parts.iter().map(cells).collect()
-        }
-    };
+    let stretches = stretches(simulation.cells, &parts);
     let mesh = Mesh::new(&stretches);
     let wheels = drive.pulleys.iter().zip(&simulation.axles);
     let wheel = |(pulley, axle): (&Pulley, &Axle)| Wheel {
@@ -357,7 +362,7 @@ pub(crate) fn pluck(system: &System, stated: &Transverse, state: &mut [f64]) {
 }
 
 /// The value of a list at a place between others that rise.
-fn interpolated(places: &[f64], values: &[f64], at: f64) -> f64 {
+pub(super) fn interpolated(places: &[f64], values: &[f64], at: f64) -> f64 {
     let next = places
         .partition_point(|&place| place < at)
         .clamp(1, places.len() - 1);

@@ -51,6 +51,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 mod transverse;
+pub(crate) mod v;
 pub(crate) mod vibration;
 
 pub use axle::{Axle, Load, Motion, Motor};

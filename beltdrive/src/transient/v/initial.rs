@@ -1,0 +1,198 @@
+//! From the steady state of a drive with a V-belt to its equations in time, and the state at time 0.
+
+use super::super::axle::Motion;
+use super::super::initial::{SAME_SPEED, interpolated, refuse, stretches};
+use super::super::mesh::Mesh;
+use super::super::simulation::{Simulation, TransientError};
+use super::super::system::Wheel;
+use super::rates::Rates;
+use super::state::Parts;
+use super::system::System;
+use crate::results::loop_state::LoopState;
+use crate::{Drive, FrictionLaw, Profile, VBelt};
+
+/// The equations of a drive whose belt keeps the places of contact of a steady state.
+pub(crate) fn system(
+    simulation: &Simulation,
+    drive: &Drive,
+    belt: &VBelt,
+    found: &LoopState,
+) -> Result<System, TransientError> {
+    let FrictionLaw::Bristle { stiffness } = drive.law else {
+        return refuse(
+            "friction",
+            format!(
+                "a simulation of a V-belt needs vector bristles (`bristle`), not `{}`",
+                drive.law.name()
+            ),
+        );
+    };
+    let pulleys = drive.pulleys.iter().zip(&found.pulleys);
+    let mut parts = vec![];
+    for (index, (pulley, known)) in pulleys.enumerate() {
+        if known.groove.is_none() {
+            let problem = "a V-belt in time must run in the groove of every pulley, not on its back";
+            return refuse(&pulley.name, problem);
+        }
+        let angles = found.profile(index).angle;
+        if angles.windows(2).any(|pair| pair[1] < pair[0]) {
+            let problem = "the belt overhangs there in the steady state, for which there is no model in time";
+            return refuse(&pulley.name, problem);
+        }
+        parts.push([pulley.radius * known.wrap, found.spans[index].length]);
+    }
+    let mesh = Mesh::new(&stretches(simulation.cells, &parts));
+    let wheels = drive.pulleys.iter().zip(&simulation.axles);
+    let wheels = wheels.map(|(pulley, axle)| Wheel {
+        radius: pulley.radius,
+        friction_coefficient: pulley.friction_coefficient,
+        axle: axle.clone(),
+    });
+    let (sine, cosine) = belt.half_angle.sin_cos();
+    Ok(System {
+        mass: drive.belt.mass_per_length,
+        axial_stiffness: drive.belt.axial_stiffness,
+        axial_damping: simulation.axial_damping,
+        bristle_stiffness: stiffness,
+        radial_stiffness: belt.radial_stiffness,
+        groove: [sine, cosine],
+        wheels: wheels.collect(),
+        parts: Parts::new(&mesh),
+        mesh,
+    })
+}
+
+/// Whether every groove was found to hold the belt.
+fn seated(is_seated: bool) -> Result<(), TransientError> {
+    match is_seated {
+        true => Ok(()),
+        false => Err(TransientError::Impossible {
+            time: 0.0,
+            problem: "the belt has no depth in a groove that balances its tension",
+        }),
+    }
+}
+
+/// Most corrections of the tension of the belt at rest; its length is nearly linear in it.
+const MOST_CORRECTIONS: usize = 20;
+
+/// The belt at rest with the unstretched length of the steady state, and one tension everywhere.
+pub(crate) fn at_rest(rates: &mut Rates<'_>, found: &LoopState) -> Result<Vec<f64>, TransientError> {
+    let system = rates.system;
+    let mut state = vec![0.0; system.parts.len()];
+    let mut tension = found.rest_tension;
+    for _ in 0..MOST_CORRECTIONS {
+        for pulley in 0..system.wheels.len() {
+            seated(rates.seat(pulley, &state, |_| tension, |_| 0.0))?;
+        }
+        let stretch = 1.0 + tension / system.axial_stiffness;
+        let lengths = rates.lengths.iter();
+        for (amount, length) in state[system.parts.amount.clone()].iter_mut().zip(lengths) {
+            *amount = length / stretch;
+        }
+        let off = system.unstretched_length(&state) / found.unstretched_length - 1.0;
+        if off.abs() < 1e-14 {
+            break;
+        }
+        tension += off * system.axial_stiffness * stretch;
+    }
+    if !(tension > 0.0) {
+        return refuse("belt", "it is slack at rest, with the unstretched length of its steady state");
+    }
+    Ok(state)
+}
+
+/// The steady state on the mesh, with the unstretched length that it has.
+pub(crate) fn running(rates: &mut Rates<'_>, found: &LoopState) -> Result<Vec<f64>, TransientError> {
+    let system = rates.system;
+    let (parts, mesh) = (&system.parts, &system.mesh);
+    let mut state = vec![0.0; parts.len()];
+    let stretch = |tension: f64| 1.0 + tension / system.axial_stiffness;
+    let mut stretches = vec![1.0; mesh.cells()];
+    for (span, known) in mesh.spans.iter().zip(&found.spans) {
+        stretches[span.clone()].fill(stretch(known.tension));
+    }
+    for (pulley, arc) in mesh.arcs.iter().enumerate() {
+        let (profile, known) = (found.profile(pulley), &found.pulleys[pulley]);
+        let radius = system.wheels[pulley].radius;
+        let own = mesh.bristles[pulley].clone();
+        let at = |index: usize| (index as f64 + 0.5) * mesh.lengths[arc.start] / radius;
+        let bent = bristles(system, pulley, &profile, found);
+        for index in 0..arc.len() {
+            for (part, list) in [&parts.along, &parts.up].into_iter().zip(&bent) {
+                let place = part.start + own.start + index;
+                state[place] = interpolated(&profile.angle, list, at(index));
+            }
+            let tension = interpolated(&profile.angle, &profile.tension, at(index));
+            stretches[arc.start + index] = stretch(tension);
+        }
+        let tension = |index: usize| system.tension(stretches[arc.start + index]);
+        let speed = |index: usize| found.unstretched_speed * stretches[arc.start + index];
+        for (depth, face) in rates.depths[pulley].iter_mut().zip(0_u32..) {
+            let angle = f64::from(face) * mesh.lengths[arc.start] / radius;
+            *depth = interpolated(&profile.angle, &profile.penetration, angle);
+        }
+        let last = rates.depths[pulley].len() - 1;
+        rates.depths[pulley][0] = 0.0;
+        rates.depths[pulley][last] = 0.0;
+        seated(rates.seat(pulley, &state, tension, speed))?;
+        if let Motion::Speed(given) = &system.wheels[pulley].axle.motion {
+            let (first, speed) = (given.at(0.0), known.angular_speed);
+            if (first / speed - 1.0).abs() > SAME_SPEED {
+                return refuse(
+                    &known.name,
+                    format!("its speed starts with {first} rad/s, but the running drive has {speed} rad/s"),
+                );
+            }
+        }
+        state[parts.speed.start + pulley] = known.angular_speed;
+    }
+    let amounts = &mut state[parts.amount.clone()];
+    for ((amount, length), stretch) in amounts.iter_mut().zip(&rates.lengths).zip(&stretches) {
+        *amount = length / stretch;
+    }
+    // As long as the belt of the steady state.
+    let share = found.unstretched_length / system.unstretched_length(&state);
+    for amount in &mut state[parts.amount.clone()] {
+        *amount *= share;
+    }
+    let (lengths, cells) = (&mesh.lengths, mesh.cells());
+    for face in 0..cells {
+        let behind = (face + cells - 1) % cells;
+        let density = |cell: usize| state[parts.amount.start + cell] / rates.lengths[cell];
+        let mean = (density(behind) * lengths[face] + density(face) * lengths[behind])
+            / (lengths[behind] + lengths[face]);
+        state[parts.velocity.start + face] = found.unstretched_speed / mean;
+    }
+    Ok(state)
+}
+
+/// The deflections of the bristles along a contact, of which a steady state tells the sizes only: both are
+/// integrated over its slip, exactly for one that is constant between two points.
+fn bristles(system: &System, pulley: usize, profile: &Profile, found: &LoopState) -> [Vec<f64>; 2] {
+    let wheel = &system.wheels[pulley];
+    let omega = found.pulleys[pulley].angular_speed;
+    let slip = |point: usize| {
+        let speed = found.unstretched_speed * (1.0 + profile.tension[point] / system.axial_stiffness);
+        let (sine, cosine) = profile.inclination[point].sin_cos();
+        let rim = omega * (wheel.radius - profile.penetration[point]);
+        [cosine - rim / speed, sine / system.groove[1]]
+    };
+    let mut bent = [vec![0.0], vec![0.0]];
+    for point in 1..profile.angle.len() {
+        let [before, after] = [slip(point - 1), slip(point)];
+        let mean = [0, 1].map(|axis| 0.5 * (before[axis] + after[axis]));
+        let norm = mean[0].hypot(mean[1]);
+        let length = profile.arc_length[point] - profile.arc_length[point - 1];
+        let left = (-system.bristle_stiffness * norm * length / wheel.friction_coefficient).exp();
+        for (list, slip) in bent.iter_mut().zip(mean) {
+            let full = match norm > 0.0 {
+                true => wheel.friction_coefficient * slip / norm,
+                false => 0.0,
+            };
+            let last = list[point - 1];
+            list.push(full + (last - full) * left);
+        }
+    }
+    bent
+}
