@@ -65,13 +65,24 @@ impl Explicit {
     }
 
     /// Rates of a state, which is set right as by [`Rates::of`].
-    pub(crate) fn rates(&mut self, rates: &mut impl Dynamics, time: f64, state: &mut [f64]) -> &[f64] {
+    pub(crate) fn rates(
+        &mut self,
+        rates: &mut impl Dynamics,
+        time: f64,
+        state: &mut [f64],
+    ) -> &[f64] {
         rates.of(time, state, &mut self.rates);
         &self.rates
     }
 
     /// Takes a state at a time in s over a step in s, whose first rates are those of [`Self::rates`].
-    pub(crate) fn step(&mut self, rates: &mut impl Dynamics, time: f64, step: f64, state: &mut [f64]) {
+    pub(crate) fn step(
+        &mut self,
+        rates: &mut impl Dynamics,
+        time: f64,
+        step: f64,
+        state: &mut [f64],
+    ) {
         self.from.copy_from_slice(state);
         self.sum.copy_from_slice(state);
         // Weight of the rates in the sum, place of the next evaluation.

@@ -31,12 +31,14 @@ pub(crate) fn system(
     let mut parts = vec![];
     for (index, (pulley, known)) in pulleys.enumerate() {
         if known.groove.is_none() {
-            let problem = "a V-belt in time must run in the groove of every pulley, not on its back";
+            let problem =
+                "a V-belt in time must run in the groove of every pulley, not on its back";
             return refuse(&pulley.name, problem);
         }
         let angles = found.profile(index).angle;
         if angles.windows(2).any(|pair| pair[1] < pair[0]) {
-            let problem = "the belt overhangs there in the steady state, for which there is no model in time";
+            let problem =
+                "the belt overhangs there in the steady state, for which there is no model in time";
             return refuse(&pulley.name, problem);
         }
         parts.push([pulley.radius * known.wrap, found.spans[index].length]);
@@ -77,10 +79,20 @@ fn seated(is_seated: bool) -> Result<(), TransientError> {
 const MOST_CORRECTIONS: usize = 20;
 
 /// The belt at rest with the unstretched length of the steady state, and one tension everywhere.
-pub(crate) fn at_rest(rates: &mut Rates<'_>, found: &LoopState) -> Result<Vec<f64>, TransientError> {
+pub(crate) fn at_rest(
+    rates: &mut Rates<'_>,
+    found: &LoopState,
+) -> Result<Vec<f64>, TransientError> {
     let system = rates.system;
     let mut state = vec![0.0; system.parts.len()];
     let mut tension = found.rest_tension;
+    let [sine, cosine] = system.groove;
+    for (depths, wheel) in rates.depths.iter_mut().zip(&system.wheels) {
+        // Without friction, but for the ends.
+        let depth = tension * cosine / (system.radial_stiffness * wheel.radius * sine);
+        let last = depths.len() - 1;
+        depths[1..last].fill(depth);
+    }
     for _ in 0..MOST_CORRECTIONS {
         for pulley in 0..system.wheels.len() {
             seated(rates.seat(pulley, &state, |_| tension, |_| 0.0))?;
@@ -97,13 +109,19 @@ pub(crate) fn at_rest(rates: &mut Rates<'_>, found: &LoopState) -> Result<Vec<f6
         tension += off * system.axial_stiffness * stretch;
     }
     if !(tension > 0.0) {
-        return refuse("belt", "it is slack at rest, with the unstretched length of its steady state");
+        return refuse(
+            "belt",
+            "it is slack at rest, with the unstretched length of its steady state",
+        );
     }
     Ok(state)
 }
 
 /// The steady state on the mesh, with the unstretched length that it has.
-pub(crate) fn running(rates: &mut Rates<'_>, found: &LoopState) -> Result<Vec<f64>, TransientError> {
+pub(crate) fn running(
+    rates: &mut Rates<'_>,
+    found: &LoopState,
+) -> Result<Vec<f64>, TransientError> {
     let system = rates.system;
     let (parts, mesh) = (&system.parts, &system.mesh);
     let mut state = vec![0.0; parts.len()];
@@ -141,7 +159,9 @@ pub(crate) fn running(rates: &mut Rates<'_>, found: &LoopState) -> Result<Vec<f6
             if (first / speed - 1.0).abs() > SAME_SPEED {
                 return refuse(
                     &known.name,
-                    format!("its speed starts with {first} rad/s, but the running drive has {speed} rad/s"),
+                    format!(
+                        "its speed starts with {first} rad/s, but the running drive has {speed} rad/s"
+                    ),
                 );
             }
         }
@@ -173,7 +193,8 @@ fn bristles(system: &System, pulley: usize, profile: &Profile, found: &LoopState
     let wheel = &system.wheels[pulley];
     let omega = found.pulleys[pulley].angular_speed;
     let slip = |point: usize| {
-        let speed = found.unstretched_speed * (1.0 + profile.tension[point] / system.axial_stiffness);
+        let speed =
+            found.unstretched_speed * (1.0 + profile.tension[point] / system.axial_stiffness);
         let (sine, cosine) = profile.inclination[point].sin_cos();
         let rim = omega * (wheel.radius - profile.penetration[point]);
         [cosine - rim / speed, sine / system.groove[1]]

@@ -40,7 +40,8 @@ impl Shape {
             length,
             radius: share,
             slope,
-            by: parts(radius, cell).map(|[across, along]| (share * across + slope * along) / length),
+            by: parts(radius, cell)
+                .map(|[across, along]| (share * across + slope * along) / length),
         }
     }
 
@@ -49,7 +50,9 @@ impl Shape {
         let parts = parts(radius, cell);
         [0, 1].map(|one| {
             [0, 1].map(|other| {
-                let product: f64 = (0..2).map(|part| parts[one][part] * parts[other][part]).sum();
+                let product: f64 = (0..2)
+                    .map(|part| parts[one][part] * parts[other][part])
+                    .sum();
                 (product - self.by[one] * self.by[other]) / self.length
             })
         })
@@ -172,8 +175,7 @@ impl Balance {
                 [0, 1].map(|other| {
                     let string = tractive[1] * shape.by[one] * shape.by[other]
                         + tractive[0] * second[one][other];
-                    let groove =
-                        0.5 * outward[1] * shape.length + outward[0] * shape.by[other];
+                    let groove = 0.5 * outward[1] * shape.length + outward[0] * shape.by[other];
                     cell * (string + 0.5 * groove)
                 })
             });

@@ -19,7 +19,7 @@ use super::system::System;
 use std::ops::Range;
 
 /// The belt in a groove at the middle of a cell.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Seated {
     /// Shape of the cell.
     pub(super) shape: Shape,
@@ -190,7 +190,8 @@ impl<'s> Rates<'s> {
             let radius = system.wheels[pulley].radius;
             let cell = system.mesh.lengths[arc.start];
             let own = system.mesh.bristles[pulley].clone();
-            let [along, up] = [&parts.along, &parts.up].map(|part| &state[part.clone()][own.clone()]);
+            let [along, up] =
+                [&parts.along, &parts.up].map(|part| &state[part.clone()][own.clone()]);
             let forward = self.middle[arc.start] + self.middle[arc.end - 1] >= 0.0;
             let depths = &self.depths[pulley];
             let mut torque = 0.0;
@@ -201,8 +202,8 @@ impl<'s> Rates<'s> {
                 let direction = [-shape.slope / shape.length, shape.radius / shape.length];
                 let v = self.middle[of_loop];
                 let rim = radius * shape.radius;
-                let pressure = 0.5 * system.radial_stiffness * depth.max(0.0)
-                    / (cosine + up[index] * sine);
+                let pressure =
+                    0.5 * system.radial_stiffness * depth.max(0.0) / (cosine + up[index] * sine);
                 let outward = 2.0 * pressure * (sine - up[index] * cosine);
                 let against = 2.0 * pressure * along[index];
                 let slope = |list: &[f64]| slope(list, index, forward) / (6.0 * cell);
@@ -218,8 +219,7 @@ impl<'s> Rates<'s> {
                 };
                 let length = shape.length * cell;
                 self.lengths[of_loop] = shape.length;
-                self.force[of_loop] =
-                    length * (against * direction[1] - outward * direction[0]);
+                self.force[of_loop] = length * (against * direction[1] - outward * direction[0]);
                 torque += length * against * rim;
             }
             self.torque[pulley] = torque;
@@ -303,10 +303,11 @@ impl<'s> Rates<'s> {
                 for (index, of_loop) in arc.clone().enumerate() {
                     let seated = self.seated[own.start + index];
                     let shape = seated.shape;
-                    let sinking = 0.5
-                        * (self.sinking[pulley][index] + self.sinking[pulley][index + 1]);
+                    let sinking =
+                        0.5 * (self.sinking[pulley][index] + self.sinking[pulley][index + 1]);
                     let place = own.start + index;
-                    let bristles = [parts.along.start, parts.up.start].map(|part| state[part + place]);
+                    let bristles =
+                        [parts.along.start, parts.up.start].map(|part| state[part + place]);
                     let outward = self.middle[of_loop] * seated.direction[0] - sinking;
                     let slip = [seated.slip, outward / cosine];
                     let norm = (slip[0] * slip[0] + slip[1] * slip[1] + GUARD * GUARD).sqrt();
@@ -360,8 +361,7 @@ impl<'s> Rates<'s> {
             for (index, of_loop) in arc.clone().enumerate() {
                 let place = own.start + index;
                 let seated = &self.seated[place];
-                let sinking =
-                    0.5 * (self.sinking[pulley][index] + self.sinking[pulley][index + 1]);
+                let sinking = 0.5 * (self.sinking[pulley][index] + self.sinking[pulley][index + 1]);
                 let outward = self.middle[of_loop] * seated.direction[0] - sinking;
                 let slip = [seated.slip, outward / cosine];
                 let bristles = [parts.along.start, parts.up.start].map(|part| state[part + place]);
@@ -397,8 +397,8 @@ impl<'s> Rates<'s> {
                 .iter()
                 .map(|&cell| self.lengthening[cell] * mesh.lengths[cell] / self.stretch[cell])
                 .sum();
-            rates[parts.velocity.start + face] = self.acceleration[face]
-                - 0.5 * velocity[face] * lengthening / self.amount[face];
+            rates[parts.velocity.start + face] =
+                self.acceleration[face] - 0.5 * velocity[face] * lengthening / self.amount[face];
         }
     }
 
@@ -481,7 +481,11 @@ impl<'s> Rates<'s> {
         let axles = largest(&mut wheels.iter().map(|wheel| wheel.axle.rate()));
         let damping = 4.0 * axial_damping * stretch * stretch / (mass * cell * cell);
         let relaxing = relaxing + 2.0 * speed / cell;
-        (wave * wave + held).sqrt().max(damping).max(relaxing).max(axles)
+        (wave * wave + held)
+            .sqrt()
+            .max(damping)
+            .max(relaxing)
+            .max(axles)
     }
 }
 

@@ -61,8 +61,7 @@ impl System {
             let next = (cell + 1) % cells;
             let squares = 0.5 * (velocity[cell].powi(2) + velocity[next].powi(2));
             let strain = lengths[cell] / amount[cell] - 1.0;
-            let per_amount =
-                0.5 * (self.mass * squares + self.axial_stiffness * strain * strain);
+            let per_amount = 0.5 * (self.mass * squares + self.axial_stiffness * strain * strain);
             per_amount * amount[cell] * self.mesh.lengths[cell]
         });
         pulleys.sum::<f64>() + belt.sum::<f64>()
