@@ -7,7 +7,7 @@ use super::super::simulation::{Cells, Simulation, Start, Until};
 use super::initial;
 use super::rates::Rates;
 use crate::belt_loop::LoopState;
-use crate::{BeltKind, Drive, belt_loop, examples, input};
+use crate::{BeltKind, Closure, Drive, belt_loop, examples, input};
 
 fn drive() -> Drive {
     let example = examples::find("kim2009-bristle").expect("a shipped example");
@@ -194,4 +194,37 @@ fn from_rest_the_belt_comes_to_the_state_in_which_a_running_one_stays() {
     assert!((ended.speed / running.speed - 1.0).abs() < 1e-6);
     assert!((ended.tensions[1] / running.tensions[1] - 1.0).abs() < 1e-5);
     assert!(ended.residual.abs() < 1e-6 * ended.turnover && ended.lost.abs() < 1e-12);
+}
+
+#[test]
+#[ignore = "half a minute"]
+fn holding_the_ends_of_the_contacts_costs_what_the_distance_of_the_load_makes_it() {
+    let drive = drive();
+    let found = belt_loop::solve(&drive).expect("a steady state");
+    let [torque, speed] = known(&found);
+    let off = [0.8, 0.5].map(|share| {
+        let load = Schedule::constant(share * torque);
+        let asked = simulation(&drive, 240, Schedule::constant(speed), load);
+        let ended = run(&found, &asked, 0.3);
+        let free = Drive {
+            closure: Closure::UnstretchedLength(found.unstretched_length),
+            ..drive.as_loop(share * torque, 100.0)
+        };
+        let free = belt_loop::solve(&free).expect("a steady state");
+        let tension = |of: fn(f64, f64) -> f64| {
+            let tensions = free.spans.iter().map(|span| span.tension);
+            tensions.reduce(of).expect("a span")
+        };
+        let speeds = free.pulleys.iter().map(|pulley| pulley.angular_speed);
+        let slowest = speeds.fold(f64::INFINITY, f64::min);
+        let free = [tension(f64::min), tension(f64::max), slowest];
+        let off = [ended.tensions[0], ended.tensions[1], ended.speed];
+        let off = [0, 1, 2].map(|index| off[index] - free[index]);
+        println!("{share} of the load: {free:?}, off by {off:?}");
+        off
+    });
+    assert!(
+        off.iter()
+            .all(|off| off[0].abs() < 20.0 && off[1].abs() < 20.0)
+    );
 }
