@@ -87,6 +87,11 @@ pub(crate) fn at_rest(
     let mut state = vec![0.0; system.parts.len()];
     let mut tension = found.rest_tension;
     let [sine, cosine] = system.groove;
+    // By what a higher tension shortens it, m/N: its stretch, and its depth but for the ends.
+    let sinking = { system.wheels.iter().zip(&found.pulleys) }.map(|(wheel, known)| {
+        known.wrap * cosine / (system.radial_stiffness * wheel.radius * sine)
+    });
+    let shortening = found.unstretched_length / system.axial_stiffness + sinking.sum::<f64>();
     for (depths, wheel) in rates.depths.iter_mut().zip(&system.wheels) {
         // Without friction, but for the ends.
         let depth = tension * cosine / (system.radial_stiffness * wheel.radius * sine);
@@ -106,7 +111,7 @@ pub(crate) fn at_rest(
         if off.abs() < 1e-14 {
             break;
         }
-        tension += off * system.axial_stiffness * stretch;
+        tension += off * found.unstretched_length / shortening;
     }
     if !(tension > 0.0) {
         return refuse(
