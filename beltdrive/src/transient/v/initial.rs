@@ -113,7 +113,7 @@ pub(crate) fn at_rest(
         }
         tension += off * found.unstretched_length / shortening;
     }
-    if !(tension > 0.0) {
+    if tension <= 0.0 || tension.is_nan() {
         return refuse(
             "belt",
             "it is slack at rest, with the unstretched length of its steady state",

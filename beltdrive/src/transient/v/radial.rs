@@ -89,8 +89,8 @@ impl Tridiagonal {
         let inside = |face: usize| face.checked_sub(1).filter(|&row| row < count);
         for (side, row) in [cell, cell + 1].into_iter().map(inside).enumerate() {
             if let Some(row) = row {
-                for other in 0..2 {
-                    self.rows[row][1 + other - side] += block[side][other];
+                for (other, value) in block[side].into_iter().enumerate() {
+                    self.rows[row][1 + other - side] += value;
                 }
             }
         }

@@ -29,8 +29,6 @@ pub(super) struct Seated {
     direction: [f64; 2],
     /// Slip `e_t` along the pulley, m/s.
     slip: f64,
-    /// Loads on the belt per length, N/m: n outward and t against the motion of the pulley.
-    pub(super) load: [f64; 2],
     /// Pressure p of each face per length, N/m.
     pressure: f64,
     /// Rates of both bristles without those of the slip that the sinking makes, 1/s.
@@ -213,7 +211,6 @@ impl<'s> Rates<'s> {
                     depth,
                     direction,
                     slip: v * direction[1] - speeds[pulley] * rim,
-                    load: [outward, against],
                     pressure,
                     carried,
                 };
@@ -224,8 +221,8 @@ impl<'s> Rates<'s> {
             }
             self.torque[pulley] = torque;
         }
-        for cell in 0..cells {
-            self.stretch[cell] = self.lengths[cell] / amounts[cell];
+        for ((stretch, length), amount) in self.stretch.iter_mut().zip(&self.lengths).zip(amounts) {
+            *stretch = length / amount;
         }
     }
 
