@@ -4,6 +4,9 @@
 mod events;
 mod load_step;
 mod loops;
+#[path = "../support/random.rs"]
+mod random;
+mod random_loops;
 mod statements;
 mod steady_states;
 
