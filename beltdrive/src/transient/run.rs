@@ -41,7 +41,7 @@ pub(crate) fn run(
         run.rates.begin(time);
         let changes = explicit.rates(&mut run.rates, time, &mut state);
         run.watch.look(time, &run.rates, &state);
-        if time >= run.next_sample() {
+        if run.is_at(time, run.next_sample()) {
             run.sample(time, &state)?;
             // What Newton's method leaves is no motion, but is multiplied by the fastest rate of the mesh in the rates.
             let changes = match &implicit {
@@ -57,11 +57,14 @@ pub(crate) fn run(
                 break;
             }
         }
-        if instants.next_if(|&instant| instant <= time).is_some() {
+        if instants
+            .next_if(|&instant| run.is_at(time, instant))
+            .is_some()
+        {
             let belt = Observer::belt(time, &run.rates, &state);
             run.history.belts.push(belt);
         }
-        if time >= run.end {
+        if run.is_at(time, run.end) {
             break;
         }
         let stop = system
@@ -69,7 +72,7 @@ pub(crate) fn run(
             .iter()
             .map(|wheel| wheel.axle.next_corner(time));
         let stop = stop.fold(run.end, f64::min);
-        let stop = instants.peek().map_or(stop, |&instant| instant.min(stop));
+        let stop = { instants.peek() }.map_or(stop, |&instant| run.earlier(instant, stop));
         if run.is_steady_sought
             && simulation.step.is_none()
             && system.across.is_none()
@@ -80,9 +83,9 @@ pub(crate) fn run(
                 Implicit::new(system, &state, LONGEST * simulation.interval)
             });
             if !is_implicit {
-                implicit.begin(changes);
+                implicit.begin(&run.rates, &state, changes);
             }
-            let reach = run.last_sample_to(time + implicit.next()).min(stop);
+            let reach = run.earlier(run.last_sample_to(time + implicit.next()), stop);
             let reached = implicit.step(&mut run.rates, [time, reach], &mut state);
             run.history.effort.implicit = implicit.work();
             is_implicit = reached.is_some();
@@ -92,7 +95,7 @@ pub(crate) fn run(
             };
             possible(system, &state, time)?;
             run.took(1, reached - time);
-            while run.next_sample() < reached {
+            while !run.is_at(run.next_sample(), reached) {
                 let at = run.next_sample();
                 let step = reached - time;
                 implicit.within((at - time) / step, step, &state, &mut between);
@@ -104,7 +107,7 @@ pub(crate) fn run(
             continue;
         }
         is_implicit = false;
-        let stop = stop.min(run.next_sample());
+        let stop = run.earlier(run.next_sample(), stop);
         let (count, step, stop) = step_to(simulation, system, &state, [time, stop])?;
         run.took(count, step);
         for index in 0..count {
@@ -187,6 +190,20 @@ impl<'s> Run<'s> {
             interval: simulation.interval,
             end,
             is_steady_sought,
+        }
+    }
+
+    /// Whether a time is that of a sample, an instant or the end in s, or after it: sums of intervals differ by rounding
+    /// from corners of what is given, and no step leads from one to the other.
+    fn is_at(&self, time: f64, other: f64) -> bool {
+        time >= other - 1e-9 * self.interval
+    }
+
+    /// The earlier one of a time of this run and a corner, s; the corner if they are the same.
+    fn earlier(&self, time: f64, corner: f64) -> f64 {
+        match self.is_at(time, corner) {
+            true => corner,
+            false => time,
         }
     }
 

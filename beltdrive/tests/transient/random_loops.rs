@@ -188,7 +188,9 @@ fn random_loops_come_from_rest_to_the_closed_form_or_slip() {
 #[ignore = "minutes"]
 fn two_hundred_random_loops_do() {
     let score = survey(200, 120);
-    // The others are refused because their energy ledger does not close where steps begin to be implicit.
-    assert!(score.same >= 190 && score.refused >= 1);
+    // The one other slips grossly as well, and its energy ledger does not close then but with 480 cells.
+    assert!(score.same >= 198 && score.refused >= 1);
+    // Number 199 is close to its limit: the driver holds the belt on 0.02 of its arc, less than a cell, and its speeds
+    // are off by 0.060, 0.058, 0.050, 0.035 and 0.015 with 60, 120, 240, 480 and 960 cells.
     assert!(score.largest[1] < 1e-3);
 }

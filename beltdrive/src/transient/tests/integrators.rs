@@ -44,11 +44,18 @@ fn implicitly(system: &System, end: f64) -> (Vec<f64>, ImplicitWork) {
     let mut implicit = Implicit::new(system, &state, 0.1);
     rates.begin(0.0);
     rates.of(0.0, &mut state, &mut changes);
-    implicit.begin(&changes);
+    implicit.begin(&rates, &state, &changes);
     let mut time = 0.0;
     while time < end {
-        let reached = implicit.step(&mut rates, [time, end], &mut state);
-        time = reached.expect("a step");
+        if let Some(reached) = implicit.step(&mut rates, [time, end], &mut state) {
+            time = reached;
+        } else {
+            // Explicit steps over two milliseconds, as between two samples of a run.
+            follow(system, &mut state, 2e-3, |_, _| {});
+            time += 2e-3;
+            rates.of(time, &mut state, &mut changes);
+            implicit.begin(&rates, &state, &changes);
+        }
     }
     (state, implicit.work())
 }
