@@ -12,7 +12,7 @@ pub struct Example {
 }
 
 /// Every shipped drive file.
-pub const EXAMPLES: [Example; 20] = [
+pub const EXAMPLES: [Example; 21] = [
     Example {
         name: "kim2009",
         text: include_str!("../examples/kim2009.toml"),
@@ -80,6 +80,10 @@ pub const EXAMPLES: [Example; 20] = [
     Example {
         name: "slip-pulse",
         text: include_str!("../examples/slip-pulse.toml"),
+    },
+    Example {
+        name: "v-load-step",
+        text: include_str!("../examples/v-load-step.toml"),
     },
     Example {
         name: "soft-start",

@@ -9,7 +9,7 @@ use crate::transient::{
     Cells, Motion, Schedule, Simulation, Start, TransientError, Until, VibrationMode, initial,
     vibration,
 };
-use crate::{Drive, SolveOptions, ZoneKind};
+use crate::{BeltKind, Drive, SolveOptions, ZoneKind};
 
 /// What is asked of the modes of a drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,6 +114,9 @@ pub fn modes(
         ..*simulation
     };
     initial::check(&checked)?;
+    if let BeltKind::V(_) = simulation.drive.belt.kind {
+        return initial::refuse("belt", "only drives with flat belts have modes here");
+    }
     if question.count == 0 {
         return initial::refuse("modes", "their number must be positive");
     }

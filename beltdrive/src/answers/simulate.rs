@@ -2,11 +2,17 @@
 
 use super::belt_loop::closed_once;
 use super::solve_to;
+use crate::belt_loop::LoopState;
 use crate::model::model;
-use crate::transient::{History, Simulation, Start, TransientError, initial, run};
-use crate::{BeltKind, Closure, Drive, NormalForce, SolveOptions};
+use crate::transient::history::Entry;
+use crate::transient::rates::Rates;
+use crate::transient::{History, Simulation, Start, TransientError, initial, run, v};
+use crate::{BeltKind, Closure, Drive, NormalForce, SolveOptions, VBelt};
 
-/// Follows a drive with a flat belt in time.
+/// Follows a drive in time: with a flat belt and elastic/perfectly-plastic friction, or with a V-belt and bristles.
+///
+/// A V-belt keeps the places where it meets and leaves its pulleys in the steady state of the drive, which must have
+/// one: `docs/transient.md` has what that costs.
 ///
 /// `progress` is told the time in s and the share of the run that is done, at every sample; where it answers no, the
 /// run ends and keeps what it has.
@@ -50,26 +56,65 @@ pub fn simulate(
     progress: &mut dyn FnMut(f64, f64) -> bool,
 ) -> Result<History, TransientError> {
     initial::check(simulation)?;
-    let stated = in_time(&simulation.drive);
     let options = SolveOptions::default();
-    let drive = closed_once(&stated, &options)?;
+    match simulation.drive.belt.kind {
+        BeltKind::Flat { .. } => of_flat(simulation, &options, progress),
+        BeltKind::V(belt) => {
+            let found = solve_to(&simulation.drive, &options)?;
+            of_v(simulation, (&belt, &found), progress)
+        }
+    }
+}
+
+fn of_flat(
+    simulation: &Simulation,
+    options: &SolveOptions,
+    progress: &mut dyn FnMut(f64, f64) -> bool,
+) -> Result<History, TransientError> {
+    let stated = in_time(&simulation.drive);
+    let drive = closed_once(&stated, options)?;
     let layout = drive.layout(0.0).map_err(crate::SolveError::from)?;
     let system = initial::system(simulation, &drive, &layout)?;
     let mut state = match (simulation.start, drive.closure) {
-        (Start::Running, _) => initial::running(&system, &solve_to(&drive, &options)?)?,
+        (Start::Running, _) => initial::running(&system, &solve_to(&drive, options)?)?,
         (Start::Rest, Closure::SetupTension(_) | Closure::UnstretchedLength(_)) => {
-            let rest = model(drive.belt.kind).at_rest(&drive, &options)?;
+            let rest = model(drive.belt.kind).at_rest(&drive, options)?;
             initial::at_rest(&system, rest.tension)
         }
         (Start::Rest, _) => {
-            let running = solve_to(&drive, &options)?;
+            let running = solve_to(&drive, options)?;
             initial::at_rest(&system, running.rest_tension)
         }
     };
     if let Some(stated) = &simulation.transverse {
         initial::pluck(&system, stated, &mut state);
     }
-    run::run(simulation, (&system, &layout), state, progress)
+    let sense = layout.sense();
+    let entries = layout.pulleys().iter().enumerate().map(|(index, pulley)| {
+        let [entering, _] = layout.spans_of(index);
+        Entry {
+            direction: entering.direction,
+            turns: pulley.turns(sense),
+        }
+    });
+    let entries: Vec<_> = entries.collect();
+    run::run(simulation, (Rates::new(&system), &entries), state, progress)
+}
+
+/// A V-belt with the places of contact of its steady state.
+fn of_v(
+    simulation: &Simulation,
+    (belt, found): (&VBelt, &LoopState),
+    progress: &mut dyn FnMut(f64, f64) -> bool,
+) -> Result<History, TransientError> {
+    let system = v::initial::system(simulation, belt, found)?;
+    let mut rates = v::rates::Rates::new(&system);
+    let state = match simulation.start {
+        Start::Running => v::initial::running(&mut rates, found)?,
+        Start::Rest => v::initial::at_rest(&mut rates, found)?,
+    };
+    let entries = v::initial::entries(found);
+    run::run(simulation, (rates, &entries), state, progress)
 }
 
 /// A drive with a flat belt with finite strains and the momentum of the belt, as in time.

@@ -1,8 +1,8 @@
 //! What there is to tell of a drive in time.
 
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, belt_loop};
-use crate::Drive;
 use crate::transient::{Ending, History, Sample, TransientEventKind};
+use crate::{BeltKind, Drive};
 
 /// Decimals to which a sample is computed are not known: so many digits are shown, and all of them are in files.
 const SHOWN: f64 = 0.0;
@@ -33,7 +33,7 @@ pub fn answer(drive: &Drive, history: &History) -> Answer {
             Group::new("samples", Layout::Rows, samples.collect()),
             Group::new("events", Layout::Rows, events.collect()),
             Group::new("slack_spans", Layout::Rows, slack_spans(history)),
-            Group::single("energy", energy(history)),
+            Group::single("energy", energy(drive, history)),
         ],
         ..Answer::default()
     }
@@ -178,6 +178,7 @@ fn row(history: &History, sample: &Sample) -> Subject {
         data("stored_energy", Measure::Energy, ledger.stored),
         data("damped_energy", Measure::Energy, ledger.damped),
         data("contact_energy", Measure::Energy, ledger.contact),
+        data("compression_energy", Measure::Energy, ledger.compression),
         data("energy_residual", Measure::Energy, ledger.residual()),
     ]);
     Subject::new("", quantities)
@@ -252,7 +253,7 @@ fn run(history: &History) -> Vec<Quantity> {
 }
 
 /// Where the energy went.
-fn energy(history: &History) -> Vec<Quantity> {
+fn energy(drive: &Drive, history: &History) -> Vec<Quantity> {
     let Some(ledger) = history.samples.last().map(|sample| sample.ledger) else {
         return vec![];
     };
@@ -278,6 +279,14 @@ fn energy(history: &History) -> Vec<Quantity> {
     }
     quantities.extend([
         number("contact", "  lost in the contact", ledger.contact),
+        number(
+            "compression",
+            match drive.belt.kind {
+                BeltKind::Flat { .. } => "",
+                BeltKind::V(_) => "  compression of the belt",
+            },
+            ledger.compression,
+        ),
         Quantity::error(
             "residual",
             "  not accounted for",

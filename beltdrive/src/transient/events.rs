@@ -1,8 +1,6 @@
 //! What happens on the way: gross slip and slack, located to a time step.
 
-use super::rates::Rates;
-use super::string;
-use super::system::System;
+use super::dynamics::Dynamics;
 
 /// Something that happened.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,17 +91,17 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    /// Watches a drive whose waves take a time in s round the loop.
-    pub(crate) fn new(system: &System, pause: f64) -> Self {
-        let pulleys = system.wheels.len();
+    /// Watches a drive from a state on.
+    pub(crate) fn new(rates: &impl Dynamics, state: &[f64]) -> Self {
+        let pulleys = rates.wheels().len();
         Self {
-            largest: match system.across {
-                Some(_) => vec![0.0; pulleys],
-                None => vec![],
+            largest: match rates.displacements(state, 0) {
+                [] => vec![],
+                _ => vec![0.0; pulleys],
             },
             slip: vec![Condition::default(); pulleys],
             slack: Condition::default(),
-            pause,
+            pause: rates.mesh().length() / rates.wave_speed(),
             least_stretch: f64::INFINITY,
             is_slack: false,
             last: 0.0,
@@ -113,8 +111,7 @@ impl Watch {
     }
 
     /// Looks at a state and its rates.
-    pub(crate) fn look(&mut self, time: f64, rates: &Rates<'_>, state: &[f64]) {
-        let system = rates.system;
+    pub(crate) fn look(&mut self, time: f64, rates: &impl Dynamics, state: &[f64]) {
         let stretches = rates.stretches().iter();
         let least = stretches.fold(f64::INFINITY, |least, &stretch| match stretch < least {
             true => stretch,
@@ -127,10 +124,9 @@ impl Watch {
         }
         self.last = time;
         for (span, largest) in self.largest.iter_mut().enumerate() {
-            let displaced = string::displacements(system, state, span).iter();
+            let displaced = rates.displacements(state, span).iter();
             *largest = displaced.fold(*largest, |largest, w| largest.max(w.abs()));
         }
-        let bristles = &state[system.parts.bristle.clone()];
         let Self {
             slip,
             slack,
@@ -148,9 +144,7 @@ impl Watch {
             events.push(TransientEvent { time, kind });
         };
         for (pulley, condition) in slip.iter_mut().enumerate() {
-            let own = &bristles[system.mesh.bristles[pulley].clone()];
-            let mut cells = own.iter().zip(rates.caps(pulley));
-            let slips = cells.all(|(bristle, cap)| bristle.abs() >= *cap);
+            let slips = rates.slips_grossly(state, pulley);
             let kinds = [
                 TransientEventKind::GrossSlip(pulley),
                 TransientEventKind::GrossSlipEnds(pulley),
@@ -162,9 +156,8 @@ impl Watch {
     }
 
     /// Looks at the tensions of the spans.
-    fn look_at_spans(&mut self, time: f64, rates: &Rates<'_>) {
-        let system = rates.system;
-        for (span, slack) in system.mesh.spans.iter().zip(&mut self.slack_spans) {
+    fn look_at_spans(&mut self, time: f64, rates: &impl Dynamics) {
+        for (span, slack) in rates.mesh().spans.iter().zip(&mut self.slack_spans) {
             let stretches = &rates.stretches()[span.clone()];
             if stretches.iter().any(|&stretch| stretch < 1.0) {
                 slack.time += time - self.last;
@@ -172,7 +165,7 @@ impl Watch {
             }
             if slack.largest_tension >= 0.0 {
                 let largest = stretches.iter().copied().fold(0.0, f64::max);
-                let tension = system.tension(largest);
+                let tension = rates.tension(largest);
                 slack.largest_tension = slack.largest_tension.max(tension);
             }
         }

@@ -3,43 +3,15 @@
 //! Bristles are cut back to their largest displacement before every evaluation of the rates. The convective terms
 //! leave its stability alone, unlike that of one-evaluation schemes, which need axial damping.
 
-use super::rates::Rates;
-use super::system::System;
-use std::ops::Range;
+use super::dynamics::Dynamics;
 
 /// Radius of the half disc in the left half plane in which the method is stable: 2.78 on the real axis, 2.82 on
 /// the imaginary one, rounded down.
-pub(super) const STABLE: f64 = 2.7;
+const STABLE: f64 = 2.7;
 
 /// Share of the largest stable step that is taken: the stretch and the speed of the belt grow until the next look
 /// at it, by far less than a tenth of the speed of waves.
-pub(super) const SAFETY: f64 = 0.9;
-
-/// Rates over which steps are taken.
-pub(crate) trait Dynamics {
-    /// Where the speeds of the pulleys stand in a state.
-    fn speeds(&self) -> Range<usize>;
-
-    /// The rates of a state at a time in s, which is set right.
-    fn of(&mut self, time: f64, state: &mut [f64], rates: &mut [f64]);
-
-    /// Whether the load of a pulley stops it where its speed changes sign at a time in s.
-    fn holds(&self, pulley: usize, time: f64) -> bool;
-}
-
-impl Dynamics for Rates<'_> {
-    fn speeds(&self) -> Range<usize> {
-        self.system.parts.speed.clone()
-    }
-
-    fn of(&mut self, time: f64, state: &mut [f64], rates: &mut [f64]) {
-        self.of(time, state, rates);
-    }
-
-    fn holds(&self, pulley: usize, time: f64) -> bool {
-        self.holds(pulley, time)
-    }
-}
+const SAFETY: f64 = 0.9;
 
 /// A Runge–Kutta step and what it works with.
 pub(crate) struct Explicit {
@@ -49,13 +21,8 @@ pub(crate) struct Explicit {
 }
 
 impl Explicit {
-    /// Room for the states of a system.
-    pub(crate) fn new(system: &System) -> Self {
-        Self::with_room(system.parts.len())
-    }
-
     /// Room for states of a length.
-    pub(crate) fn with_room(length: usize) -> Self {
+    pub(crate) fn new(length: usize) -> Self {
         let room = || vec![0.0; length];
         Self {
             rates: room(),
@@ -64,7 +31,7 @@ impl Explicit {
         }
     }
 
-    /// Rates of a state, which is set right as by [`Rates::of`].
+    /// Rates of a state, which is set right as by [`Dynamics::of`].
     pub(crate) fn rates(
         &mut self,
         rates: &mut impl Dynamics,
@@ -108,55 +75,16 @@ impl Explicit {
     /// Stops the pulleys whose speed has changed its sign under a load that opposes motion.
     fn stop(&self, rates: &impl Dynamics, time: f64, state: &mut [f64]) {
         for (pulley, place) in rates.speeds().enumerate() {
-            if self.from[place] * state[place] < 0.0 && rates.holds(pulley, time) {
+            if self.from[place] * state[place] < 0.0
+                && rates.axles().holds(rates.wheels(), pulley, time)
+            {
                 state[place] = 0.0;
             }
         }
     }
 }
 
-/// The step that is taken from a state, s: stable for the fastest axial wave between two cells with the belt held
-/// by its bristles, and for axial damping, light pulleys and torques that depend on speed.
-pub(crate) fn stable_step(system: &System, state: &[f64]) -> f64 {
-    SAFETY * STABLE / fastest(system, state)
-}
-
-/// The largest rate of a state, 1/s.
-fn fastest(system: &System, state: &[f64]) -> f64 {
-    let System {
-        mass,
-        axial_stiffness,
-        axial_damping,
-        friction_stiffness,
-        ref across,
-        ref wheels,
-        ref mesh,
-        ref parts,
-    } = *system;
-    let densities = state[parts.density.clone()].iter().copied();
-    // Waves across are slower than axial ones by the root of the strain.
-    let stretch = densities.fold(f64::INFINITY, f64::min).recip();
-    let speeds = state[parts.velocity.clone()].iter().copied();
-    let speed = speeds.map(f64::abs).fold(0.0, f64::max);
-    let cell = mesh.shortest();
-    let wave = 2.0 * (stretch * (axial_stiffness / mass).sqrt() + speed) / cell;
-    let arcs = mesh.arcs.iter().zip(wheels);
-    // A belt held on a pulley that turns: its mass beside that of the pulley at the rim.
-    let held = arcs.map(|(arc, wheel)| {
-        let length = arc.len() as f64 * mesh.lengths[arc.start];
-        let at_rim = wheel.radius * wheel.radius / wheel.axle.inertia;
-        match wheel.axle.inertia > 0.0 {
-            true => friction_stiffness * (mass.recip() + length * at_rim),
-            false => friction_stiffness / mass,
-        }
-    });
-    let held = held.fold(0.0, f64::max);
-    let axles = wheels
-        .iter()
-        .map(|wheel| wheel.axle.rate())
-        .fold(0.0, f64::max);
-    let damping = 4.0 * axial_damping / (mass * cell * cell);
-    let across = across.as_ref().map_or(0.0, |across| across.damping);
-    let damping = damping.max(across * stretch / mass);
-    (wave * wave + held).sqrt().max(damping).max(axles)
+/// The step that is taken from a state, s: stable for its largest rate.
+pub(crate) fn stable_step(rates: &impl Dynamics, state: &[f64]) -> f64 {
+    SAFETY * STABLE / rates.fastest(state)
 }

@@ -1,12 +1,9 @@
 //! What is told of a run over time.
 
+use super::dynamics::Dynamics;
 use super::events::{SlackSpan, TransientEvent};
 use super::implicit::ImplicitWork;
 use super::ledger::Ledger;
-use super::rates::Rates;
-use super::slip::slipping;
-use super::string;
-use crate::drive::layout::Layout;
 use nalgebra::Vector2;
 
 /// The history of a drive.
@@ -113,26 +110,34 @@ pub struct BeltAlongLoop {
     pub displacement: Vec<f64>,
 }
 
+/// Where the belt meets a pulley.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Entry {
+    /// Direction of the pitch circle there, along the motion of the belt, rad, counter-clockwise from x.
+    pub(crate) direction: f64,
+    /// 1 if the belt turns counter-clockwise round the pulley, else −1.
+    pub(crate) turns: f64,
+}
+
 /// What takes samples.
 pub(crate) struct Observer {
-    /// Unit vectors along the belt and towards the axis in the cells of each arc.
+    /// Unit vectors along the motion of a pulley and towards its axis in the cells of each arc.
     frames: Vec<Vec<[Vector2<f64>; 2]>>,
     /// Energy at the start, J.
     energy: f64,
 }
 
 impl Observer {
-    /// An observer of a drive with a layout that starts with an energy in J.
-    pub(crate) fn new(rates: &Rates<'_>, layout: &Layout, energy: f64) -> Self {
-        let mesh = &rates.system.mesh;
+    /// An observer of a drive whose belt meets the pulleys at places, from a state on whose rates were computed last.
+    pub(crate) fn new(rates: &impl Dynamics, entries: &[Entry], state: &[f64]) -> Self {
+        let mesh = rates.mesh();
         let frames = mesh.arcs.iter().enumerate().map(|(pulley, arc)| {
-            let placed = &layout.pulleys()[pulley];
-            let turns = placed.turns(layout.sense());
-            let [entering, _] = layout.spans_of(pulley);
+            let Entry { direction, turns } = entries[pulley];
+            let radius = rates.wheels()[pulley].radius;
             let cell = mesh.lengths[arc.start];
             let frame = |index: usize| {
-                let passed = (index as f64 + 0.5) * cell / placed.radius;
-                let (sine, cosine) = (entering.direction + turns * passed).sin_cos();
+                let passed = (index as f64 + 0.5) * cell / radius;
+                let (sine, cosine) = (direction + turns * passed).sin_cos();
                 let along = Vector2::new(cosine, sine);
                 [along, turns * Vector2::new(-sine, cosine)]
             };
@@ -140,7 +145,7 @@ impl Observer {
         });
         Self {
             frames: frames.collect(),
-            energy,
+            energy: rates.energy(state),
         }
     }
 
@@ -148,30 +153,26 @@ impl Observer {
     pub(crate) fn sample(
         &self,
         time: f64,
-        rates: &Rates<'_>,
+        rates: &impl Dynamics,
         state: &[f64],
         least_stretch: f64,
     ) -> Sample {
-        let system = rates.system;
-        let parts = &system.parts;
-        let count = system.wheels.len();
+        let (mesh, axles) = (rates.mesh(), rates.axles());
+        let speeds = &state[rates.speeds()];
         let pulley = |index: usize| {
-            let angular_speed = state[parts.speed.start + index];
-            let torque = rates.torque[index];
-            let bristles = &state[parts.bristle.clone()][system.mesh.bristles[index].clone()];
-            let cell = system.mesh.lengths[system.mesh.arcs[index].start];
-            let slips = slipping(bristles, rates.caps(index));
+            let torque = axles.torque[index];
+            let cell = mesh.lengths[mesh.arcs[index].start];
             PulleySample {
-                angular_speed,
+                angular_speed: speeds[index],
                 torque,
-                axle_torque: rates.shaft[index],
-                power: torque * angular_speed,
-                slip_arc: slips * cell / system.wheels[index].radius,
+                axle_torque: axles.shaft[index],
+                power: torque * speeds[index],
+                slip_arc: rates.slipping(state, index) * cell / rates.wheels()[index].radius,
                 hub_load: self.hub_load(rates, state, index).into(),
             }
         };
         let middle = |span: &std::ops::Range<usize>| {
-            let at = |cell: usize| system.tension(rates.stretches()[cell]);
+            let at = |cell: usize| rates.tension(rates.stretches()[cell]);
             let middle = span.start + span.len() / 2;
             match span.len() % 2 {
                 0 => 0.5 * (at(middle - 1) + at(middle)),
@@ -180,55 +181,50 @@ impl Observer {
         };
         Sample {
             time,
-            pulleys: (0..count).map(pulley).collect(),
-            tensions: system.mesh.spans.iter().map(middle).collect(),
-            smallest_tension: system.tension(least_stretch),
+            pulleys: (0..speeds.len()).map(pulley).collect(),
+            tensions: mesh.spans.iter().map(middle).collect(),
+            smallest_tension: rates.tension(least_stretch),
             amplitudes: vec![],
-            ledger: Ledger::of(system, state, self.energy),
+            ledger: rates.ledger(state, self.energy),
         }
     }
 
     /// Force of the belt on a hub, N: of its pressure and its friction.
-    fn hub_load(&self, rates: &Rates<'_>, state: &[f64], pulley: usize) -> Vector2<f64> {
-        let system = rates.system;
-        let arc = system.mesh.arcs[pulley].clone();
-        let wheel = &system.wheels[pulley];
-        let bristles = &state[system.parts.bristle.clone()][system.mesh.bristles[pulley].clone()];
-        let cell = system.mesh.lengths[arc.start];
-        // The largest friction k_f b is μ n λ.
-        let per_cap = system.friction_stiffness / wheel.friction_coefficient;
-        let forces = arc.enumerate().map(|(index, of_loop)| {
-            let stretch = rates.stretches()[of_loop];
-            let [along, inward] = self.frames[pulley][index];
-            let pressure = per_cap * rates.caps(pulley)[index] / stretch;
-            let friction = system.friction_stiffness * bristles[index] / stretch;
-            cell * (pressure * inward + friction * along)
+    fn hub_load(&self, rates: &impl Dynamics, state: &[f64], pulley: usize) -> Vector2<f64> {
+        let frames = self.frames[pulley].iter().enumerate();
+        let forces = frames.map(|(index, [along, inward])| {
+            let [friction, pressure] = rates.force(state, pulley, index);
+            friction * along + pressure * inward
         });
         forces.sum()
     }
 
     /// The belt along the loop at a time in s, with a state and its rates.
-    pub(crate) fn belt(time: f64, rates: &Rates<'_>, state: &[f64]) -> BeltAlongLoop {
-        let system = rates.system;
-        let mesh = &system.mesh;
-        let density = &state[system.parts.density.clone()][1..];
-        let mut friction = vec![0.0; mesh.cells()];
-        let bristles = &state[system.parts.bristle.clone()];
-        for (arc, own) in mesh.arcs.iter().zip(&mesh.bristles) {
-            let forces = bristles[own.clone()].iter().zip(&density[arc.clone()]);
-            for (to, (bristle, density)) in friction[arc.clone()].iter_mut().zip(forces) {
-                *to = system.friction_stiffness * bristle * density;
-            }
-        }
+    pub(crate) fn belt(time: f64, rates: &impl Dynamics, state: &[f64]) -> BeltAlongLoop {
         BeltAlongLoop {
             time,
-            position: mesh.middles().collect(),
+            position: rates.mesh().middles().collect(),
             tension: { rates.stretches().iter() }
-                .map(|&stretch| system.tension(stretch))
+                .map(|&stretch| rates.tension(stretch))
                 .collect(),
             speed: rates.middles().to_vec(),
-            friction,
-            displacement: string::along_loop(system, state),
+            friction: rates.friction(state),
+            displacement: displacements(rates, state),
         }
     }
+}
+
+/// Displacements across in the middles of the cells of a loop, m; none where the spans do not move so.
+fn displacements(rates: &impl Dynamics, state: &[f64]) -> Vec<f64> {
+    if rates.displacements(state, 0).is_empty() {
+        return vec![];
+    }
+    let mut displaced = vec![0.0; rates.mesh().cells()];
+    for (index, span) in rates.mesh().spans.iter().enumerate() {
+        let faces = rates.displacements(state, index).windows(2);
+        for (to, ends) in displaced[span.clone()].iter_mut().zip(faces) {
+            *to = 0.5 * (ends[0] + ends[1]);
+        }
+    }
+    displaced
 }

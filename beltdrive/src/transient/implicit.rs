@@ -20,6 +20,7 @@
 //! steady state: with n = 16 the tight tension of 728 N is off by 0.31 N, with n = 4 by 1.1 N, in as many steps.
 
 use super::bordered::Bordered;
+use super::dynamics::{Dynamics, ImplicitSteps};
 use super::explicit::stable_step;
 use super::jacobian::{Unknowns, derivatives, of_cap};
 use super::ledger::{BOUND, Ledger};
@@ -115,7 +116,8 @@ impl Implicit {
     /// Errors are measured by what belongs to the mean strain ε of that state: ε itself in the densities, the velocity
     /// ε √(EA/m) of a wave with that strain, that velocity over the radius in the speeds, and the largest displacement of
     /// the bristles.
-    pub(crate) fn new(system: &System, state: &[f64], longest: f64) -> Self {
+    pub(crate) fn new(rates: &Rates<'_>, state: &[f64], longest: f64) -> Self {
+        let system = rates.system;
         let unknowns = Unknowns::new(system);
         let cells = system.mesh.cells();
         let density = &state[system.parts.density.clone()][1..];
@@ -163,7 +165,7 @@ impl Implicit {
             places[unknown] = Some(place);
         }
         let room = || vec![0.0; state.len()];
-        let first = stable_step(system, state).min(longest);
+        let first = stable_step(rates, state).min(longest);
         Self {
             unknowns,
             places,
@@ -189,106 +191,12 @@ impl Implicit {
         }
     }
 
-    /// Begins anew at a state whose rates were computed last, with a short step, as at a corner of what is given.
-    pub(crate) fn begin(&mut self, rates: &Rates<'_>, state: &[f64], changes: &[f64]) {
-        let last = &mut self.slopes[2];
-        last.copy_from_slice(changes);
-        // Bristles that slip stay at their largest displacement, which changes slowly, however fast the belt passes.
-        for (index, cap) in self.bristles.clone().zip(&rates.caps) {
-            if state[index].abs() >= *cap && state[index] * last[index] > 0.0 {
-                last[index] = 0.0;
-            }
-        }
-        self.next = self.first;
-    }
-
-    /// The rates at the end of the last step.
-    pub(crate) fn changes(&self) -> &[f64] {
-        &self.slopes[2]
-    }
-
-    /// What the steps took up to now.
-    pub(crate) fn work(&self) -> ImplicitWork {
-        self.work
-    }
-
-    /// Length that the next step will have, s.
-    pub(crate) fn next(&self) -> f64 {
-        self.next
-    }
-
-    /// The state at a share of the last step, which was of a length in s and led to a state: the cubic with the
-    /// states and the rates at both ends (Hermite). Bristles that slip at the end of the step are beyond their bounds, to
-    /// which rates cut them back.
-    pub(crate) fn within(&self, share: f64, step: f64, state: &[f64], to: &mut [f64]) {
-        let left = 1.0 - share;
-        let [from_weight, to_weight] = [
-            left * left * (1.0 + 2.0 * share),
-            share * share * (3.0 - 2.0 * share),
-        ];
-        let [first, last] = [left * left * share * step, -share * share * left * step];
-        for (index, value) in to.iter_mut().enumerate() {
-            *value = from_weight * self.from[index]
-                + to_weight * state[index]
-                + first * self.slopes[0][index]
-                + last * self.slopes[2][index];
-        }
-        let slipping = self.slips.iter().zip(self.bristles.clone());
-        for (_, index) in slipping.filter(|(slips, _)| **slips) {
-            to[index] = f64::MAX.copysign(state[index]);
-        }
-    }
-
-    /// Takes a state at a time in s towards another time; the time that it reaches. None, with the state as it was, if
-    /// no step leads on or a load would stop a pulley on the way.
-    pub(crate) fn step(
-        &mut self,
-        rates: &mut Rates<'_>,
-        [time, stop]: [f64; 2],
-        state: &mut [f64],
-    ) -> Option<f64> {
-        self.from.copy_from_slice(state);
-        let [first, _, last] = &mut self.slopes;
-        first.copy_from_slice(last);
-        loop {
-            let left = stop - time;
-            // No step is left that is much shorter than the others.
-            let step = match self.next {
-                next if next >= 0.999 * left => left,
-                next if 2.0 * next > left && next < self.longest => 0.5 * left,
-                next => next,
-            };
-            // An explicit step would be as long, and takes a tenth of the time.
-            if step < 0.5 * self.first.min(left) {
-                return None;
-            }
-            let error = self.attempt(rates, time, step, state);
-            if error.is_some() && self.stops(rates, time, state) {
-                state.copy_from_slice(&self.from);
-                return None;
-            }
-            // The error is in proportion to the third power.
-            let factor = error.map_or(0.25, |error| (0.9 * error.powf(-1.0 / 3.0)).clamp(0.2, 4.0));
-            if error.is_some_and(|error| error <= 1.0) {
-                self.work.steps += 1;
-                let longer = if !(1.0..=WORTHWHILE).contains(&factor) {
-                    factor
-                } else {
-                    1.0
-                };
-                self.next = (self.next.min(step.max(0.5 * self.next)) * longer).min(self.longest);
-                return Some(if step == left { stop } else { time + step });
-            }
-            self.next = step * factor.min(0.5);
-            state.copy_from_slice(&self.from);
-        }
-    }
-
     /// Whether the speed of a pulley has changed its sign under a load that opposes motion.
     fn stops(&self, rates: &Rates<'_>, time: f64, state: &[f64]) -> bool {
         let mut speeds = rates.system.parts.speed.clone().enumerate();
         speeds.any(|(pulley, place)| {
-            self.from[place] * state[place] <= 0.0 && rates.holds(pulley, time)
+            self.from[place] * state[place] <= 0.0
+                && rates.axles().holds(rates.wheels(), pulley, time)
         })
     }
 
@@ -468,6 +376,96 @@ impl Implicit {
         self.work.factorisations += 1;
         self.factorised = ahead;
         self.matrix.factorise(entries).then_some(())
+    }
+}
+
+impl ImplicitSteps<Rates<'_>> for Implicit {
+    fn begin(&mut self, rates: &Rates<'_>, state: &[f64], changes: &[f64]) {
+        let last = &mut self.slopes[2];
+        last.copy_from_slice(changes);
+        // Bristles that slip stay at their largest displacement, which changes slowly, however fast the belt passes.
+        for (index, cap) in self.bristles.clone().zip(&rates.caps) {
+            if state[index].abs() >= *cap && state[index] * last[index] > 0.0 {
+                last[index] = 0.0;
+            }
+        }
+        self.next = self.first;
+    }
+
+    fn changes(&self) -> &[f64] {
+        &self.slopes[2]
+    }
+
+    fn work(&self) -> ImplicitWork {
+        self.work
+    }
+
+    fn next(&self) -> f64 {
+        self.next
+    }
+
+    /// The cubic with the states and the rates at both ends (Hermite). Bristles that slip at the end of the step are beyond
+    /// their bounds, to which rates cut them back.
+    fn within(&self, share: f64, step: f64, state: &[f64], to: &mut [f64]) {
+        let left = 1.0 - share;
+        let [from_weight, to_weight] = [
+            left * left * (1.0 + 2.0 * share),
+            share * share * (3.0 - 2.0 * share),
+        ];
+        let [first, last] = [left * left * share * step, -share * share * left * step];
+        for (index, value) in to.iter_mut().enumerate() {
+            *value = from_weight * self.from[index]
+                + to_weight * state[index]
+                + first * self.slopes[0][index]
+                + last * self.slopes[2][index];
+        }
+        let slipping = self.slips.iter().zip(self.bristles.clone());
+        for (_, index) in slipping.filter(|(slips, _)| **slips) {
+            to[index] = f64::MAX.copysign(state[index]);
+        }
+    }
+
+    fn step(
+        &mut self,
+        rates: &mut Rates<'_>,
+        [time, stop]: [f64; 2],
+        state: &mut [f64],
+    ) -> Option<f64> {
+        self.from.copy_from_slice(state);
+        let [first, _, last] = &mut self.slopes;
+        first.copy_from_slice(last);
+        loop {
+            let left = stop - time;
+            // No step is left that is much shorter than the others.
+            let step = match self.next {
+                next if next >= 0.999 * left => left,
+                next if 2.0 * next > left && next < self.longest => 0.5 * left,
+                next => next,
+            };
+            // An explicit step would be as long, and takes a tenth of the time.
+            if step < 0.5 * self.first.min(left) {
+                return None;
+            }
+            let error = self.attempt(rates, time, step, state);
+            if error.is_some() && self.stops(rates, time, state) {
+                state.copy_from_slice(&self.from);
+                return None;
+            }
+            // The error is in proportion to the third power.
+            let factor = error.map_or(0.25, |error| (0.9 * error.powf(-1.0 / 3.0)).clamp(0.2, 4.0));
+            if error.is_some_and(|error| error <= 1.0) {
+                self.work.steps += 1;
+                let longer = if !(1.0..=WORTHWHILE).contains(&factor) {
+                    factor
+                } else {
+                    1.0
+                };
+                self.next = (self.next.min(step.max(0.5 * self.next)) * longer).min(self.longest);
+                return Some(if step == left { stop } else { time + step });
+            }
+            self.next = step * factor.min(0.5);
+            state.copy_from_slice(&self.from);
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use super::system::{System, Wheel};
 use super::transverse::{Across, End, RunOut, SpanAcross, Transverse};
 use crate::drive::layout::Layout;
 use crate::results::loop_state::LoopState;
-use crate::{BeltKind, Drive, FrictionLaw, Pulley};
+use crate::{Drive, FrictionLaw, Pulley};
 use nalgebra::Vector2;
 
 /// Most cells of a mesh: a second of motion then takes an hour.
@@ -65,7 +65,7 @@ pub(crate) fn system(
         return refuse(
             "friction",
             format!(
-                "a simulation needs elastic/perfectly-plastic friction (`epp`), not `{}`",
+                "a flat belt in time needs elastic/perfectly-plastic friction (`epp`), not `{}`",
                 drive.law.name()
             ),
         );
@@ -171,9 +171,6 @@ fn of_transverse(stated: &Transverse, pulleys: usize) -> Option<&'static str> {
 /// Refuses what is out of range, whatever the state at time 0.
 pub(crate) fn check(simulation: &Simulation) -> Result<(), TransientError> {
     let drive = &simulation.drive;
-    if let BeltKind::V(_) = drive.belt.kind {
-        return refuse("belt", "only drives with flat belts can be simulated");
-    }
     if let Some((pulley, _)) = drive.tensioner() {
         let name = &drive.pulleys[pulley].name;
         return refuse(name, "a drive with a tensioner cannot be simulated");

@@ -11,7 +11,7 @@ pub(crate) const BOUND: f64 = 1e-4;
 /// Energy since the start of a run, J:
 ///
 /// work of the axles + work of gravity and of run-out on the spans = change of kinetic and strain energy + loss in
-/// damping + work into the contact.
+/// damping + work into the contact + work into the compression of a V-belt.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Ledger {
@@ -30,6 +30,9 @@ pub struct Ledger {
     /// Work that went into the contact between belt and pulleys: sliding, bristle energy carried out where the belt
     /// leaves, and the change of bristle energy.
     pub contact: f64,
+    /// Work that went into the compression of a V-belt between the faces of the grooves, ∫∫ k x tan β (∂x/∂t − v sin θ) ds
+    /// dt; 0 of flat belts.
+    pub compression: f64,
     /// What the residual is measured by: the energy at the start and all work without regard to sign.
     pub turnover: f64,
 }
@@ -48,6 +51,7 @@ impl Ledger {
             stored: system.energy(state) - at_start,
             damped: state[parts.damped],
             contact: state[parts.contact],
+            compression: 0.0,
             turnover: at_start + state[parts.turnover],
         }
     }
@@ -56,7 +60,7 @@ impl Ledger {
     #[must_use]
     pub fn residual(&self) -> f64 {
         let given = self.work + self.gravity + self.run_out;
-        given - self.stored - self.damped - self.damped_across - self.contact
+        given - self.stored - self.damped - self.damped_across - self.contact - self.compression
     }
 
     /// Whether it closes.

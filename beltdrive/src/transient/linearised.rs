@@ -4,6 +4,7 @@
 //! speed of the belt; where it sticks, it is an unknown. The edge between the two does not move: what it would add is
 //! of second order, since friction is continuous there.
 
+use super::dynamics::Dynamics;
 use super::jacobian::{Unknowns, derivatives, of_cap};
 use super::rates::Rates;
 use faer::Mat;

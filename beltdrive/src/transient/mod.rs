@@ -1,4 +1,4 @@
-//! Flat belt drives in time: start-up, load steps, slip and its end, the way to the steady state.
+//! Belt drives in time: start-up, load steps, slip and its end, the way to the steady state.
 //!
 //! The belt is a one-dimensional continuum that flows through a fixed mesh along the loop, with bristles on the arcs
 //! that it carries along; the pulleys turn with their inertia. [`simulate`](crate::simulate()) follows them; `docs/transient.md` has the equations, the scheme and its limits of validity.
@@ -23,22 +23,25 @@
 //!
 //! As an option the spans move across ([`Transverse`]), with explicit steps only.
 //!
-//! Not modelled: V-belts, tensioners, bending, friction laws other than elastic/perfectly-plastic. V-belts with bristles
-//! stand among the tests: equations and steps, which no run offers yet.
+//! V-belts with bristles have equations of their own, in the module `v`, and the same runs.
+//!
+//! Not modelled: tensioners, bending, other friction laws.
 
 mod axle;
+mod axles;
 mod bordered;
 mod bristle;
+mod dynamics;
 mod events;
 mod explicit;
-mod history;
+pub(crate) mod history;
 mod implicit;
 pub(crate) mod initial;
 mod jacobian;
 mod ledger;
 mod linearised;
 pub(crate) mod mesh;
-mod rates;
+pub(crate) mod rates;
 pub(crate) mod run;
 mod schedule;
 mod simulation;
@@ -51,8 +54,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 mod transverse;
-#[cfg(test)]
-mod v;
+pub(crate) mod v;
 pub(crate) mod vibration;
 
 pub use axle::{Axle, Load, Motion, Motor};

@@ -9,11 +9,17 @@
 //! pulley     J ω̇ = R ∫ q ρ dσ + M
 //! ```
 
-use super::axle::{Load, Motion, Motor};
+use super::axles::Axles;
 use super::bristle::transport;
-use super::string::Room;
+use super::dynamics::Dynamics;
+use super::implicit::Implicit;
+use super::ledger::Ledger;
+use super::mesh::Mesh;
+use super::slip::slipping;
+use super::string::{self, Room};
 use super::sums::{LANES, dot, total};
-use super::system::{SLACK, System};
+use super::system::{SLACK, System, Wheel};
+use std::ops::Range;
 
 /// The rates of the states of a system; what they are computed from stays until the next ones.
 pub(crate) struct Rates<'s> {
@@ -37,12 +43,8 @@ pub(crate) struct Rates<'s> {
     pub(super) caps: Vec<f64>,
     /// Friction q ρ h on the arcs, N.
     forces: Vec<f64>,
-    /// Torque of the belt on each pulley along the motion of the belt, N·m.
-    pub(crate) torque: Vec<f64>,
-    /// Torque of the axle on each pulley along the motion of the belt, N·m.
-    pub(crate) shaft: Vec<f64>,
-    /// On which straight line of its schedules each axle is.
-    lines: Vec<[usize; 2]>,
+    /// Torques on the pulleys.
+    axles: Axles,
     /// What the rates of a span across are computed from.
     pub(super) room: Room,
 }
@@ -83,36 +85,10 @@ impl<'s> Rates<'s> {
             flux: closed(),
             caps: vec![0.0; system.mesh.bristle_cells()],
             forces: vec![0.0; system.mesh.bristle_cells()],
-            torque: vec![0.0; pulleys],
-            shaft: vec![0.0; pulleys],
-            lines: vec![[0; 2]; pulleys],
+            axles: Axles::new(pulleys),
             room: Room::default(),
             system,
         }
-    }
-
-    /// Takes what is given over time from the straight lines that hold from a time in s on.
-    pub(crate) fn begin(&mut self, time: f64) {
-        for (lines, wheel) in self.lines.iter_mut().zip(&self.system.wheels) {
-            let given = wheel.axle.schedule();
-            *lines = given.map(|given| given.map_or(0, |given| given.line(time)));
-        }
-    }
-
-    /// The rates of a state at a time in s. Bristles beyond their largest displacement and prescribed speeds are set
-    /// right in the state.
-    pub(crate) fn of(&mut self, time: f64, state: &mut [f64], rates: &mut [f64]) {
-        self.cells(state);
-        self.prescribe(time, state);
-        self.raise(state);
-        let contact = self.arcs(state, rates);
-        self.faces(state, rates);
-        self.axles(time, state, rates);
-        self.across(state, rates);
-        let parts = &self.system.parts;
-        let damped = self.damped(&state[parts.density.clone()]);
-        rates[parts.damped] = damped;
-        rates[parts.contact] = contact;
     }
 
     fn cells(&mut self, state: &[f64]) {
@@ -141,16 +117,6 @@ impl<'s> Rates<'s> {
         }
         for closed in [&mut self.stretch, &mut self.stretching, &mut self.pressure] {
             closed[0] = closed[cells];
-        }
-    }
-
-    /// Sets the speeds that are given.
-    fn prescribe(&self, time: f64, state: &mut [f64]) {
-        let speeds = &mut state[self.system.parts.speed.clone()];
-        for ((speed, wheel), lines) in speeds.iter_mut().zip(&self.system.wheels).zip(&self.lines) {
-            if let Motion::Speed(given) = &wheel.axle.motion {
-                *speed = given.on(lines[0], time)[0];
-            }
         }
     }
 
@@ -194,7 +160,7 @@ impl<'s> Rates<'s> {
                 forces[cell] = friction[cell] * density[cell];
             }
             let force = total(forces);
-            self.torque[pulley] = wheel.radius * force;
+            self.axles.torque[pulley] = wheel.radius * force;
             power += dot(forces, middle) - rim * force;
             let places = parts.bristle.start + bristle.start..parts.bristle.start + bristle.end;
             transport(&mut rates[places], bristles, middle, rim, cell_length);
@@ -234,38 +200,6 @@ impl<'s> Rates<'s> {
         thinning[0] = thinning[cells];
     }
 
-    fn axles(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
-        let parts = &self.system.parts;
-        let mut turnover = 0.0;
-        for (pulley, wheel) in self.system.wheels.iter().enumerate() {
-            let (torque, lines) = (self.torque[pulley], self.lines[pulley]);
-            let speed = state[parts.speed.start + pulley];
-            let inertia = wheel.axle.inertia;
-            let (shaft, change) = match &wheel.axle.motion {
-                Motion::Speed(given) => {
-                    let change = given.on(lines[0], time)[1];
-                    (inertia * change - torque, change)
-                }
-                Motion::Torques { motor, load } => {
-                    let drives = match motor {
-                        Some(Motor::Torque(given)) => given.on(lines[0], time)[0],
-                        Some(Motor::Characteristic(over_speed)) => over_speed.at(speed),
-                        None => 0.0,
-                    };
-                    let given = load.torque.on(lines[1], time)[0];
-                    let shaft = drives - load.against(given, speed, drives + torque);
-                    (shaft, (shaft + torque) / inertia)
-                }
-            };
-            let power = shaft * speed;
-            self.shaft[pulley] = shaft;
-            rates[parts.speed.start + pulley] = change;
-            rates[parts.work.start + pulley] = power;
-            turnover += power.abs();
-        }
-        rates[parts.turnover] = turnover;
-    }
-
     /// Power lost in axial damping, W.
     fn damped(&self, density: &[f64]) -> f64 {
         let damping = self.system.axial_damping;
@@ -283,25 +217,9 @@ impl<'s> Rates<'s> {
         damping * parts.iter().sum::<f64>()
     }
 
-    /// The load of a pulley that stops it where its speed changes sign at a time in s.
-    pub(crate) fn holds(&self, pulley: usize, time: f64) -> bool {
-        match &self.system.wheels[pulley].axle.motion {
-            Motion::Speed(_) => false,
-            Motion::Torques { load, .. } => {
-                let Load { torque, .. } = load;
-                load.holds(torque.on(self.lines[pulley][1], time)[0])
-            }
-        }
-    }
-
-    /// Stretches of the cells at the last rates.
-    pub(crate) fn stretches(&self) -> &[f64] {
-        &self.stretch[1..]
-    }
-
-    /// Velocities in the middles of the cells at the last rates, m/s.
-    pub(crate) fn middles(&self) -> &[f64] {
-        &self.middle
+    /// Displacements of the bristles of a pulley in a state, m.
+    fn bristles<'a>(&self, state: &'a [f64], pulley: usize) -> &'a [f64] {
+        &state[self.system.parts.bristle.clone()][self.system.mesh.bristles[pulley].clone()]
     }
 
     /// Largest displacements of the bristles of a pulley at the last rates, m.
@@ -309,3 +227,179 @@ impl<'s> Rates<'s> {
         &self.caps[self.system.mesh.bristles[pulley].clone()]
     }
 }
+
+impl Dynamics for Rates<'_> {
+    type Implicit = Implicit;
+
+    fn mesh(&self) -> &Mesh {
+        &self.system.mesh
+    }
+
+    fn wheels(&self) -> &[Wheel] {
+        &self.system.wheels
+    }
+
+    fn axles(&self) -> &Axles {
+        &self.axles
+    }
+
+    fn speeds(&self) -> Range<usize> {
+        self.system.parts.speed.clone()
+    }
+
+    fn begin(&mut self, time: f64) {
+        self.axles.begin(&self.system.wheels, time);
+    }
+
+    fn of(&mut self, time: f64, state: &mut [f64], rates: &mut [f64]) {
+        let System { wheels, parts, .. } = self.system;
+        self.cells(state);
+        let axles = &mut self.axles;
+        axles.prescribe(wheels, time, &mut state[parts.speed.clone()]);
+        self.raise(state);
+        rates[parts.contact] = self.arcs(state, rates);
+        self.faces(state, rates);
+        let mut turnover = 0.0;
+        let speeds = &state[parts.speed.clone()];
+        self.axles
+            .turn(wheels, time, speeds, |pulley, change, power| {
+                rates[parts.speed.start + pulley] = change;
+                rates[parts.work.start + pulley] = power;
+                turnover += power.abs();
+            });
+        rates[parts.turnover] = turnover;
+        self.across(state, rates);
+        rates[parts.damped] = self.damped(&state[parts.density.clone()]);
+    }
+
+    /// That of the fastest axial wave between two cells with the belt held by its bristles, of axial damping, of light
+    /// pulleys and of torques that depend on speed.
+    fn fastest(&self, state: &[f64]) -> f64 {
+        let System {
+            mass,
+            axial_stiffness,
+            axial_damping,
+            friction_stiffness,
+            ref across,
+            ref wheels,
+            ref mesh,
+            ref parts,
+        } = *self.system;
+        let densities = state[parts.density.clone()].iter().copied();
+        // Waves across are slower than axial ones by the root of the strain.
+        let stretch = densities.fold(f64::INFINITY, f64::min).recip();
+        let speeds = state[parts.velocity.clone()].iter().copied();
+        let speed = speeds.map(f64::abs).fold(0.0, f64::max);
+        let cell = mesh.shortest();
+        let wave = 2.0 * (stretch * (axial_stiffness / mass).sqrt() + speed) / cell;
+        let arcs = mesh.arcs.iter().zip(wheels);
+        // A belt held on a pulley that turns: its mass beside that of the pulley at the rim.
+        let held = arcs.map(|(arc, wheel)| {
+            let length = arc.len() as f64 * mesh.lengths[arc.start];
+            let at_rim = wheel.radius * wheel.radius / wheel.axle.inertia;
+            match wheel.axle.inertia > 0.0 {
+                true => friction_stiffness * (mass.recip() + length * at_rim),
+                false => friction_stiffness / mass,
+            }
+        });
+        let held = held.fold(0.0, f64::max);
+        let axles = wheels
+            .iter()
+            .map(|wheel| wheel.axle.rate())
+            .fold(0.0, f64::max);
+        let damping = 4.0 * axial_damping / (mass * cell * cell);
+        let across = across.as_ref().map_or(0.0, |across| across.damping);
+        let damping = damping.max(across * stretch / mass);
+        (wave * wave + held).sqrt().max(damping).max(axles)
+    }
+
+    fn implicit(&self, state: &[f64], longest: f64) -> Option<Implicit> {
+        let is_straight = self.system.across.is_none();
+        is_straight.then(|| Implicit::new(self, state, longest))
+    }
+
+    fn wave_speed(&self) -> f64 {
+        (self.system.axial_stiffness / self.system.mass).sqrt()
+    }
+
+    fn tension(&self, stretch: f64) -> f64 {
+        self.system.tension(stretch)
+    }
+
+    fn stretches(&self) -> &[f64] {
+        &self.stretch[1..]
+    }
+
+    fn middles(&self) -> &[f64] {
+        &self.middle
+    }
+
+    fn slips_grossly(&self, state: &[f64], pulley: usize) -> bool {
+        let mut cells = self.bristles(state, pulley).iter().zip(self.caps(pulley));
+        cells.all(|(bristle, cap)| bristle.abs() >= *cap)
+    }
+
+    fn slipping(&self, state: &[f64], pulley: usize) -> f64 {
+        slipping(self.bristles(state, pulley), self.caps(pulley))
+    }
+
+    fn force(&self, state: &[f64], pulley: usize, index: usize) -> [f64; 2] {
+        let system = self.system;
+        let of_loop = system.mesh.arcs[pulley].start + index;
+        // The largest friction k_f b is μ n λ.
+        let per_cap = system.friction_stiffness / system.wheels[pulley].friction_coefficient;
+        let friction = system.friction_stiffness * self.bristles(state, pulley)[index];
+        let pressure = per_cap * self.caps(pulley)[index];
+        let unstretched = system.mesh.lengths[of_loop] / self.stretches()[of_loop];
+        [unstretched * friction, unstretched * pressure]
+    }
+
+    fn friction(&self, state: &[f64]) -> Vec<f64> {
+        let system = self.system;
+        let density = &state[system.parts.density.clone()][1..];
+        let mut friction = vec![0.0; system.mesh.cells()];
+        for (pulley, arc) in system.mesh.arcs.iter().enumerate() {
+            let forces = { self.bristles(state, pulley).iter() }.zip(&density[arc.clone()]);
+            for (to, (bristle, density)) in friction[arc.clone()].iter_mut().zip(forces) {
+                *to = system.friction_stiffness * bristle * density;
+            }
+        }
+        friction
+    }
+
+    fn displacements<'a>(&self, state: &'a [f64], span: usize) -> &'a [f64] {
+        string::displacements(self.system, state, span)
+    }
+
+    fn energy(&self, state: &[f64]) -> f64 {
+        self.system.energy(state)
+    }
+
+    fn ledger(&self, state: &[f64], at_start: f64) -> Ledger {
+        Ledger::of(self.system, state, at_start)
+    }
+
+    fn unrest(&self, state: &[f64], rates: &[f64]) -> f64 {
+        let densities = &self.system.parts.density;
+        let tensions = state[densities.clone()]
+            .iter()
+            .zip(&rates[densities.clone()]);
+        // The rate of T = EA (1/ρ − 1) over T.
+        let tensions =
+            tensions.map(|(density, change)| (change / (density * (1.0 - density))).abs());
+        let across = string::fastest(self.system, rates) / self.system.mesh.length();
+        tensions.fold(across, f64::max)
+    }
+
+    fn impossible(&self, state: &[f64]) -> Option<&'static str> {
+        let mut densities = state[self.system.parts.density.clone()].iter();
+        if densities.any(|density| *density <= 0.0) {
+            return Some("the belt is stretched without bounds");
+        }
+        (string::steepest(self.system, state) > STEEPEST)
+            .then_some("a span moves across with a slope beyond which its stretch is wrong")
+    }
+}
+
+/// Largest slope of a span that moves across: the stretch leaves out s⁴/8, which is then a thousandth.
+const STEEPEST: f64 = 0.3;

@@ -4,31 +4,29 @@
 //! implicit, and end at samples or lie between two of them; where no implicit step leads on, because a load stops a
 //! pulley, they are explicit up to the next sample. Spans that move across take explicit steps only.
 
+use super::dynamics::{Dynamics, ImplicitSteps};
 use super::events::Watch;
 use super::explicit::{Explicit, stable_step};
-use super::history::{Effort, Ending, History, Observer};
-use super::implicit::Implicit;
-use super::rates::Rates;
+use super::history::{Effort, Ending, Entry, History, Observer};
 use super::simulation::{Simulation, TransientError, Until};
 use super::steady::Stillness;
-use super::string;
-use super::system::System;
-use crate::drive::layout::Layout;
 use web_time::Instant;
 
-/// Takes the first state of a system to the end of a simulation. `progress` is told the time in s and the share of
-/// the run that is done; the run ends where it answers no.
-pub(crate) fn run(
+/// Takes the first state of a drive, whose belt meets the pulleys at places, to the end of a simulation. `progress` is
+/// told the time in s and the share of the run that is done; the run ends where it answers no.
+pub(crate) fn run<R: Dynamics>(
     simulation: &Simulation,
-    (system, layout): (&System, &Layout),
+    (mut rates, entries): (R, &[Entry]),
     mut state: Vec<f64>,
     progress: &mut dyn FnMut(f64, f64) -> bool,
 ) -> Result<History, TransientError> {
     let begun = Instant::now();
-    let mut run = Run::new(simulation, (system, layout), &state);
-    let mut explicit = Explicit::new(system);
+    let mut explicit = Explicit::new(state.len());
+    rates.begin(0.0);
+    explicit.rates(&mut rates, 0.0, &mut state);
+    let mut run = Run::new(simulation, (rates, entries), &state);
     let mut stillness = Stillness::new(&run.rates);
-    let mut implicit: Option<Implicit> = None;
+    let mut implicit: Option<R::Implicit> = None;
     let mut between = state.clone();
     let mut instants = simulation.instants.clone();
     instants.sort_by(f64::total_cmp);
@@ -67,21 +65,23 @@ pub(crate) fn run(
         if run.is_at(time, run.end) {
             break;
         }
-        let stop = system
-            .wheels
-            .iter()
-            .map(|wheel| wheel.axle.next_corner(time));
-        let stop = stop.fold(run.end, f64::min);
+        let corners = run.rates.wheels().iter();
+        let corners = corners.map(|wheel| wheel.axle.next_corner(time));
+        let stop = corners.fold(run.end, f64::min);
         let stop = { instants.peek() }.map_or(stop, |&instant| run.earlier(instant, stop));
         if run.is_steady_sought
             && simulation.step.is_none()
-            && system.across.is_none()
             && stillness.is_after_corners(time)
             && time >= explicit_until
         {
-            let implicit = implicit.get_or_insert_with(|| {
-                Implicit::new(system, &state, LONGEST * simulation.interval)
-            });
+            if implicit.is_none() {
+                let longest = LONGEST * simulation.interval;
+                implicit = run.rates.implicit(&state, longest);
+            }
+            let Some(implicit) = &mut implicit else {
+                explicit_until = f64::INFINITY;
+                continue;
+            };
             if !is_implicit {
                 implicit.begin(&run.rates, &state, changes);
             }
@@ -93,7 +93,7 @@ pub(crate) fn run(
                 explicit_until = run.next_sample();
                 continue;
             };
-            possible(system, &state, time)?;
+            possible(&run.rates, &state, time)?;
             run.took(1, reached - time);
             while !run.is_at(run.next_sample(), reached) {
                 let at = run.next_sample();
@@ -108,7 +108,7 @@ pub(crate) fn run(
         }
         is_implicit = false;
         let stop = run.earlier(run.next_sample(), stop);
-        let (count, step, stop) = step_to(simulation, system, &state, [time, stop])?;
+        let (count, step, stop) = step_to(simulation, &run.rates, &state, [time, stop])?;
         run.took(count, step);
         for index in 0..count {
             let at = time + index as f64 * step;
@@ -118,7 +118,7 @@ pub(crate) fn run(
             }
             explicit.step(&mut run.rates, at, step, &mut state);
         }
-        possible(system, &state, time)?;
+        possible(&run.rates, &state, time)?;
         time = stop;
     }
     run.history.slack_spans = run.watch.slack_spans.clone();
@@ -132,15 +132,12 @@ pub(crate) fn run(
 /// steady at 6 s and with 20 not at 3 s, where explicit steps find it steady at 2.35 s.
 const LONGEST: f64 = 5.0;
 
-/// Largest slope of a span that moves across: the stretch leaves out s⁴/8, which is then a thousandth.
-const STEEPEST: f64 = 0.3;
-
 /// Most steps between two looks at the largest stable one: in so many a wave passes 40 cells at most.
 const MOST_STEPS: usize = 100;
 
 /// What a run has told up to now, and what tells it.
-struct Run<'s> {
-    rates: Rates<'s>,
+struct Run<R> {
+    rates: R,
     observer: Observer,
     watch: Watch,
     history: History,
@@ -151,26 +148,17 @@ struct Run<'s> {
     is_steady_sought: bool,
 }
 
-impl<'s> Run<'s> {
-    fn new(
-        simulation: &Simulation,
-        (system, layout): (&'s System, &Layout),
-        state: &[f64],
-    ) -> Self {
+impl<R: Dynamics> Run<R> {
+    fn new(simulation: &Simulation, (rates, entries): (R, &[Entry]), state: &[f64]) -> Self {
         let (end, is_steady_sought) = match simulation.until {
             Until::Time(end) => (end, false),
             Until::Steady { latest } => (latest, true),
         };
-        let rates = Rates::new(system);
-        let wave = (system.axial_stiffness / system.mass).sqrt();
         Self {
-            observer: Observer::new(&rates, layout, system.energy(state)),
-            watch: Watch::new(system, system.mesh.length() / wave),
-            rates,
+            observer: Observer::new(&rates, entries, state),
+            watch: Watch::new(&rates, state),
             history: History {
-                pulleys: layout
-                    .pulleys()
-                    .iter()
+                pulleys: { simulation.drive.pulleys.iter() }
                     .map(|pulley| pulley.name.clone())
                     .collect(),
                 samples: vec![],
@@ -182,11 +170,12 @@ impl<'s> Run<'s> {
                     false => Ending::Time,
                 },
                 effort: Effort {
-                    cells: system.mesh.cells(),
+                    cells: rates.mesh().cells(),
                     step: [f64::INFINITY, 0.0],
                     ..Effort::default()
                 },
             },
+            rates,
             interval: simulation.interval,
             end,
             is_steady_sought,
@@ -255,11 +244,11 @@ impl<'s> Run<'s> {
 /// How many equal steps lead from one time towards another in s, how long they are, and where they end.
 fn step_to(
     simulation: &Simulation,
-    system: &System,
+    rates: &impl Dynamics,
     state: &[f64],
     [time, stop]: [f64; 2],
 ) -> Result<(usize, f64, f64), TransientError> {
-    let stable = stable_step(system, state);
+    let stable = stable_step(rates, state);
     let longest = match simulation.step {
         Some(asked) if asked > stable => {
             return Err(TransientError::Unstable {
@@ -285,17 +274,14 @@ fn step_to(
 }
 
 /// Whether a state is that of a belt, after a time in s at which it was.
-fn possible(system: &System, state: &[f64], time: f64) -> Result<(), TransientError> {
-    let impossible = |problem| Err(TransientError::Impossible { time, problem });
-    if !state.iter().all(|number| number.is_finite()) {
-        return impossible("a number is not finite");
+fn possible(rates: &impl Dynamics, state: &[f64], time: f64) -> Result<(), TransientError> {
+    let is_finite = state.iter().all(|number| number.is_finite());
+    let problem = match rates.impossible(state) {
+        None if !is_finite => Some("a number is not finite"),
+        problem => problem,
+    };
+    match problem {
+        Some(problem) => Err(TransientError::Impossible { time, problem }),
+        None => Ok(()),
     }
-    let mut densities = state[system.parts.density.clone()].iter();
-    if densities.any(|density| *density <= 0.0) {
-        return impossible("the belt is stretched without bounds");
-    }
-    if string::steepest(system, state) > STEEPEST {
-        return impossible("a span moves across with a slope beyond which its stretch is wrong");
-    }
-    Ok(())
 }

@@ -4,11 +4,12 @@ use super::axle::Axle;
 use super::transverse::Transverse;
 use crate::{Drive, SolveError};
 
-/// A drive with a flat belt in time.
+/// A drive in time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulation {
-    /// The drive: flat belt, elastic/perfectly-plastic friction, pulleys at fixed centres. Its duties and loads only
-    /// decide where the run starts.
+    /// The drive, with pulleys at fixed centres: a flat belt with elastic/perfectly-plastic friction, or a V-belt with
+    /// bristles in the grooves of all pulleys. Its duties and loads decide where the run starts, and where a V-belt meets
+    /// and leaves its pulleys in all of it.
     pub drive: Drive,
     /// The axles of its pulleys, in belt order.
     pub axles: Vec<Axle>,

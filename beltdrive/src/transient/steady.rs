@@ -1,7 +1,6 @@
 //! Whether nothing changes any more.
 
-use super::rates::Rates;
-use super::string;
+use super::dynamics::Dynamics;
 
 /// Largest change in a second, relative.
 const STILL: f64 = 1e-6;
@@ -19,8 +18,8 @@ pub(crate) struct Stillness {
 
 impl Stillness {
     /// Looks for the steady state of a system.
-    pub(crate) fn new(rates: &Rates<'_>) -> Self {
-        let axles = rates.system.wheels.iter().map(|wheel| &wheel.axle);
+    pub(crate) fn new(rates: &impl Dynamics) -> Self {
+        let axles = rates.wheels().iter().map(|wheel| &wheel.axle);
         let given = axles.flat_map(|axle| axle.schedule()).flatten();
         let corners = given.flat_map(|given| given.points().iter().map(|point| point[0]));
         Self {
@@ -38,26 +37,16 @@ impl Stillness {
     pub(crate) fn look(
         &mut self,
         time: f64,
-        rates: &Rates<'_>,
+        rates: &impl Dynamics,
         state: &[f64],
         changes: &[f64],
     ) -> bool {
-        let system = rates.system;
-        let parts = &system.parts;
         let rims = |list: &[f64]| {
-            let speeds = system.wheels.iter().zip(&list[parts.speed.clone()]);
+            let speeds = rates.wheels().iter().zip(&list[rates.speeds()]);
             let rims = speeds.map(|(wheel, speed)| (wheel.radius * speed).abs());
             rims.fold(0.0, f64::max)
         };
-        let densities = state[parts.density.clone()].iter();
-        let tensions = densities.zip(&changes[parts.density.clone()]);
-        // The rate of T = EA (1/ρ − 1) over T.
-        let tension =
-            tensions.map(|(density, change)| (change / (density * (1.0 - density))).abs());
-        let tension = tension.fold(0.0, f64::max);
-        let is_still = tension < STILL
-            && rims(changes) <= STILL * rims(state)
-            && string::fastest(system, changes) <= STILL * system.mesh.length();
+        let is_still = rates.unrest(state, changes) < STILL && rims(changes) <= STILL * rims(state);
         self.still = match is_still && self.is_after_corners(time) {
             true => self.still + 1,
             false => 0,

@@ -85,21 +85,6 @@ pub(super) fn fastest(system: &System, changes: &[f64]) -> f64 {
     changes.map(|change| change.abs()).fold(0.0, f64::max)
 }
 
-/// Displacements across in the middles of the cells of a loop, m; none where the spans do not move so.
-pub(super) fn along_loop(system: &System, state: &[f64]) -> Vec<f64> {
-    if system.across.is_none() {
-        return vec![];
-    }
-    let mut displaced = vec![0.0; system.mesh.cells()];
-    for (index, span) in system.mesh.spans.iter().enumerate() {
-        let faces = displacements(system, state, index).windows(2);
-        for (to, ends) in displaced[span.clone()].iter_mut().zip(faces) {
-            *to = 0.5 * (ends[0] + ends[1]);
-        }
-    }
-    displaced
-}
-
 /// Kinetic energy of the spans that move across and what their slopes add to the strain energy, J.
 pub(super) fn energy(system: &System, state: &[f64]) -> f64 {
     let Some((_, parts)) = of(system) else {

@@ -1,5 +1,6 @@
 //! Modes of vibration of a linearised drive.
 
+use super::dynamics::Dynamics;
 use super::linearised::{Linearised, linearised};
 use super::rates::Rates;
 use super::system::System;

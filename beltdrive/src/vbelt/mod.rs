@@ -64,3 +64,6 @@ pub(crate) use model::VBelts;
 pub(crate) const DRIVEN: usize = 0;
 /// Index of the driver.
 pub(crate) const DRIVER: usize = 1;
+
+/// Bristles deflected to this share of their limit count as slipping.
+pub(crate) const SLIPPING_BRISTLES: f64 = 0.99;

@@ -1,5 +1,6 @@
 //! A V-belt on one pulley of a solution: integrals, profile and friction zones.
 
+use super::SLIPPING_BRISTLES;
 use super::groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 use super::path::Solved;
 use super::{BeltProblem, Contact, EndAngles, Groove, Law, Regime, Units, limit_excess};
@@ -18,9 +19,6 @@ const GAUSS: [(f64, f64); 4] = [
 const PROFILE_POINTS: usize = 240;
 /// Samples of the slip per mesh interval.
 const SLIP_SAMPLES: usize = 8;
-/// Bristles deflected to this share of their limit count as slipping.
-const SLIPPING_BRISTLES: f64 = 0.99;
-
 /// Integrals over the contact with one pulley, scaled.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Integrals {

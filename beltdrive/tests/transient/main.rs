@@ -9,6 +9,7 @@ mod random;
 mod random_loops;
 mod statements;
 mod steady_states;
+mod v_belts;
 
 use beltdrive::transient::{
     Axle, Cells, History, Load, Motion, Schedule, Simulation, Start, Until,

@@ -1,6 +1,7 @@
 //! The linearised rates against differences of the rates.
 
 use super::super::axle::{Axle, Load, Motion, Motor};
+use super::super::dynamics::Dynamics;
 use super::super::linearised::linearised;
 use super::super::rates::Rates;
 use super::super::schedule::Schedule;

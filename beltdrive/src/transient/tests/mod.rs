@@ -9,6 +9,7 @@ mod spans;
 mod waves;
 
 use super::axle::{Axle, Motion};
+use super::dynamics::Dynamics;
 use super::explicit::{Explicit, stable_step};
 use super::mesh::{Mesh, Stretch};
 use super::rates::Rates;
@@ -57,9 +58,9 @@ fn held() -> Axle {
 
 /// Takes a state over a time in s and calls `look` with every state on the way.
 fn follow(system: &System, state: &mut [f64], time: f64, mut look: impl FnMut(f64, &[f64])) {
-    let (mut rates, mut explicit) = (Rates::new(system), Explicit::new(system));
+    let (mut rates, mut explicit) = (Rates::new(system), Explicit::new(system.parts.len()));
     rates.begin(0.0);
-    let steps = (time / stable_step(system, state)).ceil();
+    let steps = (time / stable_step(&rates, state)).ceil();
     let step = time / steps;
     let mut index = 0.0;
     while index < steps {

@@ -1,6 +1,7 @@
 //! A load that pulsates against the linearised equations.
 
 use super::super::axle::{Axle, Load, Motion};
+use super::super::dynamics::Dynamics;
 use super::super::linearised::linearised;
 use super::super::rates::Rates;
 use super::super::schedule::{Pulsation, Schedule};

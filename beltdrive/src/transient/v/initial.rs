@@ -1,6 +1,7 @@
 //! From the steady state of a drive with a V-belt to its equations in time, and the state at time 0.
 
 use super::super::axle::Motion;
+use super::super::history::Entry;
 use super::super::initial::{SAME_SPEED, interpolated, refuse, stretches};
 use super::super::mesh::Mesh;
 use super::super::simulation::{Simulation, TransientError};
@@ -9,15 +10,21 @@ use super::rates::Rates;
 use super::state::Parts;
 use super::system::System;
 use crate::results::loop_state::LoopState;
-use crate::{Drive, FrictionLaw, Profile, VBelt};
+use crate::{FrictionLaw, Profile, VBelt};
 
 /// The equations of a drive whose belt keeps the places of contact of a steady state.
 pub(crate) fn system(
     simulation: &Simulation,
-    drive: &Drive,
     belt: &VBelt,
     found: &LoopState,
 ) -> Result<System, TransientError> {
+    let drive = &simulation.drive;
+    if simulation.transverse.is_some() {
+        return refuse(
+            "motion of the spans across",
+            "the spans of a V-belt stay straight in time",
+        );
+    }
     let FrictionLaw::Bristle { stiffness } = drive.law else {
         return refuse(
             "friction",
@@ -62,6 +69,24 @@ pub(crate) fn system(
         parts: Parts::new(&mesh),
         mesh,
     })
+}
+
+/// Where the belt meets the grooves in a steady state.
+pub(crate) fn entries(found: &LoopState) -> Vec<Entry> {
+    let count = found.pulleys.len();
+    let sense = found.layout.sense();
+    let pulleys = found.pulleys.iter().enumerate();
+    let entries = pulleys.map(|(index, pulley)| {
+        let turns = found.layout.pulleys()[index].turns(sense);
+        let inclination = { pulley.groove.as_ref() }.map_or(0.0, |groove| groove.inclination[0]);
+        let entering = &found.spans[(index + count - 1) % count];
+        Entry {
+            // An outward inclination turns the belt against the sense in which it goes round.
+            direction: entering.direction + turns * inclination,
+            turns,
+        }
+    });
+    entries.collect()
 }
 
 /// Whether every groove was found to hold the belt.

@@ -11,11 +11,17 @@
 //! Its sums are such that energy is kept but for the steps of time: the terms with Ψ move kinetic energy from face to
 //! face, that with ġ does the work of the part m ρ v² of F = T − m ρ v² in the radial balance.
 
-use super::super::axle::{Motion, Motor};
+use super::super::axles::Axles;
 use super::super::bristle::weights;
-use super::super::explicit::Dynamics;
+use super::super::dynamics::Dynamics;
+use super::super::ledger::Ledger;
+use super::super::mesh::Mesh;
+use super::super::slip::slipping;
+use super::super::system::Wheel;
 use super::radial::{Balance, Pull, Shape, Tridiagonal};
 use super::system::System;
+use crate::vbelt::SLIPPING_BRISTLES;
+use std::convert::Infallible;
 use std::ops::Range;
 
 /// The belt in a groove at the middle of a cell.
@@ -58,12 +64,8 @@ pub(crate) struct Rates<'s> {
     flux: Vec<f64>,
     amount: Vec<f64>,
     acceleration: Vec<f64>,
-    /// Torque of the belt on each pulley along the motion of the belt, N·m.
-    pub(crate) torque: Vec<f64>,
-    /// Torque of the axle on each pulley along the motion of the belt, N·m.
-    pub(crate) shaft: Vec<f64>,
-    /// On which straight line of its schedules each axle is.
-    lines: Vec<[usize; 2]>,
+    /// Torques on the pulleys.
+    axles: Axles,
 }
 
 /// A rate of the depth is found to this share of the largest velocity of the belt; the ledger feels no more than that.
@@ -100,18 +102,8 @@ impl<'s> Rates<'s> {
             flux: room(),
             amount: room(),
             acceleration: room(),
-            torque: vec![0.0; pulleys],
-            shaft: vec![0.0; pulleys],
-            lines: vec![[0; 2]; pulleys],
+            axles: Axles::new(pulleys),
             system,
-        }
-    }
-
-    /// Takes what is given over time from the straight lines that hold from a time in s on.
-    pub(crate) fn begin(&mut self, time: f64) {
-        for (lines, wheel) in self.lines.iter_mut().zip(&self.system.wheels) {
-            let given = wheel.axle.schedule();
-            *lines = given.map(|given| given.map_or(0, |given| given.line(time)));
         }
     }
 
@@ -140,15 +132,6 @@ impl<'s> Rates<'s> {
             self.lengths[of_loop] = Shape::new(ends, measure[0], measure[1]).length;
         }
         settled
-    }
-
-    fn prescribe(&self, time: f64, state: &mut [f64]) {
-        let speeds = &mut state[self.system.parts.speed.clone()];
-        for ((speed, wheel), lines) in speeds.iter_mut().zip(&self.system.wheels).zip(&self.lines) {
-            if let Motion::Speed(given) = &wheel.axle.motion {
-                *speed = given.on(lines[0], time)[0];
-            }
-        }
     }
 
     /// The depth in all grooves.
@@ -219,7 +202,7 @@ impl<'s> Rates<'s> {
                 self.force[of_loop] = length * (against * direction[1] - outward * direction[0]);
                 torque += length * against * rim;
             }
-            self.torque[pulley] = torque;
+            self.axles.torque[pulley] = torque;
         }
         for ((stretch, length), amount) in self.stretch.iter_mut().zip(&self.lengths).zip(amounts) {
             *stretch = length / amount;
@@ -351,16 +334,15 @@ impl<'s> Rates<'s> {
             }
         }
         let [mut friction, mut compression] = [0.0; 2];
-        let [sine, cosine] = system.groove;
+        let [sine, _] = system.groove;
         for (pulley, arc) in mesh.arcs.iter().enumerate() {
             let cell = mesh.lengths[arc.start];
             let own = mesh.bristles[pulley].clone();
-            for (index, of_loop) in arc.clone().enumerate() {
+            for index in 0..arc.len() {
                 let place = own.start + index;
                 let seated = &self.seated[place];
-                let sinking = 0.5 * (self.sinking[pulley][index] + self.sinking[pulley][index + 1]);
-                let outward = self.middle[of_loop] * seated.direction[0] - sinking;
-                let slip = [seated.slip, outward / cosine];
+                let up = self.sliding(pulley, index);
+                let slip = [seated.slip, up];
                 let bristles = [parts.along.start, parts.up.start].map(|part| state[part + place]);
                 let length = cell * seated.shape.length;
                 friction += 2.0
@@ -368,11 +350,20 @@ impl<'s> Rates<'s> {
                     * seated.pressure
                     * (bristles[0] * slip[0] + bristles[1] * slip[1]);
                 let pressed = system.radial_stiffness * seated.depth.max(0.0);
-                compression -= length * pressed * sine / cosine * outward;
+                compression -= length * pressed * sine * up;
             }
         }
         rates[parts.friction] = friction;
         rates[parts.compression] = compression;
+    }
+
+    /// Slip `e_w` of the belt up the groove faces in a cell of an arc, m/s.
+    fn sliding(&self, pulley: usize, index: usize) -> f64 {
+        let mesh = &self.system.mesh;
+        let sinking = 0.5 * (self.sinking[pulley][index] + self.sinking[pulley][index + 1]);
+        let direction = self.seated[mesh.bristles[pulley].start + index].direction;
+        let v = self.middle[mesh.arcs[pulley].start + index];
+        (v * direction[0] - sinking) / self.system.groove[1]
     }
 
     /// Rates of the lengths of the cells, and accelerations with what they do.
@@ -398,46 +389,95 @@ impl<'s> Rates<'s> {
                 self.acceleration[face] - 0.5 * velocity[face] * lengthening / self.amount[face];
         }
     }
+}
 
-    fn axles(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
-        let parts = &self.system.parts;
+/// Mean of the squares of the velocity at the faces of a cell, m²/s².
+pub(super) fn squares(velocity: &[f64], cell: usize) -> f64 {
+    let next = velocity[(cell + 1) % velocity.len()];
+    0.5 * (velocity[cell] * velocity[cell] + next * next)
+}
+
+/// F = T − m ρ v² of a cell with an amount of belt and a length, and its derivative with the length, N.
+fn tractive(system: &System, amount: f64, length: f64, squares: f64) -> (f64, f64) {
+    let (stretch, centrifugal) = (length / amount, system.mass * squares * amount / length);
+    (
+        system.tension(stretch) - centrifugal,
+        system.axial_stiffness / amount + centrifugal / length,
+    )
+}
+
+fn pull(system: &System, tractive: [f64; 2], depth: f64, up: f64) -> Pull {
+    let [share, _] = system.outward(up);
+    let stiffness = match depth > 0.0 {
+        true => system.radial_stiffness * share,
+        false => 0.0,
+    };
+    Pull {
+        tractive,
+        outward: [stiffness * depth, stiffness],
+    }
+}
+
+/// Six times the difference of what the belt carries along an arc in a cell, from where it enters.
+fn slope(list: &[f64], cell: usize, forward: bool) -> f64 {
+    let count = list.len();
+    let place = |at: usize| if forward { at } else { count - 1 - at };
+    let (first, weights) = weights(place(cell), count);
+    let sum: f64 = { weights.iter().enumerate() }
+        .map(|(offset, weight)| weight * list[place(first + offset)])
+        .sum();
+    if forward { sum } else { -sum }
+}
+
+/// A pulley slips grossly where the belt slips everywhere by this share of its speed: creep is a fifth of that at the
+/// usual loads of V-belts, and takes place on a part of the contact.
+const GROSS: f64 = 0.01;
+
+impl Dynamics for Rates<'_> {
+    type Implicit = Infallible;
+
+    fn mesh(&self) -> &Mesh {
+        &self.system.mesh
+    }
+
+    fn wheels(&self) -> &[Wheel] {
+        &self.system.wheels
+    }
+
+    fn axles(&self) -> &Axles {
+        &self.axles
+    }
+
+    fn speeds(&self) -> Range<usize> {
+        self.system.parts.speed.clone()
+    }
+
+    fn begin(&mut self, time: f64) {
+        self.axles.begin(&self.system.wheels, time);
+    }
+
+    fn of(&mut self, time: f64, state: &mut [f64], rates: &mut [f64]) {
+        let System { wheels, parts, .. } = self.system;
+        let axles = &mut self.axles;
+        axles.prescribe(wheels, time, &mut state[parts.speed.clone()]);
+        self.settle(state);
+        self.cells(state);
+        self.faces(state, rates);
+        self.sink(state, rates);
         let mut turnover = 0.0;
-        for (pulley, wheel) in self.system.wheels.iter().enumerate() {
-            let (torque, lines) = (self.torque[pulley], self.lines[pulley]);
-            let speed = state[parts.speed.start + pulley];
-            let inertia = wheel.axle.inertia;
-            let (shaft, change) = match &wheel.axle.motion {
-                Motion::Speed(given) => {
-                    let change = given.on(lines[0], time)[1];
-                    (inertia * change - torque, change)
-                }
-                Motion::Torques { motor, load } => {
-                    let drives = match motor {
-                        Some(Motor::Torque(given)) => given.on(lines[0], time)[0],
-                        Some(Motor::Characteristic(over_speed)) => over_speed.at(speed),
-                        None => 0.0,
-                    };
-                    let given = load.torque.on(lines[1], time)[0];
-                    let shaft = drives - load.against(given, speed, drives + torque);
-                    (shaft, (shaft + torque) / inertia)
-                }
-            };
-            let power = shaft * speed;
-            self.shaft[pulley] = shaft;
-            rates[parts.speed.start + pulley] = change;
-            rates[parts.work.start + pulley] = power;
-            turnover += power.abs();
-        }
+        let speeds = &state[parts.speed.clone()];
+        self.axles
+            .turn(wheels, time, speeds, |pulley, change, power| {
+                rates[parts.speed.start + pulley] = change;
+                rates[parts.work.start + pulley] = power;
+                turnover += power.abs();
+            });
         rates[parts.turnover] = turnover;
     }
 
-    /// Stretches of the cells at the last rates.
-    pub(crate) fn stretches(&self) -> &[f64] {
-        &self.stretch
-    }
-
-    /// The largest rate of a state whose rates were computed last, 1/s.
-    pub(super) fn fastest(&self, state: &[f64]) -> f64 {
+    /// That of the fastest axial wave between two cells with the belt held by its bristles, of axial damping, of bristles
+    /// that saturate, of light pulleys and of torques that depend on speed.
+    fn fastest(&self, state: &[f64]) -> f64 {
         let System {
             mass,
             axial_stiffness,
@@ -484,66 +524,114 @@ impl<'s> Rates<'s> {
             .max(relaxing)
             .max(axles)
     }
-}
 
-/// Mean of the squares of the velocity at the faces of a cell, m²/s².
-pub(super) fn squares(velocity: &[f64], cell: usize) -> f64 {
-    let next = velocity[(cell + 1) % velocity.len()];
-    0.5 * (velocity[cell] * velocity[cell] + next * next)
-}
-
-/// F = T − m ρ v² of a cell with an amount of belt and a length, and its derivative with the length, N.
-fn tractive(system: &System, amount: f64, length: f64, squares: f64) -> (f64, f64) {
-    let (stretch, centrifugal) = (length / amount, system.mass * squares * amount / length);
-    (
-        system.tension(stretch) - centrifugal,
-        system.axial_stiffness / amount + centrifugal / length,
-    )
-}
-
-fn pull(system: &System, tractive: [f64; 2], depth: f64, up: f64) -> Pull {
-    let [share, _] = system.outward(up);
-    let stiffness = match depth > 0.0 {
-        true => system.radial_stiffness * share,
-        false => 0.0,
-    };
-    Pull {
-        tractive,
-        outward: [stiffness * depth, stiffness],
-    }
-}
-
-/// Six times the difference of what the belt carries along an arc in a cell, from where it enters.
-fn slope(list: &[f64], cell: usize, forward: bool) -> f64 {
-    let count = list.len();
-    let place = |at: usize| if forward { at } else { count - 1 - at };
-    let (first, weights) = weights(place(cell), count);
-    let sum: f64 = { weights.iter().enumerate() }
-        .map(|(offset, weight)| weight * list[place(first + offset)])
-        .sum();
-    if forward { sum } else { -sum }
-}
-
-impl Dynamics for Rates<'_> {
-    fn speeds(&self) -> Range<usize> {
-        self.system.parts.speed.clone()
+    fn implicit(&self, _: &[f64], _: f64) -> Option<Infallible> {
+        None
     }
 
-    fn of(&mut self, time: f64, state: &mut [f64], rates: &mut [f64]) {
-        self.prescribe(time, state);
-        self.settle(state);
-        self.cells(state);
-        self.faces(state, rates);
-        self.sink(state, rates);
-        self.axles(time, state, rates);
+    fn wave_speed(&self) -> f64 {
+        (self.system.axial_stiffness / self.system.mass).sqrt()
     }
 
-    fn holds(&self, pulley: usize, time: f64) -> bool {
-        match &self.system.wheels[pulley].axle.motion {
-            Motion::Speed(_) => false,
-            Motion::Torques { load, .. } => {
-                load.holds(load.torque.on(self.lines[pulley][1], time)[0])
+    fn tension(&self, stretch: f64) -> f64 {
+        self.system.tension(stretch)
+    }
+
+    fn stretches(&self) -> &[f64] {
+        &self.stretch
+    }
+
+    fn middles(&self) -> &[f64] {
+        &self.middle
+    }
+
+    fn slips_grossly(&self, _: &[f64], pulley: usize) -> bool {
+        let own = self.system.mesh.bristles[pulley].clone();
+        let first = self.system.mesh.arcs[pulley].start;
+        self.seated[own].iter().enumerate().all(|(index, seated)| {
+            let slip = seated.slip.hypot(self.sliding(pulley, index));
+            slip > GROSS * self.middle[first + index].abs()
+        })
+    }
+
+    fn slipping(&self, state: &[f64], pulley: usize) -> f64 {
+        let limit = SLIPPING_BRISTLES * self.system.wheels[pulley].friction_coefficient;
+        let own = self.system.mesh.bristles[pulley].clone();
+        let parts = &self.system.parts;
+        let [along, up] = [&parts.along, &parts.up].map(|part| &state[part.clone()][own.clone()]);
+        let bent: Vec<_> = { along.iter().zip(up) }
+            .map(|(along, up)| along.hypot(*up))
+            .collect();
+        slipping(&bent, &vec![limit; bent.len()])
+    }
+
+    fn force(&self, state: &[f64], pulley: usize, index: usize) -> [f64; 2] {
+        let System {
+            groove: [sine, cosine],
+            ref mesh,
+            ref parts,
+            ..
+        } = *self.system;
+        let place = mesh.bristles[pulley].start + index;
+        let seated = &self.seated[place];
+        let [along, up] = [&parts.along, &parts.up].map(|part| state[part.start + place]);
+        let faces =
+            2.0 * seated.pressure * seated.shape.length * mesh.lengths[mesh.arcs[pulley].start];
+        [faces * along, faces * (sine - up * cosine)]
+    }
+
+    fn friction(&self, state: &[f64]) -> Vec<f64> {
+        let System { mesh, parts, .. } = self.system;
+        let mut friction = vec![0.0; mesh.cells()];
+        for (arc, own) in mesh.arcs.iter().zip(&mesh.bristles) {
+            let cells = self.seated[own.clone()].iter();
+            let bristles = &state[parts.along.clone()][own.clone()];
+            for (to, (seated, along)) in friction[arc.clone()].iter_mut().zip(cells.zip(bristles)) {
+                *to = 2.0 * seated.pressure * along;
             }
         }
+        friction
+    }
+
+    fn displacements<'a>(&self, _: &'a [f64], _: usize) -> &'a [f64] {
+        &[]
+    }
+
+    fn energy(&self, state: &[f64]) -> f64 {
+        self.system.energy(state, &self.lengths)
+    }
+
+    fn ledger(&self, state: &[f64], at_start: f64) -> Ledger {
+        let parts = &self.system.parts;
+        Ledger {
+            work: state[parts.work.clone()].iter().sum(),
+            stored: self.energy(state) - at_start,
+            damped: state[parts.damped],
+            contact: state[parts.friction],
+            compression: state[parts.compression],
+            turnover: at_start + state[parts.turnover],
+            ..Ledger::default()
+        }
+    }
+
+    fn unrest(&self, state: &[f64], rates: &[f64]) -> f64 {
+        let amounts = &self.system.parts.amount;
+        let (amount, changes) = (&state[amounts.clone()], &rates[amounts.clone()]);
+        let tensions = self.stretch.iter().enumerate().map(|(cell, stretch)| {
+            // The rate of T = EA (g/a − 1) over T.
+            let rate = (self.lengthening[cell] - stretch * changes[cell]) / amount[cell];
+            (rate / (stretch - 1.0)).abs()
+        });
+        tensions.fold(0.0, f64::max)
+    }
+
+    fn impossible(&self, state: &[f64]) -> Option<&'static str> {
+        let mut amounts = state[self.system.parts.amount.clone()].iter();
+        if self.depths.iter().flatten().any(|depth| depth.is_nan()) {
+            return Some(
+                "no depth in a groove balances its tension: the belt is slack there, or centrifugal force lifts it off",
+            );
+        }
+        (amounts.any(|amount| *amount <= 0.0)).then_some("the belt is stretched without bounds")
     }
 }

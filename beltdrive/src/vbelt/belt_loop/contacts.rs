@@ -7,11 +7,9 @@ use super::back::Back;
 use super::problem::LoopProblem;
 use super::seat::Seat;
 use super::unknowns::FLOW;
+use crate::vbelt::SLIPPING_BRISTLES;
 use crate::{Profile, Zone, ZoneKind};
 use std::f64::consts::FRAC_PI_2;
-
-/// Bristles deflected to this share of their limit count as slipping.
-const SLIPPING_BRISTLES: f64 = 0.99;
 
 /// Points of a profile on the back of the belt: at least so many.
 const PROFILE_POINTS: usize = 240;
