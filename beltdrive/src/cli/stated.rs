@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::origin::Origin;
-use super::read::read;
+use super::read::{read, text as text_of};
 use beltdrive::SolveOptions;
 use beltdrive::input::DriveFile;
 use clap::Args;
@@ -35,7 +35,15 @@ impl Stated {
     /// The drive file and the origin of what follows from it.
     pub(super) fn read(&self) -> Result<(DriveFile, Origin), Failure> {
         let (name, text) = read(&self.file)?;
-        let file = DriveFile::read(&name, &text, &self.overrides).map_err(Failure::usage)?;
+        let mut file = DriveFile::read(&name, &text, &self.overrides).map_err(Failure::usage)?;
+        for (path, named) in file.points_files() {
+            // Beside the drive file; standard input stands in the working directory.
+            let beside = self.file.parent().unwrap_or(Path::new("")).join(&named);
+            let (name, text) = text_of(&beside, "a table of points")?;
+            file = file
+                .with_points(&path, &name, &text)
+                .map_err(Failure::usage)?;
+        }
         let origin = Origin::of_drive(&file, name, text);
         Ok((file, origin))
     }

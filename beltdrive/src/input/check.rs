@@ -78,7 +78,12 @@ pub(super) fn points(
 ) -> Result<Vec<[f64; 2]>, Finding> {
     let wrong = |entry: &Entry| {
         let (_, key) = schema::split(path);
-        wrong_type(key, "an array of points, each a pair", entry).expected(rule.line())
+        wrong_type(
+            key,
+            "an array of points, each a pair, or the name of a CSV file",
+            entry,
+        )
+        .expected(rule.line())
     };
     let Content::List(pairs) = &entry.content else {
         return Err(wrong(entry));

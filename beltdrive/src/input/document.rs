@@ -15,6 +15,8 @@ pub(super) struct Document {
     pub(super) cases: Vec<String>,
     /// What a design may change, in order.
     pub(super) designed: Vec<DesignEntry>,
+    /// Points in SI units by dotted path, from files that the entries name.
+    pub(super) points: BTreeMap<String, Vec<[f64; 2]>>,
     /// Where the file ends: the place of what it lacks.
     pub(super) end: Range<usize>,
 }
@@ -90,6 +92,7 @@ impl Document {
             pulleys: Vec::new(),
             cases: Vec::new(),
             designed: Vec::new(),
+            points: BTreeMap::new(),
             end: length..length,
         };
         document.insert_table("", root.get_ref())?;

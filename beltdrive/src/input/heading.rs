@@ -49,6 +49,12 @@ pub(super) fn factor(unit: Option<Placed<'_>>, measure: Measure) -> Result<f64, 
         Measure::Loss => Dimension::POWER,
         measure => Dimension::of(measure).unwrap_or(Dimension::NUMBER),
     };
+    scale((symbols, range), dimension)
+}
+
+/// The factor from a unit to SI for a dimension.
+pub(super) fn scale((symbols, range): Placed<'_>, dimension: Dimension) -> Result<f64, Finding> {
+    let trimmed = symbols.trim();
     let found = unit::parse(trimmed).map_err(|_| {
         Finding::new(range.clone(), format!("unknown unit `{trimmed}`"))
             .expected(format!("{dimension}"))

@@ -3,6 +3,7 @@
 use super::{
     check,
     diagnostic::Finding,
+    document::Content,
     document::{Document, Entry},
     overrides,
     schema::{self, Kind, Rule},
@@ -160,7 +161,10 @@ impl<'d> Values<'d> {
                 self.numbers.insert(path, value);
             }
             Kind::Points { dimensions } => {
-                let points = check::points(path, rule, dimensions, entry, source)?;
+                let points = match (&entry.content, self.document.points.get(path)) {
+                    (Content::Text(_), Some(read)) => read.clone(),
+                    _ => check::points(path, rule, dimensions, entry, source)?,
+                };
                 self.points.insert(path, points);
             }
             Kind::Word { what, words } => {
