@@ -34,6 +34,7 @@ use crate::{BeltKind, Closure, Drive, NormalForce, SolveOptions};
 ///     until: Until::Time(0.12),
 ///     interval: 0.01,
 ///     instants: vec![],
+///     frames: 0,
 ///     step: None,
 /// };
 /// let history = simulate(&simulation, &mut |_, _| true)?;

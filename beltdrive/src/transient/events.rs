@@ -1,6 +1,7 @@
 //! What happens on the way: gross slip and slack, located to a time step.
 
 use super::rates::Rates;
+use super::slip::slips;
 use super::string;
 use super::system::System;
 
@@ -150,7 +151,7 @@ impl Watch {
         for (pulley, condition) in slip.iter_mut().enumerate() {
             let own = &bristles[system.mesh.bristles[pulley].clone()];
             let mut cells = own.iter().zip(rates.caps(pulley));
-            let slips = cells.all(|(bristle, cap)| bristle.abs() >= *cap);
+            let slips = cells.all(|(bristle, cap)| slips(*bristle, *cap));
             let kinds = [
                 TransientEventKind::GrossSlip(pulley),
                 TransientEventKind::GrossSlipEnds(pulley),

@@ -4,7 +4,7 @@ use super::events::{SlackSpan, TransientEvent};
 use super::implicit::ImplicitWork;
 use super::ledger::Ledger;
 use super::rates::Rates;
-use super::slip::slipping;
+use super::slip::{slipping, slips};
 use super::string;
 use crate::drive::layout::Layout;
 use nalgebra::Vector2;
@@ -15,6 +15,8 @@ use nalgebra::Vector2;
 pub struct History {
     /// Names of the pulleys, in belt order.
     pub pulleys: Vec<String>,
+    /// The loop of the belt, whose pulleys stay where they are.
+    pub layout: Layout,
     /// The drive at instants at equal intervals, the first at time 0.
     pub samples: Vec<Sample>,
     /// What happened, in the order of time.
@@ -23,6 +25,9 @@ pub struct History {
     pub slack_spans: Vec<SlackSpan>,
     /// The belt along the loop at the instants asked for.
     pub belts: Vec<BeltAlongLoop>,
+    /// The belt along the loop at evenly spaced samples, from time 0 on; [`Simulation::frames`](super::Simulation::frames)
+    /// at most.
+    pub frames: Vec<BeltAlongLoop>,
     /// How the run ended.
     pub ending: Ending,
     /// How it was computed.
@@ -109,8 +114,12 @@ pub struct BeltAlongLoop {
     pub speed: Vec<f64>,
     /// Friction per length on the belt against its motion, N/m; 0 on the spans.
     pub friction: Vec<f64>,
+    /// Whether the belt slips, its bristles at their largest displacement; not on the spans.
+    pub slips: Vec<bool>,
     /// Displacement across away from the inside of the loop, m; 0 on the arcs, none where spans stay straight.
     pub displacement: Vec<f64>,
+    /// Angular speed ω of each pulley, rad/s, in belt order; positive along the motion of the belt.
+    pub angular_speeds: Vec<f64>,
 }
 
 /// What takes samples.
@@ -213,11 +222,14 @@ impl Observer {
         let mesh = &system.mesh;
         let density = &state[system.parts.density.clone()][1..];
         let mut friction = vec![0.0; mesh.cells()];
+        let mut is_slipping = vec![false; mesh.cells()];
         let bristles = &state[system.parts.bristle.clone()];
-        for (arc, own) in mesh.arcs.iter().zip(&mesh.bristles) {
-            let forces = bristles[own.clone()].iter().zip(&density[arc.clone()]);
-            for (to, (bristle, density)) in friction[arc.clone()].iter_mut().zip(forces) {
-                *to = system.friction_stiffness * bristle * density;
+        for (pulley, arc) in mesh.arcs.iter().enumerate() {
+            let own = bristles[mesh.bristles[pulley].clone()].iter();
+            let cells = arc.clone().zip(own.zip(rates.caps(pulley)));
+            for (cell, (bristle, cap)) in cells {
+                friction[cell] = system.friction_stiffness * bristle * density[cell];
+                is_slipping[cell] = slips(*bristle, *cap);
             }
         }
         BeltAlongLoop {
@@ -228,7 +240,9 @@ impl Observer {
                 .collect(),
             speed: rates.middles().to_vec(),
             friction,
+            slips: is_slipping,
             displacement: string::along_loop(system, state),
+            angular_speeds: state[system.parts.speed.clone()].to_vec(),
         }
     }
 }

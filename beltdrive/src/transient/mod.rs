@@ -31,6 +31,7 @@ mod bordered;
 mod bristle;
 mod events;
 mod explicit;
+mod frames;
 mod history;
 mod implicit;
 pub(crate) mod initial;

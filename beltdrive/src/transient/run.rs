@@ -6,6 +6,7 @@
 
 use super::events::Watch;
 use super::explicit::{Explicit, stable_step};
+use super::frames::Frames;
 use super::history::{Effort, Ending, History, Observer};
 use super::implicit::Implicit;
 use super::rates::Rates;
@@ -118,6 +119,7 @@ pub(crate) fn run(
         possible(system, &state, time)?;
         time = stop;
     }
+    run.history.frames = run.frames.into_kept();
     run.history.slack_spans = run.watch.slack_spans.clone();
     run.history.events = run.watch.into_events();
     run.history.effort.seconds = begun.elapsed().as_secs_f64();
@@ -140,6 +142,7 @@ struct Run<'s> {
     rates: Rates<'s>,
     observer: Observer,
     watch: Watch,
+    frames: Frames,
     history: History,
     /// Time between two samples, s.
     interval: f64,
@@ -163,6 +166,7 @@ impl<'s> Run<'s> {
         Self {
             observer: Observer::new(&rates, layout, system.energy(state)),
             watch: Watch::new(system, system.mesh.length() / wave),
+            frames: Frames::new(simulation.frames),
             rates,
             history: History {
                 pulleys: layout
@@ -170,10 +174,12 @@ impl<'s> Run<'s> {
                     .iter()
                     .map(|pulley| pulley.name.clone())
                     .collect(),
+                layout: layout.clone(),
                 samples: vec![],
                 events: vec![],
                 slack_spans: vec![],
                 belts: vec![],
+                frames: vec![],
                 ending: match is_steady_sought {
                     true => Ending::NotSteady,
                     false => Ending::Time,
@@ -214,6 +220,12 @@ impl<'s> Run<'s> {
             .sample(time, &self.rates, state, least_stretch);
         sample.amplitudes = self.watch.take_largest();
         let ledger = sample.ledger;
+        let number = self.history.samples.len();
+        // A last sample that the end of the run brings forward is none of evenly spaced ones.
+        if number as f64 * self.interval <= self.end * (1.0 + f64::EPSILON) {
+            self.frames
+                .look(number, || Observer::belt(time, &self.rates, state));
+        }
         self.history.samples.push(sample);
         match ledger.closes() {
             true => Ok(()),

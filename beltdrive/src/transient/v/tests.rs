@@ -39,6 +39,7 @@ fn simulation(drive: &Drive, cells: usize, speed: Schedule, load: Schedule) -> S
         until: Until::Time(1.0),
         interval: 1e-3,
         instants: vec![],
+        frames: 0,
         step: None,
         transverse: None,
     }
