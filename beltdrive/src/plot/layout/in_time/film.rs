@@ -1,0 +1,389 @@
+//! The loop frame by frame.
+
+use super::super::super::axis::Axis;
+use super::super::super::clock::{Clock, shown};
+use super::super::super::header::{Header, Mark};
+use super::super::super::occupied::Frame;
+use super::super::super::sheet::{
+    Anchor, BODY, Color, GREY, INK, MARGIN, SMALL, Sheet, Spot, Stroke, WHITE, pair, spot,
+    text_width,
+};
+use super::super::super::{ordered, zones};
+use super::super::arrowhead;
+use super::super::labels::Label;
+use super::super::model::Pulley;
+use super::super::view::{BELT, SCALES, View};
+use crate::Layout;
+use crate::transient::BeltAlongLoop;
+use std::f64::consts::PI;
+use std::ops::Range;
+
+/// Pieces of the belt, each of one colour: a piece of a loop that fills the sheet is then some 20 px long, and an animation of
+/// 200 frames takes 200 kB for their colours.
+const PIECES: f64 = 100.0;
+
+/// Width of the belt with its outline, which sets the lightest colours off the sheet, px, and of the colour.
+const OUTLINED: f64 = BELT + 4.0;
+const COLORED: f64 = OUTLINED - 2.0;
+
+/// Pieces of the belt reach so far into the next one: no gap is seen between them, px.
+const OVERLAP: f64 = 0.6;
+
+/// Sizes of the arrowheads on the belt and their colours: dark with a white edge, to be seen on every colour.
+const ARROWHEADS: [(f64, Color); 2] = [(1.9, WHITE), (1.4, INK)];
+
+/// Width of the band inside a rim that tells the zones, and the distance of its middle from the rim, px; on small pulleys it
+/// is this part of their radius.
+const BAND: f64 = 4.0;
+const INSIDE: f64 = 0.5 * OUTLINED + 1.0 + 0.5 * BAND;
+const INSIDE_PART: f64 = 0.4;
+
+/// Length of the spoke of a pulley over the radius inside the band.
+const SPOKE: f64 = 0.75;
+
+/// Height of the middle of a note below the scale of lengths over the lower edge, px.
+const NOTE: f64 = 12.0;
+
+/// Left end of the bar of colours and its room for the time at its right, as parts of the width, and its height, px.
+const BAR: [f64; 2] = [0.42, 0.75];
+const BAR_HEIGHT: f64 = 14.0;
+
+/// The zones: the belt sticks in the first and slips in the second.
+const ZONES: [&str; 2] = ["elastic", "slip"];
+
+/// A part of the loop, with the cells of the belt on it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Part {
+    /// The pulley of an arc, or that which a span leaves.
+    pub(super) pulley: usize,
+    pub(super) is_span: bool,
+    pub(super) cells: Range<usize>,
+    /// Share of the length of the loop.
+    share: f64,
+}
+
+/// The parts of a loop in belt order, an arc and the span behind it in turn, with cells that have their middles at positions in
+/// m along it.
+pub(super) fn parts(layout: &Layout, positions: &[f64]) -> Vec<Part> {
+    let arcs = layout.pulleys().iter().zip(layout.wraps());
+    let arcs = arcs.map(|(pulley, wrap)| pulley.radius * wrap);
+    let lengths = arcs.zip(layout.spans()).enumerate();
+    let lengths = lengths
+        .flat_map(|(pulley, (arc, span))| [(pulley, false, arc), (pulley, true, span.length)]);
+    let (mut passed, mut first) = (0.0, 0);
+    let parts = lengths.map(|(pulley, is_span, length)| {
+        passed += length;
+        let end = positions.partition_point(|at| *at < passed);
+        let cells = first..end;
+        first = end;
+        Part {
+            pulley,
+            is_span,
+            cells,
+            share: length / layout.length(),
+        }
+    });
+    parts.collect()
+}
+
+impl Part {
+    /// Its cells in pieces of about one length on the whole loop.
+    fn pieces(&self) -> impl Iterator<Item = Range<usize>> {
+        let cells = self.cells.len();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a share of the number of pieces"
+        )]
+        let wanted = (PIECES * self.share).round() as usize;
+        let count = wanted.clamp(1, cells.max(1));
+        let first = self.cells.start;
+        (0..count)
+            .map(move |piece| first + piece * cells / count..first + (piece + 1) * cells / count)
+    }
+
+    /// How far along the part the beginning of a cell is, 0 to 1.
+    fn along(&self, cell: usize) -> f64 {
+        (cell - self.cells.start) as f64 / self.cells.len().max(1) as f64
+    }
+}
+
+/// The legend: the zones that occur.
+pub(super) fn legend(frames: &[BeltAlongLoop]) -> Vec<(String, Mark)> {
+    let slips = frames.iter().any(|belt| belt.slips.contains(&true));
+    let kinds = ZONES.into_iter().take(if slips { 2 } else { 1 });
+    let band = |kind| Mark::Line(Stroke::solid(zones::color(kind), BAND));
+    kinds.map(|kind| zones::entry(kind, band(kind))).collect()
+}
+
+/// A loop on the sheet with its belt in frames.
+pub(super) struct Film<'a> {
+    view: View<'a>,
+    frames: &'a [BeltAlongLoop],
+    clock: Clock,
+    tension: &'a Axis,
+    parts: Vec<Part>,
+}
+
+impl<'a> Film<'a> {
+    /// The film of frames on a view, whose tensions in N lie on an axis.
+    pub(super) fn new(
+        view: View<'a>,
+        (frames, clock): (&'a [BeltAlongLoop], Clock),
+        tension: &'a Axis,
+        parts: Vec<Part>,
+    ) -> Self {
+        Self {
+            view,
+            frames,
+            clock,
+            tension,
+            parts,
+        }
+    }
+
+    /// The figure below a header, with labels, and the angles in rad by which the pulleys have turned in each frame.
+    pub(super) fn figure(&self, header: &Header, labels: &[Label], turned: &[Vec<f64>]) -> String {
+        let mut sheet = Sheet::new(self.view.size);
+        header.draw(&mut sheet);
+        self.view.pulleys(&mut sheet);
+        for pulley in 0..self.view.drawn.pulleys.len() {
+            let angles = turned.iter().map(|angles| angles[pulley]);
+            self.spoke(&mut sheet, pulley, angles);
+            self.zones(&mut sheet, pulley);
+        }
+        let outline = Stroke::solid(INK, OUTLINED);
+        for part in &self.parts {
+            self.piece(&mut sheet, part, (part.cells.clone(), 0.0), (outline, ""));
+        }
+        for part in &self.parts {
+            for cells in part.pieces() {
+                let colors = self.colors(&cells);
+                let stroke = Stroke::solid(colors[0], COLORED);
+                let colors: Vec<_> = colors.into_iter().map(str::to_owned).collect();
+                let changes = self.clock.moves("stroke", &colors);
+                self.piece(&mut sheet, part, (cells, OVERLAP), (stroke, &changes));
+            }
+        }
+        for (index, at) in self.view.arrowheads.iter().enumerate() {
+            if let Some(at) = at {
+                let [start, end] = self.view.span(index);
+                let along = (end - start).normalize();
+                for (size, color) in ARROWHEADS {
+                    arrowhead(&mut sheet, *at, size * along, color);
+                }
+            }
+        }
+        for label in labels {
+            label.draw(&mut sheet);
+        }
+        self.below(&mut sheet);
+        sheet.finish()
+    }
+
+    /// The colours of cells in the frames, by their mean tension.
+    fn colors(&self, cells: &Range<usize>) -> Vec<&'static str> {
+        let colors = self.frames.iter().map(|belt| {
+            let tensions = &belt.tension[cells.clone()];
+            let mean = tensions.iter().sum::<f64>() / tensions.len().max(1) as f64;
+            ordered::color(self.tension.part(mean))
+        });
+        colors.collect()
+    }
+
+    /// Draws cells of a part of the belt, which reach some px farther, with a stroke and its changes.
+    fn piece(
+        &self,
+        sheet: &mut Sheet,
+        part: &Part,
+        (cells, farther): (Range<usize>, f64),
+        (stroke, changes): (Stroke, &str),
+    ) {
+        let paths: Vec<_> = match (part.is_span, self.frames[0].displacement.is_empty()) {
+            (false, _) => {
+                let pulley = &self.view.drawn.pulleys[part.pulley];
+                let [from, to] =
+                    [cells.start, cells.end].map(|cell| pulley.wrap * part.along(cell));
+                let beyond = farther / (self.view.scale * pulley.radius);
+                vec![self.arc(pulley, [from, to + beyond], 0.0)]
+            }
+            (true, true) => {
+                let ends = [cells.start, cells.end].map(|cell| self.on_span(part, cell));
+                vec![path(&ends, farther)]
+            }
+            (true, false) => {
+                let frames = self.frames.iter();
+                frames
+                    .map(|belt| path(&self.across(part, &cells, belt), farther))
+                    .collect()
+            }
+        };
+        let moves = self.clock.moves("d", &paths);
+        sheet.changing_path(&paths[0], stroke, &(moves + changes));
+    }
+
+    /// The beginning of a cell on a straight span.
+    fn on_span(&self, part: &Part, cell: usize) -> Spot {
+        let [start, end] = self.view.span(part.pulley);
+        start.lerp(&end, part.along(cell))
+    }
+
+    /// The ends of cells of a span that is displaced across.
+    fn across(&self, part: &Part, cells: &Range<usize>, belt: &BeltAlongLoop) -> Vec<Spot> {
+        let outward = self.view.scale * self.view.sway * self.view.outward(part.pulley);
+        let own = &belt.displacement[part.cells.clone()];
+        let places = (cells.start..=cells.end).map(|cell| {
+            let face = cell - part.cells.start;
+            // Between the middles of two cells, and beyond the last ones on their line.
+            let displaced = match (face, own) {
+                (0, [first, second, ..]) => 1.5 * first - 0.5 * second,
+                (face, [.., second, last]) if face == own.len() => 1.5 * last - 0.5 * second,
+                _ => 0.5 * (own[face.saturating_sub(1)] + own[face.min(own.len() - 1)]),
+            };
+            self.on_span(part, cell) + displaced * outward
+        });
+        places.collect()
+    }
+
+    /// The path along an arc between two swept angles, some px inside the rim.
+    fn arc(&self, pulley: &Pulley, swept: [f64; 2], inside: f64) -> String {
+        let depth = inside / self.view.scale;
+        let ends = swept.map(|angle| pair(self.view.at(pulley.point(angle, depth))));
+        let radius = shown(self.view.scale * (pulley.radius - depth));
+        let is_large = u8::from(swept[1] - swept[0] > PI);
+        let is_clockwise = u8::from(pulley.sense < 0.0);
+        let [from, to] = ends;
+        format!("M {from} A {radius} {radius} 0 {is_large} {is_clockwise} {to}")
+    }
+
+    /// The bands that tell the zones of a pulley.
+    fn zones(&self, sheet: &mut Sheet, index: usize) {
+        let pulley = &self.view.drawn.pulleys[index];
+        let inside = self.inside(pulley);
+        let [sticking, slipping] = ZONES.map(|kind| Stroke::solid(zones::color(kind), BAND));
+        let all = self.arc(pulley, [0.0, pulley.wrap], inside);
+        sheet.path(&all, sticking);
+        let arc = self
+            .parts
+            .iter()
+            .find(|part| !part.is_span && part.pulley == index);
+        let Some(arc) = arc else { return };
+        let zones = self.frames.iter().map(|belt| {
+            let slips = &belt.slips;
+            let mut runs: Vec<[usize; 2]> = Vec::new();
+            for cell in arc.cells.clone().filter(|&cell| slips[cell]) {
+                match runs.last_mut() {
+                    Some([_, end]) if *end == cell => *end = cell + 1,
+                    _ => runs.push([cell, cell + 1]),
+                }
+            }
+            let paths = runs.into_iter().map(|ends| {
+                let swept = ends.map(|cell| pulley.wrap * arc.along(cell));
+                self.arc(pulley, swept, inside)
+            });
+            let paths: Vec<_> = paths.collect();
+            match paths.is_empty() {
+                // A path without a line.
+                true => format!("M {}", pair(self.view.at(pulley.centre))),
+                false => paths.join(" "),
+            }
+        });
+        let zones: Vec<_> = zones.collect();
+        if zones.iter().any(|path| path.contains('A')) {
+            let changes = self.clock.jumps("d", &zones);
+            sheet.changing_path(&zones[0], slipping, &changes);
+        }
+    }
+
+    /// How far inside the rim the middle of the band is, px.
+    fn inside(&self, pulley: &Pulley) -> f64 {
+        INSIDE.min(INSIDE_PART * self.view.scale * pulley.radius)
+    }
+
+    /// A spoke that turns with its pulley, by angles in rad; at first to the right.
+    fn spoke(&self, sheet: &mut Sheet, index: usize, angles: impl Iterator<Item = f64>) {
+        let pulley = &self.view.drawn.pulleys[index];
+        let centre = pair(self.view.at(pulley.centre));
+        let reach = SPOKE * (self.view.scale * pulley.radius - self.inside(pulley));
+        // Angles on the sheet are clockwise.
+        let angles: Vec<_> = angles
+            .map(|angle| -pulley.sense * angle.to_degrees())
+            .collect();
+        let turns = self.clock.turns(&angles);
+        let first = shown(angles[0]);
+        sheet.group(&format!("transform=\"translate({centre})\""), "", |sheet| {
+            sheet.group(&format!("transform=\"rotate({first})\""), &turns, |sheet| {
+                let ends = [Spot::zeros(), spot(reach, 0.0)];
+                sheet.line(&ends, Stroke::solid(INK, 2.5));
+            });
+        });
+    }
+
+    /// The scale of lengths, the bar of the tensions and, if it changes, the time.
+    fn below(&self, sheet: &mut Sheet) {
+        self.view.length_scale(sheet);
+        if self.view.sway > 1.0 {
+            let note = format!("displacement across {} times larger", self.view.sway);
+            let at = spot(MARGIN, self.view.size.y - NOTE);
+            sheet.text(&note, SMALL, GREY, Anchor::Start, at);
+        }
+        let [width, height]: [f64; 2] = self.view.size.into();
+        let middle = height - 0.5 * SCALES;
+        let half = spot(0.0, 0.5 * BAR_HEIGHT);
+        let [from, to] = BAR.map(|part| spot(part * width, middle));
+        let frame = Frame {
+            from: from - half,
+            to: to + half,
+        };
+        ordered::bar(sheet, frame, self.tension, "belt tension in N");
+        let times = match self.frames {
+            [_] => vec![],
+            frames => times(frames),
+        };
+        let widest = times
+            .iter()
+            .map(|text| text_width(text, BODY))
+            .fold(0.0, f64::max);
+        let at = spot(width - MARGIN - widest, middle);
+        for (frame, text) in times.iter().enumerate() {
+            let seen = (0..times.len()).map(|other| match other == frame {
+                true => "visible".to_owned(),
+                false => "hidden".to_owned(),
+            });
+            let seen: Vec<_> = seen.collect();
+            let changes = self.clock.jumps("visibility", &seen);
+            sheet.group(&format!("visibility=\"{}\"", seen[0]), &changes, |sheet| {
+                sheet.text(text, BODY, INK, Anchor::Start, at);
+            });
+        }
+    }
+}
+
+/// The times of frames, with the decimals of the time from one to the next, but no more than three digits of it.
+fn times(frames: &[BeltAlongLoop]) -> Vec<String> {
+    let step = match frames {
+        [first, second, ..] => second.time - first.time,
+        _ => 0.0,
+    };
+    let is_told = |decimals: &usize| {
+        let units = step * 10_f64.powf(*decimals as f64);
+        units >= 100.0 || (units > 0.5 && (units - units.round()).abs() < 1e-6 * units)
+    };
+    let decimals = (0..9).find(is_told).unwrap_or(9);
+    let times = frames.iter();
+    let times = times.map(|belt| format!("t = {:.decimals$} s", belt.time));
+    times.collect()
+}
+
+/// The path through places, which reaches some px farther than its end.
+fn path(places: &[Spot], farther: f64) -> String {
+    let mut places = places.to_vec();
+    if let [.., before, last] = &mut places[..] {
+        let along = *last - *before;
+        if along.norm() > 0.0 {
+            *last += farther * along.normalize();
+        }
+    }
+    let places: Vec<_> = places.into_iter().map(pair).collect();
+    format!("M {}", places.join(" L "))
+}
