@@ -78,7 +78,7 @@ impl Simulate {
         if let Some(path) = &self.animate {
             let metadata = origin.json();
             plot::write_animation(&simulation.drive, &history, path, Some(&metadata))
-                .map_err(|error| Failure::io("write the animation", &error))?;
+                .map_err(|error| Failure::usage(format!("error: {error}")))?;
             self.common.output.name(std::slice::from_ref(path));
         }
         match (history.ending, simulation.until) {

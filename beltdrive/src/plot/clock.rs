@@ -14,11 +14,10 @@ impl Clock {
         self.straight("animate", &format!("attributeName=\"{attribute}\""), values)
     }
 
-    /// A rotation by an angle in degrees, clockwise on the sheet, that goes straight from frame to frame.
-    pub(super) fn turns(&self, degrees: &[f64]) -> String {
-        let attributes = "attributeName=\"transform\" type=\"rotate\"";
-        let values: Vec<_> = degrees.iter().map(|&angle| shown(angle)).collect();
-        self.straight("animateTransform", attributes, &values)
+    /// A transformation of a kind that goes straight from its values in a frame to those in the next one.
+    pub(super) fn transforms(&self, kind: &str, values: &[String]) -> String {
+        let attributes = format!("attributeName=\"transform\" type=\"{kind}\"");
+        self.straight("animateTransform", &attributes, values)
     }
 
     /// An attribute that keeps its value up to the next frame; nothing where it stays.
@@ -88,7 +87,7 @@ mod tests {
              repeatCount=\"indefinite\"/>"
         );
         assert_eq!(
-            CLOCK.turns(&[0.0, -30.04, -60.0, -90.0]),
+            CLOCK.transforms("rotate", &texts(&["0", "-30", "-60", "-90"])),
             "<animateTransform attributeName=\"transform\" type=\"rotate\" values=\"0;-30;-60;-90;-90\" dur=\"2s\" \
              repeatCount=\"indefinite\"/>"
         );
@@ -100,6 +99,6 @@ mod tests {
             assert_eq!(CLOCK.moves("d", &texts(values)), "");
             assert_eq!(CLOCK.jumps("d", &texts(values)), "");
         }
-        assert_eq!(CLOCK.turns(&[0.0; 4]), "");
+        assert_eq!(CLOCK.transforms("rotate", &texts(&["0"; 4])), "");
     }
 }

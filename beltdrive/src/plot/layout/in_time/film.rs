@@ -88,7 +88,7 @@ pub(super) fn parts(layout: &Layout, positions: &[f64]) -> Vec<Part> {
 
 impl Part {
     /// Its cells in pieces of about one length on the whole loop.
-    fn pieces(&self) -> impl Iterator<Item = Range<usize>> {
+    pub(super) fn pieces(&self) -> impl Iterator<Item = Range<usize>> {
         let cells = self.cells.len();
         #[expect(
             clippy::cast_possible_truncation,
@@ -165,14 +165,8 @@ impl<'a> Film<'a> {
                 self.piece(&mut sheet, part, (cells, OVERLAP), (stroke, &changes));
             }
         }
-        for (index, at) in self.view.arrowheads.iter().enumerate() {
-            if let Some(at) = at {
-                let [start, end] = self.view.span(index);
-                let along = (end - start).normalize();
-                for (size, color) in ARROWHEADS {
-                    arrowhead(&mut sheet, *at, size * along, color);
-                }
-            }
+        for span in self.parts.iter().filter(|part| part.is_span) {
+            self.arrowhead(&mut sheet, span);
         }
         for label in labels {
             label.draw(&mut sheet);
@@ -222,6 +216,37 @@ impl<'a> Film<'a> {
         sheet.changing_path(&paths[0], stroke, &(moves + changes));
     }
 
+    /// The direction of motion on a span that is long enough; it goes with the belt.
+    fn arrowhead(&self, sheet: &mut Sheet, span: &Part) {
+        let Some(at) = self.view.arrowheads[span.pulley] else {
+            return;
+        };
+        let [start, end] = self.view.span(span.pulley);
+        let along = (end - start).normalize();
+        let share = (at - start).norm() / (end - start).norm();
+        let cell = span
+            .cells
+            .clone()
+            .find(|&cell| span.along(cell + 1) > share);
+        let offsets = self.frames.iter().map(|belt| {
+            let displaced = cell.and_then(|cell| belt.displacement.get(cell));
+            displaced.copied().unwrap_or_default() * self.outward(span)
+        });
+        let offsets: Vec<_> = offsets.map(pair).collect();
+        let first = format!("transform=\"translate({})\"", offsets[0]);
+        let changes = self.clock.transforms("translate", &offsets);
+        sheet.group(&first, &changes, |sheet| {
+            for (size, color) in ARROWHEADS {
+                arrowhead(sheet, at, size * along, color);
+            }
+        });
+    }
+
+    /// A displacement of 1 m of a span away from the inside of the loop, on the sheet.
+    fn outward(&self, span: &Part) -> Spot {
+        self.view.scale * self.view.sway * self.view.outward(span.pulley)
+    }
+
     /// The beginning of a cell on a straight span.
     fn on_span(&self, part: &Part, cell: usize) -> Spot {
         let [start, end] = self.view.span(part.pulley);
@@ -230,7 +255,7 @@ impl<'a> Film<'a> {
 
     /// The ends of cells of a span that is displaced across.
     fn across(&self, part: &Part, cells: &Range<usize>, belt: &BeltAlongLoop) -> Vec<Spot> {
-        let outward = self.view.scale * self.view.sway * self.view.outward(part.pulley);
+        let outward = self.outward(part);
         let own = &belt.displacement[part.cells.clone()];
         let places = (cells.start..=cells.end).map(|cell| {
             let face = cell - part.cells.start;
@@ -306,11 +331,10 @@ impl<'a> Film<'a> {
         let centre = pair(self.view.at(pulley.centre));
         let reach = SPOKE * (self.view.scale * pulley.radius - self.inside(pulley));
         // Angles on the sheet are clockwise.
-        let angles: Vec<_> = angles
-            .map(|angle| -pulley.sense * angle.to_degrees())
-            .collect();
-        let turns = self.clock.turns(&angles);
-        let first = shown(angles[0]);
+        let angles = angles.map(|angle| shown(-pulley.sense * angle.to_degrees()));
+        let angles: Vec<_> = angles.collect();
+        let turns = self.clock.transforms("rotate", &angles);
+        let first = &angles[0];
         sheet.group(&format!("transform=\"translate({centre})\""), "", |sheet| {
             sheet.group(&format!("transform=\"rotate({first})\""), &turns, |sheet| {
                 let ends = [Spot::zeros(), spot(reach, 0.0)];
