@@ -5,8 +5,8 @@ use super::super::super::clock::{Clock, shown};
 use super::super::super::header::{Header, Mark};
 use super::super::super::occupied::Frame;
 use super::super::super::sheet::{
-    Anchor, BODY, Color, GREY, INK, MARGIN, SMALL, Sheet, Spot, Stroke, WHITE, pair, spot,
-    text_width,
+    Anchor, BODY, Color, GREY, INK, MARGIN, SMALL, Sheet, Spot, Stroke, VERMILION, WHITE, pair,
+    spot, text_width,
 };
 use super::super::super::{ordered, zones};
 use super::super::arrowhead;
@@ -25,6 +25,9 @@ const PIECES: f64 = 100.0;
 /// Width of the belt with its outline, which sets the lightest colours off the sheet, px, and of the colour.
 const OUTLINED: f64 = BELT + 4.0;
 const COLORED: f64 = OUTLINED - 2.0;
+
+/// Colour of a slack belt, which is none of those of tensions.
+const SLACK: Color = VERMILION;
 
 /// Pieces of the belt reach so far into the next one: no gap is seen between them, px.
 const OVERLAP: f64 = 0.6;
@@ -108,12 +111,29 @@ impl Part {
     }
 }
 
-/// The legend: the zones that occur.
-pub(super) fn legend(frames: &[BeltAlongLoop]) -> Vec<(String, Mark)> {
-    let slips = frames.iter().any(|belt| belt.slips.contains(&true));
-    let kinds = ZONES.into_iter().take(if slips { 2 } else { 1 });
+/// The legend: the zones and the slack belt that occur in frames of a loop with parts.
+pub(super) fn legend(frames: &[BeltAlongLoop], parts: &[Part]) -> Vec<(String, Mark)> {
+    let arcs = parts.iter().filter(|part| !part.is_span);
+    let cells: Vec<_> = arcs.flat_map(|arc| arc.cells.clone()).collect();
+    let occurs = |slips: bool| {
+        let mut frames = frames.iter();
+        frames.any(|belt| cells.iter().any(|&cell| belt.slips[cell] == slips))
+    };
+    let kinds = ZONES.into_iter().zip([false, true]);
+    let kinds = kinds.filter(|(_, slips)| occurs(*slips));
     let band = |kind| Mark::Line(Stroke::solid(zones::color(kind), BAND));
-    kinds.map(|kind| zones::entry(kind, band(kind))).collect()
+    let zones = kinds.map(|(kind, _)| zones::entry(kind, band(kind)));
+    let mut pieces = parts.iter().flat_map(Part::pieces);
+    let is_slack = pieces.any(|cells| frames.iter().any(|belt| mean_tension(belt, &cells) < 0.0));
+    let slack = Mark::Line(Stroke::solid(SLACK, COLORED));
+    let slack = is_slack.then(|| ("slack belt".to_owned(), slack));
+    zones.chain(slack).collect()
+}
+
+/// Mean tension of some cells of a belt, N.
+fn mean_tension(belt: &BeltAlongLoop, cells: &Range<usize>) -> f64 {
+    let tensions = &belt.tension[cells.clone()];
+    tensions.iter().sum::<f64>() / tensions.len().max(1) as f64
 }
 
 /// A loop on the sheet with its belt in frames.
@@ -175,12 +195,14 @@ impl<'a> Film<'a> {
         sheet.finish()
     }
 
-    /// The colours of cells in the frames, by their mean tension.
+    /// The colours of cells in the frames, by their mean tension; slack below zero.
     fn colors(&self, cells: &Range<usize>) -> Vec<&'static str> {
         let colors = self.frames.iter().map(|belt| {
-            let tensions = &belt.tension[cells.clone()];
-            let mean = tensions.iter().sum::<f64>() / tensions.len().max(1) as f64;
-            ordered::color(self.tension.part(mean))
+            let tension = mean_tension(belt, cells);
+            match tension < 0.0 {
+                true => SLACK,
+                false => ordered::color(self.tension.part(tension)),
+            }
         });
         colors.collect()
     }

@@ -94,9 +94,10 @@ fn displacement(belts: &[BeltAlongLoop]) -> f64 {
     displacements.fold(0.0, |most, w| most.max(w.abs()))
 }
 
-/// The tensions of belts, N.
+/// The tensions of belts, N; those of a slack belt, which has a colour of its own, count as zero.
 fn tensions(belts: &[BeltAlongLoop]) -> Axis {
-    let tensions = belts.iter().flat_map(|belt| &belt.tension).copied();
+    let tensions = belts.iter().flat_map(|belt| &belt.tension);
+    let tensions = tensions.map(|tension| tension.max(0.0));
     Axis::spanning(tensions, Scale::Decimal)
 }
 
@@ -104,6 +105,7 @@ fn is_driver(drive: &Drive) -> impl Fn(usize) -> bool {
     |pulley| matches!(drive.pulleys[pulley].duty, Duty::Driver(_))
 }
 
+/// The figure of a loop in frames that keep a time, with tensions on an axis and a title and a caption.
 fn figure(
     history: &History,
     (drawn, tension): (&Loop, &Axis),
@@ -114,14 +116,11 @@ fn figure(
         heading: vec![title],
         ..Answer::default()
     };
+    let parts = parts(&history.layout, &frames[0].position);
+    let legend = film::legend(frames, &parts);
     let (header, view, labels) = placed(drawn, |width| {
-        Header::new(&heading, &caption, film::legend(frames), width)
+        Header::new(&heading, &caption, legend.clone(), width)
     });
-    let film = Film::new(
-        view,
-        (frames, clock),
-        tension,
-        parts(&history.layout, &frames[0].position),
-    );
+    let film = Film::new(view, (frames, clock), tension, parts);
     film.figure(&header, &labels, &turned(history, frames))
 }

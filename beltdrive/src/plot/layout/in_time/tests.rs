@@ -274,6 +274,34 @@ fn extreme_runs_have_their_animation() {
 }
 
 #[test]
+fn a_slack_belt_has_a_colour_of_its_own() {
+    let mut simulation = example("slip-pulse", 0.005);
+    simulation.start = crate::transient::Start::Rest;
+    simulation.drive.closure = crate::Closure::SetupTension(150.0);
+    simulation.axles[0].motion = Motion::Speed(Schedule::ramp([0.0, 0.005], [0.0, 120.0]));
+    simulation.cells = crate::transient::Cells::Total(120);
+    simulation.interval = 1e-4;
+    simulation.frames = 200;
+    let history = follow(&simulation);
+    assert!(
+        history
+            .samples
+            .iter()
+            .any(|sample| sample.smallest_tension < 0.0)
+    );
+    let figure = animation(&simulation.drive, &history).unwrap();
+    check(&figure);
+    assert!(figure.contains("slack belt") && figure.contains(";#D55E00;"));
+    assert!(tensions(&history.frames).from >= 0.0);
+    // All of both contacts sticks at first.
+    simulation.instants = vec![0.0];
+    let history = follow(&simulation);
+    let figure = &stills(&simulation.drive, &history)[0];
+    assert!(figure.contains("elastic zone"));
+    assert!(!figure.contains("slip zone") && !figure.contains("slack belt"));
+}
+
+#[test]
 fn frames_change_nothing_in_a_run() {
     let simulation = example("slip-pulse", 0.03);
     let plain = follow(&simulation);
