@@ -13,14 +13,10 @@ use super::super::arrowhead;
 use super::super::labels::Label;
 use super::super::model::Pulley;
 use super::super::view::{BELT, SCALES, View};
-use crate::Layout;
+use super::parts::{Part, mean_tension};
 use crate::transient::BeltAlongLoop;
 use std::f64::consts::PI;
 use std::ops::Range;
-
-/// Pieces of the belt, each of one colour: a piece of a loop that fills the sheet is then some 20 px long, and an animation of
-/// 200 frames takes 200 kB for their colours.
-const PIECES: f64 = 100.0;
 
 /// Width of the belt with its outline, which sets the lightest colours off the sheet, px, and of the colour.
 const OUTLINED: f64 = BELT + 4.0;
@@ -31,6 +27,10 @@ const SLACK: Color = VERMILION;
 
 /// Pieces of the belt reach so far into the next one: no gap is seen between them, px.
 const OVERLAP: f64 = 0.6;
+
+/// Points of a span that is displaced across are no closer, px: a half wave of 100 px is still round, and no mesh makes
+/// files larger than some megabytes.
+const POINTS: f64 = 5.0;
 
 /// Sizes of the arrowheads on the belt and their colours: dark with a white edge, to be seen on every colour.
 const ARROWHEADS: [(f64, Color); 2] = [(1.9, WHITE), (1.4, INK)];
@@ -54,63 +54,6 @@ const BAR_HEIGHT: f64 = 14.0;
 /// The zones: the belt sticks in the first and slips in the second.
 const ZONES: [&str; 2] = ["elastic", "slip"];
 
-/// A part of the loop, with the cells of the belt on it.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Part {
-    /// The pulley of an arc, or that which a span leaves.
-    pub(super) pulley: usize,
-    pub(super) is_span: bool,
-    pub(super) cells: Range<usize>,
-    /// Share of the length of the loop.
-    share: f64,
-}
-
-/// The parts of a loop in belt order, an arc and the span behind it in turn, with cells that have their middles at positions in
-/// m along it.
-pub(super) fn parts(layout: &Layout, positions: &[f64]) -> Vec<Part> {
-    let arcs = layout.pulleys().iter().zip(layout.wraps());
-    let arcs = arcs.map(|(pulley, wrap)| pulley.radius * wrap);
-    let lengths = arcs.zip(layout.spans()).enumerate();
-    let lengths = lengths
-        .flat_map(|(pulley, (arc, span))| [(pulley, false, arc), (pulley, true, span.length)]);
-    let (mut passed, mut first) = (0.0, 0);
-    let parts = lengths.map(|(pulley, is_span, length)| {
-        passed += length;
-        let end = positions.partition_point(|at| *at < passed);
-        let cells = first..end;
-        first = end;
-        Part {
-            pulley,
-            is_span,
-            cells,
-            share: length / layout.length(),
-        }
-    });
-    parts.collect()
-}
-
-impl Part {
-    /// Its cells in pieces of about one length on the whole loop.
-    pub(super) fn pieces(&self) -> impl Iterator<Item = Range<usize>> {
-        let cells = self.cells.len();
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a share of the number of pieces"
-        )]
-        let wanted = (PIECES * self.share).round() as usize;
-        let count = wanted.clamp(1, cells.max(1));
-        let first = self.cells.start;
-        (0..count)
-            .map(move |piece| first + piece * cells / count..first + (piece + 1) * cells / count)
-    }
-
-    /// How far along the part the beginning of a cell is, 0 to 1.
-    fn along(&self, cell: usize) -> f64 {
-        (cell - self.cells.start) as f64 / self.cells.len().max(1) as f64
-    }
-}
-
 /// The legend: the zones and the slack belt that occur in frames of a loop with parts.
 pub(super) fn legend(frames: &[BeltAlongLoop], parts: &[Part]) -> Vec<(String, Mark)> {
     let arcs = parts.iter().filter(|part| !part.is_span);
@@ -128,12 +71,6 @@ pub(super) fn legend(frames: &[BeltAlongLoop], parts: &[Part]) -> Vec<(String, M
     let slack = Mark::Line(Stroke::solid(SLACK, COLORED));
     let slack = is_slack.then(|| ("slack belt".to_owned(), slack));
     zones.chain(slack).collect()
-}
-
-/// Mean tension of some cells of a belt, N.
-fn mean_tension(belt: &BeltAlongLoop, cells: &Range<usize>) -> f64 {
-    let tensions = &belt.tension[cells.clone()];
-    tensions.iter().sum::<f64>() / tensions.len().max(1) as f64
 }
 
 /// A loop on the sheet with its belt in frames.
@@ -279,7 +216,15 @@ impl<'a> Film<'a> {
     fn across(&self, part: &Part, cells: &Range<usize>, belt: &BeltAlongLoop) -> Vec<Spot> {
         let outward = self.outward(part);
         let own = &belt.displacement[part.cells.clone()];
-        let places = (cells.start..=cells.end).map(|cell| {
+        let [start, end] = self.view.span(part.pulley);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "cells in a few px"
+        )]
+        let step = (POINTS * own.len() as f64 / (end - start).norm()).ceil() as usize;
+        let inner = (cells.start..cells.end).step_by(step.max(1));
+        let places = inner.chain([cells.end]).map(|cell| {
             let face = cell - part.cells.start;
             // Between the middles of two cells, and beyond the last ones on their line.
             let displaced = match (face, own) {

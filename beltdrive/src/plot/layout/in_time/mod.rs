@@ -3,6 +3,7 @@
 //! A figure at an instant is an animation of one frame.
 
 mod film;
+mod parts;
 #[cfg(test)]
 mod tests;
 mod turning;
@@ -16,7 +17,8 @@ use crate::quantity::precision::six_digits;
 use crate::quantity::{Answer, Measure, title};
 use crate::transient::{BeltAlongLoop, History};
 use crate::{Drive, Duty};
-use film::{Film, parts};
+use film::Film;
+use parts::parts;
 use std::slice;
 use turning::{Pace, turned};
 

@@ -94,7 +94,7 @@ fn the_colours_of_a_frame_are_those_of_its_tensions() {
         .filter(|tag| tag.contains("stroke-width=\"6\"") && tag.contains("stroke=\"#"))
         .collect();
     let parts = parts(&history.layout, &history.frames[0].position);
-    let cells: Vec<_> = parts.iter().flat_map(film::Part::pieces).collect();
+    let cells: Vec<_> = parts.iter().flat_map(parts::Part::pieces).collect();
     assert_eq!((pieces.len(), cells.len()), (60, 60));
     let steps: Vec<_> = (0..=100)
         .map(|step| ordered::color(f64::from(step) / 100.0))
