@@ -12,7 +12,7 @@ use std::{env, fs};
 type Figure = (&'static str, &'static str, &'static str);
 
 /// The figures that take no time.
-const FIGURES: [Figure; 11] = [
+const FIGURES: [Figure; 12] = [
     ("serpentine-loop", "loop", "solve serpentine"),
     ("kim2009-drive", "drive", "solve kim2009"),
     ("kim2009-tension", "tension", "solve kim2009"),
@@ -51,6 +51,11 @@ const FIGURES: [Figure; 11] = [
         "kim2009-spectrum",
         "spectrum",
         "stability kim2009-flat --set model.normal_force=thesis --set load.tight_tension=2kN",
+    ),
+    (
+        "slip-pulse-loop",
+        "loop-1",
+        "simulate slip-pulse --until 0.05 --at 0.04",
     ),
 ];
 

@@ -55,6 +55,8 @@ fn a_history_goes_to_table_rows_json_and_figures() {
         "40 ms",
         "--at",
         "10 ms",
+        "--animate",
+        "run.svg",
     ];
     let text = stdout(&simulate("outputs", example("slip-pulse"), &options));
     assert!(
@@ -102,6 +104,41 @@ fn a_history_goes_to_table_rows_json_and_figures() {
     assert!(read("figures/history.svg").contains("gross slip, driven"));
     let along = read("figures/belt.svg");
     assert!(along.find("at 0.010000 s").unwrap() < along.find("at 0.040000 s").unwrap());
+    for (figure, instant) in [("loop-1", "at 0.01 s"), ("loop-2", "at 0.04 s")] {
+        let figure = read(&format!("figures/{figure}.svg"));
+        assert!(figure.contains(instant) && figure.contains("slip zone"));
+        assert!(!figure.contains("<animate"));
+    }
+    // Every fourth of 401 samples.
+    let animation = read("run.svg");
+    assert!(animation.contains("0 to 0.2 s, 50 times slower than real time"));
+    assert_eq!(animation.matches(">t = ").count(), 101);
+    assert!(animation.contains(">t = 0.200 s</text>"));
+    // A spoke of each pulley and the colours of the pieces of the belt.
+    assert_eq!(animation.matches("<animateTransform").count(), 2);
+    assert!(animation.matches("attributeName=\"stroke\"").count() > 50);
+    assert!(animation.contains("\"command_line\"") && animation.len() < 300_000);
+}
+
+#[test]
+fn an_animation_goes_to_a_file_of_its_own_that_is_svg() {
+    let text = example("slip-pulse");
+    let run = |options: &[&str]| {
+        let short = ["--until", "2 ms", "--animate"];
+        simulate("animation", text, &[&short, options].concat())
+    };
+    fails(&run(&["run.png"]), 2, "a file whose name ends in .svg");
+    fails(&run(&["-"]), 2, "a file whose name ends in .svg");
+    fails(
+        &run(&["no/such/run.svg"]),
+        2,
+        "cannot write figure no/such/run.svg",
+    );
+    let inside = ["figures/run.svg", "--plot", "figures"];
+    fails(&run(&inside), 2, "is where --plot puts its figures");
+    let wrote = run(&["run.SVG"]);
+    stdout(&wrote);
+    assert!(String::from_utf8_lossy(&wrote.stderr).contains("wrote run.SVG"));
 }
 
 #[test]

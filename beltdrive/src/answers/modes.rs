@@ -107,6 +107,7 @@ pub fn modes(
         until: Until::Time(1.0),
         interval: 1.0,
         instants: vec![],
+        frames: 0,
         step: None,
         axles: simulation.axles.clone(),
         drive: simulation.drive.clone(),

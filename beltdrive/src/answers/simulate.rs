@@ -40,6 +40,7 @@ use crate::{BeltKind, Closure, Drive, NormalForce, SolveOptions, VBelt};
 ///     until: Until::Time(0.12),
 ///     interval: 0.01,
 ///     instants: vec![],
+///     frames: 0,
 ///     step: None,
 /// };
 /// let history = simulate(&simulation, &mut |_, _| true)?;
@@ -98,7 +99,8 @@ fn of_flat(
         }
     });
     let entries: Vec<_> = entries.collect();
-    run::run(simulation, (Rates::new(&system), &entries), state, progress)
+    let parts = (Rates::new(&system), &entries[..], &layout);
+    run::run(simulation, parts, state, progress)
 }
 
 /// A V-belt with the places of contact of its steady state.
@@ -114,7 +116,12 @@ fn of_v(
         Start::Rest => v::initial::at_rest(&mut rates, found)?,
     };
     let entries = v::initial::entries(found);
-    run::run(simulation, (rates, &entries), state, progress)
+    run::run(
+        simulation,
+        (rates, &entries, &found.layout),
+        state,
+        progress,
+    )
 }
 
 /// A drive with a flat belt with finite strains and the momentum of the belt, as in time.

@@ -5,13 +5,14 @@ use beltdrive::input::{Argument, DriveFile};
 use beltdrive::transient::{Ending, TransientError, Until};
 use beltdrive::{plot, quantity, simulate};
 use clap::Args;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 const HELP: &str = "\
 Examples:
   beltdrive examples slip-pulse > slip-pulse.toml
   beltdrive simulate slip-pulse.toml --until '0.1 s' --csv history.csv
   beltdrive simulate slip-pulse.toml --until steady --plot figures --at '40 ms'
+  beltdrive simulate slip-pulse.toml --animate slip-pulse.svg
 
 The table [transient] of the drive file says what the pulleys and their axles do. --csv and --parquet
 write one row per sample.
@@ -30,14 +31,18 @@ pub(super) struct Simulate {
     /// When the run ends: a time, or `steady` [default: transient.end of the drive file]
     #[arg(long, value_name = "TIME")]
     until: Option<String>,
-    /// Draw tension and friction along the belt at this time; repeatable
+    /// With --plot, draw the belt at this time, along the loop and on its pulleys; repeatable
     #[arg(long = "at", value_name = "TIME")]
     instants: Vec<String>,
+    /// Write the run as an animated SVG: tension as colour, zones of slip, pulleys that turn
+    #[arg(long, value_name = "FILE.svg", value_parser = svg)]
+    animate: Option<PathBuf>,
 }
 
 impl Simulate {
     pub(super) fn run(&self) -> Result<(), Failure> {
-        let (file, origin) = self.common.file()?;
+        let animate = ("--animate", self.animate.as_deref());
+        let (file, origin) = self.common.file_beside(&[animate])?;
         self.of(&file, &origin).map_err(|failure| failure.of(&file))
     }
 
@@ -55,6 +60,9 @@ impl Simulate {
             let instant = argument.time().map_err(Failure::usage)?;
             simulation.instants.push(instant);
         }
+        if self.animate.is_some() {
+            simulation.frames = plot::FRAMES;
+        }
         let interrupt = Interrupt::catch()?;
         let history = self.common.with_progress(|progress| {
             simulate(&simulation, &mut |time, share| {
@@ -67,6 +75,12 @@ impl Simulate {
             plot::write_history(&simulation.drive, &history, directory, Some(metadata))
         };
         self.common.output.write(answer, &draw, origin)?;
+        if let Some(path) = &self.animate {
+            let metadata = origin.json();
+            plot::write_animation(&simulation.drive, &history, path, Some(&metadata))
+                .map_err(|error| Failure::usage(format!("error: {error}")))?;
+            self.common.output.name(std::slice::from_ref(path));
+        }
         match (history.ending, simulation.until) {
             (Ending::NotSteady, Until::Steady { latest }) => Err(Failure::Unsolved(format!(
                 "error: the drive is not steady at {latest} s\nhelp: transient.end is the latest time of the search; \
@@ -79,6 +93,20 @@ impl Simulate {
                 )))
             }
             _ => Ok(()),
+        }
+    }
+}
+
+/// The name of a file for an animation.
+fn svg(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let is_svg = path
+        .extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("svg"));
+    match is_svg {
+        true => Ok(path),
+        false => {
+            Err("an animation is written as SVG, into a file whose name ends in .svg".to_owned())
         }
     }
 }

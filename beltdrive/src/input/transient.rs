@@ -117,6 +117,7 @@ impl DriveFile {
             until,
             interval: values.number("transient.interval").unwrap_or(INTERVAL),
             instants: vec![],
+            frames: 0,
             step: values.number("transient.time_step"),
         })
     }

@@ -2,6 +2,7 @@
 
 mod axis;
 mod campbell;
+mod clock;
 mod contours;
 mod curve;
 mod header;
@@ -10,6 +11,7 @@ mod layout;
 mod mode_shapes;
 mod numbers;
 mod occupied;
+mod ordered;
 mod panel;
 mod profiles;
 mod rating;
@@ -48,7 +50,14 @@ pub enum Error {
         /// What the system said.
         source: io::Error,
     },
+    /// A run kept no frames for an animation.
+    #[error("the run kept no frames for an animation: `Simulation::frames` says how many")]
+    NoFrames,
 }
+
+/// Most frames of an animation, as [`Simulation::frames`](crate::transient::Simulation::frames): at their pace, up to
+/// 40 s, some five a second, with straight changes between them, and a file of less than a megabyte.
+pub const FRAMES: usize = 200;
 
 /// Writes all figures of a steady state into a directory, which is created where it does not exist, and
 /// returns the files written: the layout to scale under the given name, and the profiles along all pulleys.
@@ -181,7 +190,8 @@ pub fn write_rating(
 }
 
 /// Writes `history.svg`, speeds, tensions, torques and slip arcs of a drive over time with its events, and, if the run
-/// kept the belt at instants, `belt.svg`, its tension and friction along the loop, into a directory, as [`write_state`]
+/// kept the belt at instants, `belt.svg`, its tension and friction along the loop, and `loop-1.svg` and so on in the order of
+/// time, the loop with the tension of the belt as colour and its zones of friction, into a directory, as [`write_state`]
 /// does.
 ///
 /// # Errors
@@ -192,9 +202,33 @@ pub fn write_history(
     directory: &Path,
     metadata: Option<&str>,
 ) -> Result<Vec<PathBuf>, Error> {
-    let over_time = ("history.svg", history::figure(drive, history));
-    let along = history::along_loop(drive, history).map(|figure| ("belt.svg", figure));
-    write([over_time].into_iter().chain(along), directory, metadata)
+    let named = |name: &str, figure| (name.to_owned(), figure);
+    let over_time = named("history.svg", history::figure(drive, history));
+    let along = history::along_loop(drive, history).map(|figure| named("belt.svg", figure));
+    let stills = layout::in_time::stills(drive, history).into_iter();
+    let stills = stills
+        .zip(1..)
+        .map(|(figure, number)| named(&format!("loop-{number}.svg"), figure));
+    let figures = [over_time].into_iter().chain(along).chain(stills);
+    write(figures, directory, metadata)
+}
+
+/// Writes an animation of a run in SVG, which plays again and again without a script: the loop with the tension of the belt as
+/// colour, its zones of friction, pulleys that turn and the time. Its frames are [`History::frames`]; what lies between two of
+/// them changes straight from one to the other. It is shown slower or faster than it is, by a round number that it tells.
+///
+/// An existing file is replaced once the new one is complete. `metadata` is as in [`write_state`].
+///
+/// # Errors
+/// [`Error::NoFrames`] if there are none, and [`Error::Figure`] if the file cannot be written.
+pub fn write_animation(
+    drive: &Drive,
+    history: &History,
+    path: &Path,
+    metadata: Option<&str>,
+) -> Result<(), Error> {
+    let figure = layout::in_time::animation(drive, history).ok_or(Error::NoFrames)?;
+    write_figure(path, figure, metadata)
 }
 
 /// Writes `mode_shapes.svg`, the first vibrations of a drive along its belt, and, if the modes were sought over a range of
@@ -224,13 +258,16 @@ fn write<N: AsRef<Path>>(
     figures
         .map(|(name, figure)| {
             let path = directory.join(name);
-            let figure = described(figure, metadata);
-            match write_file(&path, &figure) {
-                Ok(()) => Ok(path),
-                Err(source) => Err(Error::Figure { path, source }),
-            }
+            write_figure(&path, figure, metadata).map(|()| path)
         })
         .collect()
+}
+
+fn write_figure(path: &Path, figure: String, metadata: Option<&str>) -> Result<(), Error> {
+    write_file(path, described(figure, metadata)).map_err(|source| Error::Figure {
+        path: path.to_owned(),
+        source,
+    })
 }
 
 /// A figure with a text in a `metadata` element, which is not drawn.

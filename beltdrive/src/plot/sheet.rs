@@ -146,6 +146,21 @@ impl Sheet {
         self.element(&format!("<path d=\"{path}\" fill=\"none\" {attributes}/>"));
     }
 
+    /// As [`Self::path`], with elements that say how it changes.
+    pub(super) fn changing_path(&mut self, path: &str, stroke: Stroke, changes: &str) {
+        let attributes = stroke.attributes();
+        self.element(&format!(
+            "<path d=\"{path}\" fill=\"none\" {attributes}>{changes}</path>"
+        ));
+    }
+
+    /// What is drawn as a group with an attribute, and elements that say how it changes.
+    pub(super) fn group(&mut self, attribute: &str, changes: &str, draw: impl FnOnce(&mut Self)) {
+        self.element(&format!("<g {attribute}>"));
+        draw(self);
+        self.element(&format!("{changes}</g>"));
+    }
+
     /// A rectangle between two corners, of an opacity.
     pub(super) fn rectangle(&mut self, [from, to]: [Spot; 2], color: Color, opacity: f64) {
         let [x, y, width, height] = [from.x, from.y, to.x - from.x, to.y - from.y].map(length);

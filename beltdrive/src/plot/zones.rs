@@ -52,6 +52,12 @@ pub(super) fn legend(answer: &Answer, mark: fn(Color) -> Mark) -> Vec<(String, M
         zones.any(|pulley| along(pulley).iter().any(|(known, _)| *known == kind))
     };
     let kinds = KINDS.iter().filter(|(kind, _)| occurs(kind));
-    let entry = |(kind, color): &(&str, Color)| (format!("{kind} zone"), mark(color));
-    kinds.map(entry).collect()
+    kinds
+        .map(|(kind, color)| entry(kind, mark(color)))
+        .collect()
+}
+
+/// The entry of a legend for a kind of zone.
+pub(super) fn entry(kind: &str, mark: Mark) -> (String, Mark) {
+    (format!("{kind} zone"), mark)
 }

@@ -50,6 +50,9 @@ pub(crate) trait Dynamics: Sized {
     /// Belt speed in the middles of the cells, m/s.
     fn middles(&self) -> &[f64];
 
+    /// Whether the belt slips in a cell of an arc, by its index there.
+    fn slips(&self, state: &[f64], pulley: usize, index: usize) -> bool;
+
     /// Whether the belt slips on the whole contact with a pulley.
     fn slips_grossly(&self, state: &[f64], pulley: usize) -> bool;
 

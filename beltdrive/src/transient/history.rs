@@ -4,6 +4,7 @@ use super::dynamics::Dynamics;
 use super::events::{SlackSpan, TransientEvent};
 use super::implicit::ImplicitWork;
 use super::ledger::Ledger;
+use crate::drive::layout::Layout;
 use nalgebra::Vector2;
 
 /// The history of a drive.
@@ -12,6 +13,8 @@ use nalgebra::Vector2;
 pub struct History {
     /// Names of the pulleys, in belt order.
     pub pulleys: Vec<String>,
+    /// The loop of the belt, whose pulleys stay where they are.
+    pub layout: Layout,
     /// The drive at instants at equal intervals, the first at time 0.
     pub samples: Vec<Sample>,
     /// What happened, in the order of time.
@@ -20,6 +23,9 @@ pub struct History {
     pub slack_spans: Vec<SlackSpan>,
     /// The belt along the loop at the instants asked for.
     pub belts: Vec<BeltAlongLoop>,
+    /// The belt along the loop at evenly spaced samples, from time 0 on; [`Simulation::frames`](super::Simulation::frames)
+    /// at most.
+    pub frames: Vec<BeltAlongLoop>,
     /// How the run ended.
     pub ending: Ending,
     /// How it was computed.
@@ -106,8 +112,12 @@ pub struct BeltAlongLoop {
     pub speed: Vec<f64>,
     /// Friction per length on the belt against its motion, N/m; 0 on the spans.
     pub friction: Vec<f64>,
+    /// Whether the belt slips, its bristles at their largest displacement; not on the spans.
+    pub slips: Vec<bool>,
     /// Displacement across away from the inside of the loop, m; 0 on the arcs, none where spans stay straight.
     pub displacement: Vec<f64>,
+    /// Angular speed ω of each pulley, rad/s, in belt order; positive along the motion of the belt.
+    pub angular_speeds: Vec<f64>,
 }
 
 /// Where the belt meets a pulley.
@@ -209,9 +219,22 @@ impl Observer {
                 .collect(),
             speed: rates.middles().to_vec(),
             friction: rates.friction(state),
+            slips: slips(rates, state),
             displacement: displacements(rates, state),
+            angular_speeds: state[rates.speeds()].to_vec(),
         }
     }
+}
+
+/// In which cells of a loop the belt slips.
+fn slips(rates: &impl Dynamics, state: &[f64]) -> Vec<bool> {
+    let mut slips = vec![false; rates.mesh().cells()];
+    for (pulley, arc) in rates.mesh().arcs.iter().enumerate() {
+        for (index, slips) in slips[arc.clone()].iter_mut().enumerate() {
+            *slips = rates.slips(state, pulley, index);
+        }
+    }
+    slips
 }
 
 /// Displacements across in the middles of the cells of a loop, m; none where the spans do not move so.

@@ -34,6 +34,7 @@ mod bristle;
 mod dynamics;
 mod events;
 mod explicit;
+mod frames;
 pub(crate) mod history;
 mod implicit;
 pub(crate) mod initial;

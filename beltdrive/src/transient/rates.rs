@@ -15,7 +15,7 @@ use super::dynamics::Dynamics;
 use super::implicit::Implicit;
 use super::ledger::Ledger;
 use super::mesh::Mesh;
-use super::slip::slipping;
+use super::slip::{slipping, slips};
 use super::string::{self, Room};
 use super::sums::{LANES, dot, total};
 use super::system::{SLACK, System, Wheel};
@@ -334,9 +334,16 @@ impl Dynamics for Rates<'_> {
         &self.middle
     }
 
+    fn slips(&self, state: &[f64], pulley: usize, index: usize) -> bool {
+        slips(
+            self.bristles(state, pulley)[index],
+            self.caps(pulley)[index],
+        )
+    }
+
     fn slips_grossly(&self, state: &[f64], pulley: usize) -> bool {
-        let mut cells = self.bristles(state, pulley).iter().zip(self.caps(pulley));
-        cells.all(|(bristle, cap)| bristle.abs() >= *cap)
+        let mut cells = 0..self.system.mesh.arcs[pulley].len();
+        cells.all(|index| self.slips(state, pulley, index))
     }
 
     fn slipping(&self, state: &[f64], pulley: usize) -> f64 {

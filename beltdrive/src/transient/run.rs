@@ -7,16 +7,18 @@
 use super::dynamics::{Dynamics, ImplicitSteps};
 use super::events::Watch;
 use super::explicit::{Explicit, stable_step};
+use super::frames::Frames;
 use super::history::{Effort, Ending, Entry, History, Observer};
 use super::simulation::{Simulation, TransientError, Until};
 use super::steady::Stillness;
+use crate::drive::layout::Layout;
 use web_time::Instant;
 
 /// Takes the first state of a drive, whose belt meets the pulleys at places, to the end of a simulation. `progress` is
 /// told the time in s and the share of the run that is done; the run ends where it answers no.
 pub(crate) fn run<R: Dynamics>(
     simulation: &Simulation,
-    (mut rates, entries): (R, &[Entry]),
+    (mut rates, entries, layout): (R, &[Entry], &Layout),
     mut state: Vec<f64>,
     progress: &mut dyn FnMut(f64, f64) -> bool,
 ) -> Result<History, TransientError> {
@@ -24,7 +26,7 @@ pub(crate) fn run<R: Dynamics>(
     let mut explicit = Explicit::new(state.len());
     rates.begin(0.0);
     explicit.rates(&mut rates, 0.0, &mut state);
-    let mut run = Run::new(simulation, (rates, entries), &state);
+    let mut run = Run::new(simulation, (rates, entries, layout), &state);
     let mut stillness = Stillness::new(&run.rates);
     let mut implicit: Option<R::Implicit> = None;
     let mut between = state.clone();
@@ -121,6 +123,7 @@ pub(crate) fn run<R: Dynamics>(
         possible(&run.rates, &state, time)?;
         time = stop;
     }
+    run.history.frames = run.frames.into_kept();
     run.history.slack_spans = run.watch.slack_spans.clone();
     run.history.events = run.watch.into_events();
     run.history.effort.seconds = begun.elapsed().as_secs_f64();
@@ -140,6 +143,7 @@ struct Run<R> {
     rates: R,
     observer: Observer,
     watch: Watch,
+    frames: Frames,
     history: History,
     /// Time between two samples, s.
     interval: f64,
@@ -149,7 +153,11 @@ struct Run<R> {
 }
 
 impl<R: Dynamics> Run<R> {
-    fn new(simulation: &Simulation, (rates, entries): (R, &[Entry]), state: &[f64]) -> Self {
+    fn new(
+        simulation: &Simulation,
+        (rates, entries, layout): (R, &[Entry], &Layout),
+        state: &[f64],
+    ) -> Self {
         let (end, is_steady_sought) = match simulation.until {
             Until::Time(end) => (end, false),
             Until::Steady { latest } => (latest, true),
@@ -157,14 +165,17 @@ impl<R: Dynamics> Run<R> {
         Self {
             observer: Observer::new(&rates, entries, state),
             watch: Watch::new(&rates, state),
+            frames: Frames::new(simulation.frames),
             history: History {
                 pulleys: { simulation.drive.pulleys.iter() }
                     .map(|pulley| pulley.name.clone())
                     .collect(),
+                layout: layout.clone(),
                 samples: vec![],
                 events: vec![],
                 slack_spans: vec![],
                 belts: vec![],
+                frames: vec![],
                 ending: match is_steady_sought {
                     true => Ending::NotSteady,
                     false => Ending::Time,
@@ -220,6 +231,12 @@ impl<R: Dynamics> Run<R> {
             .sample(time, &self.rates, state, least_stretch);
         sample.amplitudes = self.watch.take_largest();
         let ledger = sample.ledger;
+        let number = self.history.samples.len();
+        // A last sample that the end of the run brings forward is none of evenly spaced ones.
+        if number as f64 * self.interval <= self.end * (1.0 + f64::EPSILON) {
+            self.frames
+                .look(number, || Observer::belt(time, &self.rates, state));
+        }
         self.history.samples.push(sample);
         match ledger.closes() {
             true => Ok(()),

@@ -27,6 +27,9 @@ pub struct Simulation {
     pub interval: f64,
     /// Instants at which the belt along the loop is kept, s.
     pub instants: Vec<f64>,
+    /// Most frames of an animation: the belt along the loop is kept at so many samples or fewer, at least half as many if
+    /// there are; 0 keeps none.
+    pub frames: usize,
     /// Largest time step, s, no longer than the largest stable one, which is taken without.
     pub step: Option<f64>,
 }

@@ -1,10 +1,20 @@
 //! The arc on which the belt slips.
 
+/// What bristles of a displacement are short of their largest one, m; they slip where it is not positive.
+fn margin(bristle: f64, cap: f64) -> f64 {
+    cap - bristle.abs()
+}
+
+/// Whether bristles of a displacement slip whose largest one is a cap.
+pub(crate) fn slips(bristle: f64, cap: f64) -> bool {
+    margin(bristle, cap) <= 0.0
+}
+
 /// Length of the part of an arc on which the bristles are at their largest displacement, in cells.
 ///
 /// The margin between the two is continued from the cells that stick through a parabola, to where it is used up.
 pub(crate) fn slipping(bristles: &[f64], caps: &[f64]) -> f64 {
-    let margin = |cell: usize| caps[cell] - bristles[cell].abs();
+    let margin = |cell: usize| margin(bristles[cell], caps[cell]);
     let sticks = |cell: usize, offset: isize| {
         let other = cell
             .checked_add_signed(offset)

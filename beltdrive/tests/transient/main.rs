@@ -71,6 +71,7 @@ pub(crate) fn from_rest(drive: Drive, axles: Vec<Axle>, cells: usize, end: f64) 
         until: Until::Time(end),
         interval: 1e-3,
         instants: vec![],
+        frames: 0,
         step: None,
     }
 }

@@ -178,12 +178,14 @@ fn around(view: &View<'_>) -> Vec<(Lines, Anchor)> {
         tensioner.map(|tensioner| (small(&tensioner.lines), disc(view.anchor(tensioner), PIVOT)));
     let pulleys = view.drawn.pulleys.iter().enumerate();
     let pulleys = pulleys.map(|(index, pulley)| {
-        let mut lines = small(&pulley.lines);
-        if !view.shows_rotation(index) {
-            lines[0].0 += if pulley.sense > 0.0 { " ↺" } else { " ↻" };
-        }
         let name = broken(&pulley.name, BODY, NAME).into_iter();
-        lines.splice(0..0, name.map(|line| (line, BODY)));
+        let names: Lines = name.map(|line| (line, BODY)).collect();
+        // Behind the first thing that is said of it, or behind its name.
+        let first = names.len() - usize::from(pulley.lines.is_empty());
+        let mut lines = [names, small(&pulley.lines)].concat();
+        if !view.shows_rotation(index) {
+            lines[first].0 += if pulley.sense > 0.0 { " ↺" } else { " ↻" };
+        }
         (
             lines,
             disc(view.at(pulley.centre), view.scale * pulley.radius),

@@ -1,5 +1,6 @@
 //! The layout to scale: pulleys, the belt with its zones, tensioner, hub loads and labels.
 
+pub(super) mod in_time;
 mod labels;
 mod model;
 #[cfg(test)]
@@ -45,7 +46,9 @@ const CLOSEST: f64 = 1.0;
 /// The figure of the layout of an answer.
 pub(super) fn figure(answer: &Answer) -> String {
     let drawn = Loop::of(answer);
-    let (header, view, labels) = placed(answer, &drawn);
+    let (header, view, labels) = placed(&drawn, |width| {
+        Header::new(answer, "Steady state", legend(answer, &drawn), width)
+    });
     let mut sheet = Sheet::new(view.size);
     header.draw(&mut sheet);
     view.draw(&mut sheet);
@@ -56,10 +59,10 @@ pub(super) fn figure(answer: &Answer) -> String {
     sheet.finish()
 }
 
-/// The layout and its labels on the smallest sheet that has room for them.
-fn placed<'a>(answer: &Answer, drawn: &'a Loop) -> (Header, View<'a>, Vec<Label>) {
+/// A loop and its labels below a header, which depends on the width, on the smallest sheet that has room for them.
+fn placed(drawn: &Loop, header: impl Fn(f64) -> Header) -> (Header, View<'_>, Vec<Label>) {
     let mut sheets = WIDTHS.iter().map(|width| {
-        let header = Header::new(answer, "Steady state", legend(answer, drawn), *width);
+        let header = header(*width);
         let view = View::of(drawn, header.height, *width);
         let (labels, is_free) = labels::labels(&view);
         ((header, view, labels), is_free)
@@ -94,17 +97,7 @@ fn legend(answer: &Answer, drawn: &Loop) -> Vec<(String, Mark)> {
 
 impl View<'_> {
     fn draw(&self, sheet: &mut Sheet) {
-        for pulley in &self.drawn.pulleys {
-            let (centre, radius) = (self.at(pulley.centre), self.scale * pulley.radius);
-            let outline = if pulley.is_driver {
-                Stroke::solid(INK, 2.0)
-            } else {
-                THIN
-            };
-            sheet.disc(centre, radius, "#F1F1F1");
-            sheet.rim(centre, radius, outline);
-            sheet.disc(centre, 2.5, INK);
-        }
+        self.pulleys(sheet);
         for index in 0..self.drawn.pulleys.len() {
             if self.shows_rotation(index) {
                 self.rotation(sheet, index);
@@ -143,6 +136,20 @@ impl View<'_> {
         }
     }
 
+    fn pulleys(&self, sheet: &mut Sheet) {
+        for pulley in &self.drawn.pulleys {
+            let (centre, radius) = (self.at(pulley.centre), self.scale * pulley.radius);
+            let outline = if pulley.is_driver {
+                Stroke::solid(INK, 2.0)
+            } else {
+                THIN
+            };
+            sheet.disc(centre, radius, "#F1F1F1");
+            sheet.rim(centre, radius, outline);
+            sheet.disc(centre, 2.5, INK);
+        }
+    }
+
     /// The sense in which a pulley turns: an arrow round its centre, off its hub load.
     fn rotation(&self, sheet: &mut Sheet, index: usize) {
         let pulley = &self.drawn.pulleys[index];
@@ -176,19 +183,20 @@ impl View<'_> {
         }
     }
 
+    /// The scale of lengths in the left lower corner; where something else may stand behind it.
+    fn length_scale(&self, sheet: &mut Sheet) -> Spot {
+        let length = round(LONGEST / self.scale);
+        let at = spot(MARGIN, self.size.y - 0.5 * SCALES);
+        scale(sheet, at, (&metres(length), self.scale * length, FREE))
+    }
+
     /// The scales of lengths and forces below the loop.
     fn scales(&self, sheet: &mut Sheet) {
-        let length = round(LONGEST / self.scale);
-        let force = round(LOAD / self.force);
-        let mut at = spot(MARGIN, self.size.y - 0.5 * SCALES);
-        let lengths = (metres(length), self.scale * length, FREE);
-        let forces = (newtons(force), self.force * force, HUB_LOADS[0]);
-        let shows_forces = self.force > 0.0;
-        for (text, width, stroke) in [lengths].into_iter().chain(shows_forces.then_some(forces)) {
-            sheet.line(&[at, at + spot(width, 0.0)], stroke);
-            at.x += width + 8.0;
-            sheet.text(&text, SMALL, INK, Anchor::Start, at);
-            at.x += text_width(&text, SMALL) + 28.0;
+        let mut at = self.length_scale(sheet);
+        if self.force > 0.0 {
+            let force = round(LOAD / self.force);
+            let width = self.force * force;
+            at = scale(sheet, at, (&newtons(force), width, HUB_LOADS[0]));
         }
         let deeper = match self.exaggeration > 1.0 {
             true => format!(", penetration {} times deeper", self.exaggeration),
@@ -198,6 +206,15 @@ impl View<'_> {
             format!("to scale{deeper}; torques are positive where the belt drives the pulley");
         sheet.text(&note, SMALL, GREY, Anchor::Start, at);
     }
+}
+
+/// A scale from a place on: its text, its width in px and its line; where the next one may stand.
+fn scale(sheet: &mut Sheet, at: Spot, (text, width, stroke): (&str, f64, Stroke)) -> Spot {
+    let end = at + spot(width, 0.0);
+    sheet.line(&[at, end], stroke);
+    let beside = end + spot(8.0, 0.0);
+    sheet.text(text, SMALL, INK, Anchor::Start, beside);
+    beside + spot(text_width(text, SMALL) + 28.0, 0.0)
 }
 
 impl Label {

@@ -1,7 +1,8 @@
 //! A loop as its answer tells it: where the pulleys are, where the belt meets them, and what is said of them.
 
 use super::super::zones;
-use crate::quantity::{Answer, Quantity, Subject};
+use crate::quantity::{Answer, Measure, Quantity, Subject};
+use crate::{Layout, PlacedPulley};
 use nalgebra::{Rotation2, Vector2};
 use std::f64::consts::FRAC_PI_2;
 
@@ -16,6 +17,8 @@ pub(super) struct Loop {
     pub(super) spans: Vec<Vec<String>>,
     /// The tensioner, if there is one.
     pub(super) tensioner: Option<Tensioner>,
+    /// Largest displacement of the spans across, m.
+    pub(super) displacement: f64,
     /// Sense in which the belt runs: +1 counter-clockwise, −1 clockwise.
     pub(super) sense: f64,
 }
@@ -33,7 +36,7 @@ pub(super) struct Pulley {
     pub(super) is_driver: bool,
     /// Polar angle of the entry of the belt seen from the centre, and the angle swept up to the exit, rad.
     entry: f64,
-    wrap: f64,
+    pub(super) wrap: f64,
     /// Largest penetration of the belt, m.
     pub(super) penetration: f64,
     /// The belt on the pulley: swept angle, rad, penetration, m, and kind of zone.
@@ -80,7 +83,43 @@ impl Loop {
             spans: spans.iter().map(span_lines).collect(),
             pulleys,
             tensioner,
+            displacement: 0.0,
             sense,
+        }
+    }
+
+    /// A flat belt as it is laid, with what is said of each pulley and each span, if anything is; `is_driver` tells the
+    /// pulleys that drive. `displacement` is the largest one of the spans across, m.
+    pub(super) fn laid(
+        layout: &Layout,
+        is_driver: impl Fn(usize) -> bool,
+        pulley_lines: impl Fn(usize) -> Vec<String>,
+        spans: Vec<Vec<String>>,
+        displacement: f64,
+    ) -> Self {
+        let pulley = |(index, placed): (usize, &PlacedPulley)| {
+            let sense = placed.turns(layout.sense());
+            let [arriving, _] = layout.spans_of(index);
+            Pulley {
+                name: placed.name.clone(),
+                lines: pulley_lines(index),
+                centre: placed.centre.into(),
+                radius: placed.radius,
+                sense,
+                is_driver: is_driver(index),
+                entry: arriving.direction - sense * FRAC_PI_2,
+                wrap: layout.wraps()[index],
+                penetration: 0.0,
+                belt: vec![],
+                hub_loads: [None; 2],
+            }
+        };
+        Self {
+            pulleys: layout.pulleys().iter().enumerate().map(pulley).collect(),
+            spans,
+            tensioner: None,
+            displacement,
+            sense: layout.sense().sign(),
         }
     }
 
@@ -105,6 +144,14 @@ fn span_lines(span: &Subject) -> Vec<String> {
         tension("F", "tractive_tension"),
     ];
     lines.into_iter().flatten().collect()
+}
+
+/// A number of a measure in SI units, with its unit.
+pub(super) fn measured(measure: Measure, value: f64) -> String {
+    // With an error below the last digit that is shown.
+    let error = f64::EPSILON * value.abs();
+    let quantity = Quantity::number("", "", measure, value, error);
+    quantity.shown(DIGITS).unwrap_or_default()
 }
 
 /// A quantity with its unit.

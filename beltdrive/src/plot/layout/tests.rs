@@ -171,7 +171,9 @@ fn drawn(view: &View<'_>) -> Vec<Spot> {
 fn labels_cover_nothing_and_leaders_pass_labels() {
     for answer in answers() {
         let (title, drawn_loop) = (&answer.heading, Loop::of(&answer));
-        let (_, view, labels) = placed(&answer, &drawn_loop);
+        let (_, view, labels) = placed(&drawn_loop, |width| {
+            Header::new(&answer, "Steady state", legend(&answer, &drawn_loop), width)
+        });
         let count = answer.subjects("pulleys").len();
         let tensioners = answer.subjects("tensioner").len();
         assert_eq!(labels.len(), 2 * count + tensioners, "{title:?}");

@@ -39,6 +39,10 @@ const BEYOND: f64 = 34.0;
 const VISIBLE: f64 = 4.0;
 const VISIBLE_PART: f64 = 0.1;
 
+/// The largest displacement of a span across is shown by so many px, or by a round factor up to 2.5 times as many: half a wave
+/// of it is then seen beside the width of the belt.
+const SWING: f64 = 8.0;
+
 /// A loop on the sheet.
 pub(super) struct View<'a> {
     pub(super) drawn: &'a Loop,
@@ -50,6 +54,8 @@ pub(super) struct View<'a> {
     pub(super) size: Spot,
     /// Where the loop with its labels may be.
     pub(super) frame: Frame,
+    /// By how much displacements of the spans across are exaggerated.
+    pub(super) sway: f64,
     /// By how much penetrations are exaggerated.
     pub(super) exaggeration: f64,
     /// The middles of the arrowheads on spans that are long enough.
@@ -101,6 +107,7 @@ impl<'a> View<'a> {
                 from: spot(MARGIN, header),
                 to: spot(width - MARGIN, bottom),
             },
+            sway: exaggeration(drawn.displacement, SWING / scale),
             exaggeration: exaggeration(penetration, (VISIBLE / scale).min(VISIBLE_PART * smallest)),
             arrowheads: vec![],
             force: if largest > 0.0 { LOAD / largest } else { 0.0 },
@@ -181,7 +188,8 @@ impl<'a> View<'a> {
     }
 
     fn span_line(&self, index: usize) -> Shape {
-        Shape::Line(self.span(index), 0.5 * BELT + ROOM)
+        let swing = self.scale * self.sway * self.drawn.displacement;
+        Shape::Line(self.span(index), 0.5 * BELT + ROOM + swing)
     }
 
     /// Everything that labels may not cover.
@@ -220,7 +228,7 @@ impl<'a> View<'a> {
     }
 }
 
-/// By how much a penetration is exaggerated: by the smallest round factor that makes it visible, or 1 where there
+/// By how much a penetration or a displacement is exaggerated: by the smallest round factor that makes it visible, or 1 where there
 /// is none.
 pub(super) fn exaggeration(penetration: f64, visible: f64) -> f64 {
     let round = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0];

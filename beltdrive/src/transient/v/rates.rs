@@ -16,7 +16,7 @@ use super::super::bristle::weights;
 use super::super::dynamics::Dynamics;
 use super::super::ledger::Ledger;
 use super::super::mesh::Mesh;
-use super::super::slip::slipping;
+use super::super::slip::{slipping, slips};
 use super::super::system::Wheel;
 use super::radial::{Balance, Pull, Shape, Tridiagonal};
 use super::system::System;
@@ -357,6 +357,17 @@ impl<'s> Rates<'s> {
         rates[parts.compression] = compression;
     }
 
+    /// Deflection of the bristles in a cell of all arcs.
+    fn bent(&self, state: &[f64], place: usize) -> f64 {
+        let parts = &self.system.parts;
+        state[parts.along.start + place].hypot(state[parts.up.start + place])
+    }
+
+    /// Deflection from which on the bristles of a pulley count as slipping.
+    fn limit(&self, pulley: usize) -> f64 {
+        SLIPPING_BRISTLES * self.system.wheels[pulley].friction_coefficient
+    }
+
     /// Slip `e_w` of the belt up the groove faces in a cell of an arc, m/s.
     fn sliding(&self, pulley: usize, index: usize) -> f64 {
         let mesh = &self.system.mesh;
@@ -545,6 +556,11 @@ impl Dynamics for Rates<'_> {
         &self.middle
     }
 
+    fn slips(&self, state: &[f64], pulley: usize, index: usize) -> bool {
+        let place = self.system.mesh.bristles[pulley].start + index;
+        slips(self.bent(state, place), self.limit(pulley))
+    }
+
     fn slips_grossly(&self, _: &[f64], pulley: usize) -> bool {
         let own = self.system.mesh.bristles[pulley].clone();
         let first = self.system.mesh.arcs[pulley].start;
@@ -555,14 +571,9 @@ impl Dynamics for Rates<'_> {
     }
 
     fn slipping(&self, state: &[f64], pulley: usize) -> f64 {
-        let limit = SLIPPING_BRISTLES * self.system.wheels[pulley].friction_coefficient;
         let own = self.system.mesh.bristles[pulley].clone();
-        let parts = &self.system.parts;
-        let [along, up] = [&parts.along, &parts.up].map(|part| &state[part.clone()][own.clone()]);
-        let bent: Vec<_> = { along.iter().zip(up) }
-            .map(|(along, up)| along.hypot(*up))
-            .collect();
-        slipping(&bent, &vec![limit; bent.len()])
+        let bent: Vec<_> = own.map(|place| self.bent(state, place)).collect();
+        slipping(&bent, &vec![self.limit(pulley); bent.len()])
     }
 
     fn force(&self, state: &[f64], pulley: usize, index: usize) -> [f64; 2] {

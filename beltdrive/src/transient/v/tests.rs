@@ -35,6 +35,7 @@ fn the_unstretched_length_is_kept_while_a_load_rises_from_rest() {
         until: Until::Time(0.1),
         interval: 1e-3,
         instants: vec![],
+        frames: 0,
         step: None,
         transverse: None,
         drive,
