@@ -67,7 +67,7 @@ pub fn simulate(
         }
     };
     if let Some(stated) = &simulation.transverse {
-        initial::pluck(&system, stated, &mut state);
+        initial::pluck(&system, &drive, stated, &mut state)?;
     }
     run::run(simulation, (&system, &layout), state, progress)
 }

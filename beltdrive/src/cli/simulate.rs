@@ -2,7 +2,7 @@
 
 use super::{common::Common, failure::Failure, interrupt::Interrupt, origin::Origin};
 use beltdrive::input::{Argument, DriveFile};
-use beltdrive::transient::{Ending, TransientError, Until};
+use beltdrive::transient::{Ending, Simulation, TransientError, Until};
 use beltdrive::{plot, quantity, simulate};
 use clap::Args;
 use std::path::Path;
@@ -61,7 +61,8 @@ impl Simulate {
                 progress(share, &format!("{time:.3} s"));
                 !interrupt.came()
             })
-        })?;
+        });
+        let history = history.map_err(|error| Failure::of_simulation(file, &simulation, error))?;
         let answer = &quantity::transient::answer(&simulation.drive, &history);
         let draw = |directory: &Path, metadata: &str| {
             plot::write_history(&simulation.drive, &history, directory, Some(metadata))
@@ -79,6 +80,20 @@ impl Simulate {
                 )))
             }
             _ => Ok(()),
+        }
+    }
+}
+
+impl Failure {
+    /// Why a simulation of a file failed, at the key that is at fault if there is one.
+    pub(super) fn of_simulation(
+        file: &DriveFile,
+        simulation: &Simulation,
+        error: TransientError,
+    ) -> Self {
+        match file.of_simulation(simulation, &error) {
+            Some(placed) => Self::usage(placed),
+            None => error.into(),
         }
     }
 }

@@ -23,11 +23,28 @@ const MOST_SAMPLES: f64 = 1e6;
 /// with seven digits.
 pub(super) const SAME_SPEED: f64 = 1e-6;
 
+/// The key of a given speed.
+const SPEED_KEY: &str = "transient.pulley.*.speed";
+
 /// Refuses a part of the statement.
 pub(crate) fn refuse<T>(subject: &str, problem: impl Into<String>) -> Result<T, TransientError> {
     Err(TransientError::Statement {
         subject: subject.to_owned(),
         problem: problem.into(),
+        key: None,
+    })
+}
+
+/// Refuses what a key of a drive file states.
+fn refuse_key<T>(
+    key: &'static str,
+    subject: &str,
+    problem: impl Into<String>,
+) -> Result<T, TransientError> {
+    Err(TransientError::Statement {
+        subject: subject.to_owned(),
+        problem: problem.into(),
+        key: Some(key),
     })
 }
 
@@ -62,7 +79,8 @@ pub(crate) fn system(
     layout: &Layout,
 ) -> Result<System, TransientError> {
     let FrictionLaw::Epp { stiffness } = drive.law else {
-        return refuse(
+        return refuse_key(
+            "friction.law",
             "friction",
             format!(
                 "a simulation needs elastic/perfectly-plastic friction (`epp`), not `{}`",
@@ -172,7 +190,11 @@ fn of_transverse(stated: &Transverse, pulleys: usize) -> Option<&'static str> {
 pub(crate) fn check(simulation: &Simulation) -> Result<(), TransientError> {
     let drive = &simulation.drive;
     if let BeltKind::V(_) = drive.belt.kind {
-        return refuse("belt", "only drives with flat belts can be simulated");
+        return refuse_key(
+            "belt.type",
+            "belt",
+            "only drives with flat belts can be simulated",
+        );
     }
     if let Some((pulley, _)) = drive.tensioner() {
         let name = &drive.pulleys[pulley].name;
@@ -183,7 +205,11 @@ pub(crate) fn check(simulation: &Simulation) -> Result<(), TransientError> {
     }
     let damping = simulation.axial_damping;
     if !(damping >= 0.0 && damping.is_finite()) {
-        return refuse("axial damping", "it must not be negative");
+        return refuse_key(
+            "transient.axial_damping",
+            "axial damping",
+            "it must not be negative",
+        );
     }
     if let Some(stated) = &simulation.transverse
         && let Some(problem) = of_transverse(stated, drive.pulleys.len())
@@ -198,7 +224,8 @@ pub(crate) fn check(simulation: &Simulation) -> Result<(), TransientError> {
         }
     };
     if !cells_are_in_range {
-        return refuse(
+        return refuse_key(
+            "transient.cells",
             "cells",
             format!(
                 "there must be at least {LEAST_ARC_CELLS} on an arc, {LEAST_SPAN_CELLS} on a span and at most \
@@ -209,16 +236,24 @@ pub(crate) fn check(simulation: &Simulation) -> Result<(), TransientError> {
     let positive = |value: f64| value > 0.0 && value.is_finite();
     let (Until::Time(end) | Until::Steady { latest: end }) = simulation.until;
     if !positive(end) {
-        return refuse("end", "its time must be positive");
+        return refuse_key("transient.end", "end", "its time must be positive");
     }
-    if !positive(simulation.interval) || end / simulation.interval > MOST_SAMPLES {
-        return refuse(
+    let interval = simulation.interval;
+    if !positive(interval) {
+        return refuse_key("transient.interval", "interval", "it must be positive");
+    }
+    if end / interval > MOST_SAMPLES {
+        return refuse_key(
+            "transient.interval",
             "interval",
-            format!("it must be positive, with at most {MOST_SAMPLES:.0e} samples in all"),
+            format!(
+                "{:.0e} samples, one every {interval:e} s up to {end} s, are more than {MOST_SAMPLES:.0e}",
+                end / interval
+            ),
         );
     }
     if simulation.step.is_some_and(|step| !positive(step)) {
-        return refuse("step", "it must be positive");
+        return refuse_key("transient.time_step", "step", "it must be positive");
     }
     let mut instants = simulation.instants.iter();
     if !instants.all(|instant| (0.0..=end).contains(instant)) {
@@ -226,42 +261,51 @@ pub(crate) fn check(simulation: &Simulation) -> Result<(), TransientError> {
     }
     let axles = drive.pulleys.iter().zip(&simulation.axles);
     for (pulley, axle) in axles {
-        let problem = of_axle(axle, simulation.start).or_else(|| of_pulsations(axle, simulation));
-        if let Some(problem) = problem {
+        if let Some(problem) = of_axle(axle) {
             return refuse(&pulley.name, problem);
+        }
+        if let Some(problem) = of_first_speed(axle, simulation.start) {
+            return refuse_key(SPEED_KEY, &pulley.name, problem);
+        }
+        if let Some(problem) = of_pulsations(axle, simulation) {
+            return refuse_key("transient.pulley.*.load_frequency", &pulley.name, problem);
         }
     }
     Ok(())
 }
 
 /// What is wrong with an axle.
-fn of_axle(axle: &Axle, start: Start) -> Option<String> {
+fn of_axle(axle: &Axle) -> Option<String> {
     let inertia = axle.inertia;
+    let over_speed = match &axle.motion {
+        Motion::Torques {
+            motor: Some(Motor::Characteristic(over_speed)),
+            ..
+        } => Some(over_speed),
+        Motion::Torques { .. } | Motion::Speed(_) => None,
+    };
+    let mut given = axle.schedule().into_iter().flatten().chain(over_speed);
+    if !given.all(Schedule::is_in_order) {
+        return Some(
+            "the points of what it is given must be finite and in ascending order".to_owned(),
+        );
+    }
     match &axle.motion {
         Motion::Speed(speed) => {
             if !(inertia >= 0.0 && inertia.is_finite()) {
                 return Some("the moment of inertia must not be negative".to_owned());
             }
-            if let Some(time) = speed.first_jump() {
-                return Some(format!("its speed must not jump, as it does at {time} s"));
-            }
-            let first = speed.at(0.0);
-            (start == Start::Rest && first != 0.0).then(|| {
-                format!(
-                    "a drive at rest cannot start with a speed of {first} rad/s: let it rise from 0"
-                )
-            })
+            let jump = speed.first_jump();
+            jump.map(|time| format!("its speed must not jump, as it does at {time} s"))
         }
-        Motion::Torques { motor, load } => {
+        Motion::Torques { load, .. } => {
             if !(inertia > 0.0 && inertia.is_finite()) {
                 return Some(
                     "the moment of inertia of a pulley without a prescribed speed must be positive"
                         .to_owned(),
                 );
             }
-            if let Some(Motor::Characteristic(over_speed)) = motor
-                && let Some(speed) = over_speed.first_jump()
-            {
+            if let Some(speed) = over_speed.and_then(Schedule::first_jump) {
                 return Some(format!(
                     "the torque of its motor must not jump over the speed, as it does at {speed} rad/s"
                 ));
@@ -270,6 +314,17 @@ fn of_axle(axle: &Axle, start: Start) -> Option<String> {
                 .then(|| "the torque per speed of its load must not be negative".to_owned())
         }
     }
+}
+
+/// What is wrong with the speed at which an axle starts.
+fn of_first_speed(axle: &Axle, start: Start) -> Option<String> {
+    let Motion::Speed(speed) = &axle.motion else {
+        return None;
+    };
+    let first = speed.at(0.0);
+    (start == Start::Rest && first != 0.0).then(|| {
+        format!("a drive at rest cannot start with a speed of {first} rad/s: let it rise from 0")
+    })
 }
 
 /// What is wrong with the sines that are added to what an axle is given.
@@ -343,7 +398,8 @@ pub(crate) fn running(system: &System, found: &LoopState) -> Result<Vec<f64>, Tr
         if let Motion::Speed(given) = &system.wheels[pulley].axle.motion {
             let (first, speed) = (given.at(0.0), known.angular_speed);
             if (first / speed - 1.0).abs() > SAME_SPEED {
-                return refuse(
+                return refuse_key(
+                    SPEED_KEY,
                     &known.name,
                     format!(
                         "its speed starts with {first} rad/s, but the running drive has {speed} rad/s"
@@ -356,9 +412,28 @@ pub(crate) fn running(system: &System, found: &LoopState) -> Result<Vec<f64>, Tr
     Ok(state)
 }
 
-/// Displaces the spans of a state as they are plucked.
-pub(crate) fn pluck(system: &System, stated: &Transverse, state: &mut [f64]) {
+/// Displaces the spans of a state of a drive as they are plucked.
+pub(crate) fn pluck(
+    system: &System,
+    drive: &Drive,
+    stated: &Transverse,
+    state: &mut [f64],
+) -> Result<(), TransientError> {
+    let plucked = drive.pulleys.iter().zip(&stated.plucks);
+    for ((pulley, pluck), span) in plucked.zip(&system.mesh.spans) {
+        // On fewer cells the half waves are others.
+        let most = span.len() / 2;
+        if let Some(pluck) = pluck.filter(|pluck| pluck.mode > most) {
+            let problem = format!(
+                "{} half waves of a pluck need two cells each, and the span behind it has {}",
+                pluck.mode,
+                span.len()
+            );
+            return refuse_key("transient.pulley.*.pluck_mode", &pulley.name, problem);
+        }
+    }
     string::pluck(system, &stated.plucks, state);
+    Ok(())
 }
 
 /// The value of a list at a place between others that rise.

@@ -61,6 +61,6 @@ pub use history::{BeltAlongLoop, Effort, Ending, History, PulleySample, Sample};
 pub use implicit::ImplicitWork;
 pub use ledger::Ledger;
 pub use schedule::{Pulsation, Schedule};
-pub use simulation::{Cells, Simulation, Start, TransientError, Until};
+pub use simulation::{Cells, Simulation, Start, StepBound, TransientError, Until};
 pub use transverse::{Pluck, RunOut, Transverse};
 pub use vibration::VibrationMode;

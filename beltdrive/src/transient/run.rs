@@ -5,11 +5,11 @@
 //! pulley, they are explicit up to the next sample. Spans that move across take explicit steps only.
 
 use super::events::Watch;
-use super::explicit::{Explicit, stable_step};
+use super::explicit::{Explicit, bounded_step};
 use super::history::{Effort, Ending, History, Observer};
 use super::implicit::Implicit;
 use super::rates::Rates;
-use super::simulation::{Simulation, TransientError, Until};
+use super::simulation::{Simulation, StepBound, TransientError, Until};
 use super::steady::Stillness;
 use super::string;
 use super::system::System;
@@ -25,6 +25,7 @@ pub(crate) fn run(
     progress: &mut dyn FnMut(f64, f64) -> bool,
 ) -> Result<History, TransientError> {
     let begun = Instant::now();
+    possible(system, &state, 0.0)?;
     let mut run = Run::new(simulation, (system, layout), &state);
     let mut explicit = Explicit::new(system);
     let mut stillness = Stillness::new(&run.rates);
@@ -135,6 +136,9 @@ const STEEPEST: f64 = 0.3;
 /// Most steps between two looks at the largest stable one: in so many a wave passes 40 cells at most.
 const MOST_STEPS: usize = 100;
 
+/// Most explicit steps of a run: a day of computing on 240 cells.
+pub(super) const MOST_IN_ALL: f64 = 1e9;
+
 /// What a run has told up to now, and what tells it.
 struct Run<'s> {
     rates: Rates<'s>,
@@ -242,8 +246,8 @@ fn step_to(
     state: &[f64],
     [time, stop]: [f64; 2],
 ) -> Result<(usize, f64, f64), TransientError> {
-    let stable = stable_step(system, state);
-    let longest = match simulation.step {
+    let (stable, bound) = bounded_step(system, state);
+    let (longest, bound) = match simulation.step {
         Some(asked) if asked > stable => {
             return Err(TransientError::Unstable {
                 asked,
@@ -251,9 +255,23 @@ fn step_to(
                 time,
             });
         }
-        Some(asked) => asked,
-        None => stable,
+        Some(asked) => (asked, StepBound::Asked),
+        None => (stable, bound),
     };
+    // On the way to a steady state steps stay explicit up to the next stop only.
+    let end = match simulation.until {
+        Until::Time(end) => end,
+        Until::Steady { .. } => stop,
+    };
+    let steps = (end - time) / longest;
+    if steps > MOST_IN_ALL {
+        return Err(TransientError::TooManySteps {
+            end,
+            steps,
+            step: longest,
+            bound,
+        });
+    }
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
