@@ -176,6 +176,54 @@ fn the_steady_state_is_reached_or_missed() {
     assert!(String::from_utf8_lossy(&output.stdout).contains("not steady in the end"));
 }
 
+#[test]
+fn points_over_time_come_from_csv_files() {
+    let points = example("slip-pulse");
+    let start = points.find("load = [").unwrap();
+    let named = format!("{}load = \"pulse.csv\"\n", &points[..start]);
+    let csv = directory("points").join("pulse.csv");
+    let rows =
+        "# measured\ntime [ms], remark, torque [kN*mm]\n20,a,30\n20,b,100\n50,c,100\n50,d,30\n";
+    fs::write(&csv, rows).unwrap();
+    // All but the time that it took.
+    let options = ["--until", "0.06 s", "--csv", "history.csv"];
+    let history = || fs::read_to_string(directory("points").join("history.csv")).unwrap();
+    stdout(&simulate("points", points, &options));
+    let from_points = history();
+    stdout(&simulate("points", &named, &options));
+    assert_eq!(history(), from_points);
+    for (text, words) in [
+        ("", "there is no line with headings"),
+        ("time [ms],torque\n", "there are no rows below the headings"),
+        ("time [ms],torque\n1\n", "1 fields under 2 headings"),
+        ("time [ms],torqe\n1,1\n", "no column is called `torque`"),
+        (
+            "time,time,torque\n1,1,1\n",
+            "the column `time` stands twice",
+        ),
+        (
+            "time [N],torque\n1,1\n",
+            "wrong dimension: expected a time, got a force",
+        ),
+        ("time,torque\n1,1 N*m\n", "malformed number `1 N*m`"),
+        ("time,torque\n1,\n", "missing number"),
+        (
+            "time,torque\n2,1\n1,1\n",
+            "the points of `load` are out of order",
+        ),
+    ] {
+        fs::write(&csv, text).unwrap();
+        fails(&simulate("points", &named, &options), 2, words);
+    }
+    fs::remove_file(&csv).unwrap();
+    let output = simulate("points", &named, &options);
+    fails(&output, 2, "cannot read pulse.csv");
+    // Without a file beside it, as from a library, a name is no points.
+    let file = DriveFile::read("drive.toml", &named, &[]).unwrap();
+    let error = file.simulation(None).unwrap_err().to_string();
+    assert!(error.contains("or the name of a CSV file"), "{error}");
+}
+
 /// Whether a process catches an interrupt: the signal 2 is in the set of those that it has handlers for.
 #[cfg(target_os = "linux")]
 fn catches_interrupts(process: u32) -> bool {
@@ -304,7 +352,7 @@ fn faults_of_the_table_are_shown_where_they_stand() {
         (
             "law = \"epp\"",
             "law = \"coulomb\"",
-            "a simulation needs elastic/perfectly-plastic friction",
+            "a flat belt in time needs elastic/perfectly-plastic friction",
         ),
         (
             "start = \"running\"",

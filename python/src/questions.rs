@@ -196,7 +196,11 @@ pub(crate) fn simulate(
             interrupt = Python::attach(|py| py.check_signals()).err();
             interrupt.is_none()
         };
-        let history = beltdrive::simulate(&simulation, &mut goes_on)?;
+        let history = beltdrive::simulate(&simulation, &mut goes_on);
+        let history = history.map_err(|error| match file.of_simulation(&simulation, &error) {
+            Some(placed) => Failure::from(placed),
+            None => Failure::from(error),
+        })?;
         match (history.ending, simulation.until) {
             (Ending::NotSteady, Until::Steady { latest }) => Err(Failure::Unsolved(
                 format!("the drive is not steady at {latest} s"),

@@ -7,7 +7,7 @@ use crate::belt_loop::LoopState;
 use crate::transient::mesh::Mesh;
 use crate::transient::{
     Cells, Motion, Schedule, Simulation, Start, TransientError, Until, VibrationMode, initial,
-    vibration,
+    statement, vibration,
 };
 use crate::{BeltKind, Drive, SolveOptions, ZoneKind};
 
@@ -114,17 +114,21 @@ pub fn modes(
         transverse: simulation.transverse.clone(),
         ..*simulation
     };
-    initial::check(&checked)?;
+    statement::check(&checked)?;
     if let BeltKind::V(_) = simulation.drive.belt.kind {
-        return initial::refuse("belt", "only drives with flat belts have modes here");
+        return statement::refuse_key(
+            "belt.type",
+            "belt",
+            "only drives with flat belts have modes here",
+        );
     }
     if question.count == 0 {
-        return initial::refuse("modes", "their number must be positive");
+        return statement::refuse("modes", "their number must be positive");
     }
     if let Some([from, to]) = question.speeds
         && !(0.0 < from && from < to && to.is_finite())
     {
-        return initial::refuse("speed", "the range must be one of positive speeds");
+        return statement::refuse("speed", "the range must be one of positive speeds");
     }
     let options = SolveOptions::default();
     let stated = in_time(&simulation.drive);

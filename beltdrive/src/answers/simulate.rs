@@ -6,7 +6,7 @@ use crate::belt_loop::LoopState;
 use crate::model::model;
 use crate::transient::history::Entry;
 use crate::transient::rates::Rates;
-use crate::transient::{History, Simulation, Start, TransientError, initial, run, v};
+use crate::transient::{History, Simulation, Start, TransientError, initial, run, statement, v};
 use crate::{BeltKind, Closure, Drive, NormalForce, SolveOptions, VBelt};
 
 /// Follows a drive in time: with a flat belt and elastic/perfectly-plastic friction, or with a V-belt and bristles.
@@ -56,7 +56,7 @@ pub fn simulate(
     simulation: &Simulation,
     progress: &mut dyn FnMut(f64, f64) -> bool,
 ) -> Result<History, TransientError> {
-    initial::check(simulation)?;
+    statement::check(simulation)?;
     let options = SolveOptions::default();
     match simulation.drive.belt.kind {
         BeltKind::Flat { .. } => of_flat(simulation, &options, progress),
@@ -88,7 +88,7 @@ fn of_flat(
         }
     };
     if let Some(stated) = &simulation.transverse {
-        initial::pluck(&system, stated, &mut state);
+        initial::pluck(&system, &drive, stated, &mut state)?;
     }
     let sense = layout.sense();
     let entries = layout.pulleys().iter().enumerate().map(|(index, pulley)| {

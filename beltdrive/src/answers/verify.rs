@@ -17,6 +17,7 @@
 mod comparison;
 mod drives;
 mod finite_elements;
+mod kim_figures;
 mod kim_flat_text;
 mod kim_table_2;
 mod kim_v_limits;
@@ -85,7 +86,9 @@ pub fn verify(progress: &mut dyn FnMut(f64, &str)) -> Verification {
     progress(0.0, "Kim (2009), flat belt");
     let mut flat = kim_table_2::sections();
     flat.push(kim_flat_text::section());
-    progress(0.01, "Kim (2009), V-belt");
+    progress(0.01, "Kim (2009), flat belt in time");
+    let in_time = kim_figures::sections();
+    progress(0.1, "Kim (2009), V-belt");
     let mut v_belt = kim_v_tables::sections();
     v_belt.push(kim_v_limits::section(&mut |share, what| {
         progress(0.1 + 0.88 * share, what);
@@ -103,6 +106,14 @@ pub fn verify(progress: &mut dyn FnMut(f64, &str)) -> Verification {
                 method: "closed form of the two zones, elastic and slipping, in the convention of the \
                          thesis (normal force T/R), at the tensions that it prints",
                 sections: flat,
+            },
+            Source {
+                title: "Kim (2009), flat belt in time",
+                citation: kim,
+                method: "a run from rest to the steady state (`simulate`, 240 cells) in the place of the \
+                         finite-element model of figures 24 to 26, whose curves have no numbers; the \
+                         numbers are those of table 2, which the figures show",
+                sections: in_time,
             },
             Source {
                 title: "Kim (2009), V-belt",

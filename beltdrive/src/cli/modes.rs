@@ -48,7 +48,8 @@ impl Command {
         let question = ModesQuestion::new(self.modes.into(), from, to);
         let found = self
             .common
-            .with_progress(|progress| modes(&simulation, question, progress))?;
+            .with_progress(|progress| modes(&simulation, question, progress))
+            .map_err(|error| Failure::of_simulation(file, &simulation, error))?;
         let answer = &quantity::modes::answer(&found);
         let draw =
             |directory: &Path, metadata: &str| plot::write_modes(&found, directory, Some(metadata));

@@ -2,7 +2,7 @@
 
 use super::{common::Common, failure::Failure, interrupt::Interrupt, origin::Origin};
 use beltdrive::input::{Argument, DriveFile};
-use beltdrive::transient::{Ending, TransientError, Until};
+use beltdrive::transient::{Ending, Simulation, TransientError, Until};
 use beltdrive::{plot, quantity, simulate};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -69,7 +69,8 @@ impl Simulate {
                 progress(share, &format!("{time:.3} s"));
                 !interrupt.came()
             })
-        })?;
+        });
+        let history = history.map_err(|error| Failure::of_simulation(file, &simulation, error))?;
         let answer = &quantity::transient::answer(&simulation.drive, &history);
         let draw = |directory: &Path, metadata: &str| {
             plot::write_history(&simulation.drive, &history, directory, Some(metadata))
@@ -107,6 +108,20 @@ fn svg(text: &str) -> Result<PathBuf, String> {
         true => Ok(path),
         false => {
             Err("an animation is written as SVG, into a file whose name ends in .svg".to_owned())
+        }
+    }
+}
+
+impl Failure {
+    /// Why a simulation of a file failed, at the key that is at fault if there is one.
+    pub(super) fn of_simulation(
+        file: &DriveFile,
+        simulation: &Simulation,
+        error: TransientError,
+    ) -> Self {
+        match file.of_simulation(simulation, &error) {
+            Some(placed) => Self::usage(placed),
+            None => error.into(),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::transient::{
     Axle, Cells, Load, Motion, Motor, Pluck, Pulsation, RunOut, Schedule, Simulation, Start,
-    Transverse, Until,
+    StepBound, TransientError, Transverse, Until,
 };
 use crate::{Drive, Duty};
 
@@ -21,6 +21,18 @@ const DOWNWARDS: f64 = -std::f64::consts::FRAC_PI_2;
 
 /// The end of a run, or the latest end of one to the steady state.
 const END: &str = "transient.end";
+
+/// The time between two samples.
+const SAMPLED: &str = "transient.interval";
+
+/// The longest time step.
+const STEP: &str = "transient.time_step";
+
+/// The cells of the mesh.
+const CELLS_OF_MESH: &str = "transient.cells";
+
+/// Axial damping of the belt.
+const DAMPING: &str = "transient.axial_damping";
 
 /// Cells of the mesh without `transient.cells`: the load step of the documentation is then off by a few thousandths
 /// in speed and tensions, at a second of computing per second.
@@ -52,6 +64,55 @@ impl DriveFile {
     pub fn motion(&self) -> Result<Simulation, Diagnostic> {
         let end = Until::Steady { latest: LATEST };
         self.simulated(Some(Start::Running), |_| Ok(Some(end)))
+    }
+
+    /// Why a simulation of this file fails, at the key that says what is at fault; `None` where no key does.
+    #[must_use]
+    pub fn of_simulation(
+        &self,
+        simulation: &Simulation,
+        error: &TransientError,
+    ) -> Option<Diagnostic> {
+        let end = match simulation.until {
+            Until::Time(end) | Until::Steady { latest: end } => end,
+        };
+        let values = Values::check(&self.document, &self.source).ok()?;
+        let name = |pulley: usize| &simulation.drive.pulleys[pulley].name;
+        let of_pulley = |name: &str, keys: &[&str]| -> Vec<_> {
+            keys.iter()
+                .map(|key| format!("{PULLEY}.{name}.{key}"))
+                .collect()
+        };
+        let keys = match error {
+            TransientError::Unstable { .. } => vec![STEP.to_owned()],
+            TransientError::TooManySteps { bound, .. } => match *bound {
+                StepBound::Asked => vec![STEP.to_owned()],
+                StepBound::Cells => vec![CELLS_OF_MESH.to_owned()],
+                StepBound::Bristles { pulley } => of_pulley(name(pulley), &["inertia"]),
+                StepBound::AxialDamping => vec![DAMPING.to_owned()],
+                StepBound::DampingAcross => vec![format!("{TRANSVERSE}.damping")],
+                StepBound::Torque { pulley } => {
+                    of_pulley(name(pulley), &["load_per_speed", "motor_torque_over_speed"])
+                }
+                StepBound::Pulsation { pulley } => of_pulley(name(pulley), &["load_frequency"]),
+                StepBound::RunOut { pulley } => {
+                    of_pulley(name(pulley), &["run_out_order", "run_out"])
+                }
+            },
+            TransientError::Statement {
+                subject,
+                key: Some(key),
+                ..
+            } => match values.number(END) == Some(end) {
+                // Too many samples may also be the fault of the end.
+                true if *key == SAMPLED => vec![SAMPLED.to_owned(), END.to_owned()],
+                _ => vec![key.replace('*', subject)],
+            },
+            _ => vec![],
+        };
+        let key = keys.iter().find(|path| values.has(path))?;
+        let finding = Finding::new(values.place(key), error.to_string());
+        Some(Diagnostic::new(finding, &self.source))
     }
 
     fn simulated(
@@ -106,19 +167,19 @@ impl DriveFile {
         };
         let axles = drive.pulleys.iter();
         let axles = axles.map(|pulley| axle(values, &pulley.name, pulley.duty, start));
-        let cells = whole(values, "transient.cells");
+        let cells = whole(values, CELLS_OF_MESH);
         Ok(Simulation {
             axles: axles.collect::<Result<_, _>>()?,
             drive,
-            axial_damping: values.number("transient.axial_damping").unwrap_or(0.0),
+            axial_damping: values.number(DAMPING).unwrap_or(0.0),
             transverse: transverse(values, &names)?,
             start,
             cells: Cells::Total(cells.unwrap_or(CELLS)),
             until,
-            interval: values.number("transient.interval").unwrap_or(INTERVAL),
+            interval: values.number(SAMPLED).unwrap_or(INTERVAL),
             instants: vec![],
             frames: 0,
-            step: values.number("transient.time_step"),
+            step: values.number(STEP),
         })
     }
 
@@ -295,17 +356,17 @@ fn schedule(
     let found = Schedule::table(points.to_vec());
     let schedule = found.ok_or_else(|| {
         let mut pairs = points.windows(2);
-        let falls = pairs.find(|pair| pair[0][0] > pair[1][0]);
-        let message = match falls {
-            Some([before, after]) => {
-                format!(
-                    "the points of `{key}` are out of order: {} after {}",
-                    after[0], before[0]
-                )
+        let falls = pairs.position(|pair| pair[0][0] > pair[1][0]);
+        let (place, message) = match falls {
+            Some(before) => {
+                let [earlier, later] = [points[before + 1][0], points[before][0]];
+                let message =
+                    format!("the points of `{key}` are out of order: {earlier} after {later}");
+                (values.point_place(path, before + 1), message)
             }
-            _ => format!("`{key}` has no points"),
+            None => (values.place(path), format!("`{key}` has no points")),
         };
-        Finding::new(values.place(path), message).expected("points in ascending order")
+        Finding::new(place, message).expected("points in ascending order")
     })?;
     match schedule.first_jump() {
         Some(jump) if is_continuous => {

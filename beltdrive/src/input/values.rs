@@ -3,8 +3,7 @@
 use super::{
     check,
     diagnostic::Finding,
-    document::Content,
-    document::{Document, Entry},
+    document::{Content, Document, Entry},
     overrides,
     schema::{self, Kind, Rule},
     source::Source,
@@ -104,6 +103,14 @@ impl<'d> Values<'d> {
     pub(super) fn place(&self, path: &str) -> Range<usize> {
         let entry = self.document.entries.get(path);
         entry.map_or(self.document.end.clone(), |entry| entry.place.clone())
+    }
+
+    /// Where a point of the array at `path` stands.
+    pub(super) fn point_place(&self, path: &str, point: usize) -> Range<usize> {
+        match self.document.entries.get(path).map(|entry| &entry.content) {
+            Some(Content::List(points)) if point < points.len() => points[point].place.clone(),
+            _ => self.place(path),
+        }
     }
 
     /// Where the key of the entry at `path` stands.

@@ -4,6 +4,7 @@ use super::axles::Axles;
 use super::implicit::ImplicitWork;
 use super::ledger::Ledger;
 use super::mesh::Mesh;
+use super::simulation::StepBound;
 use super::system::Wheel;
 use std::convert::Infallible;
 use std::ops::Range;
@@ -32,8 +33,9 @@ pub(crate) trait Dynamics: Sized {
     /// The rates of a state at a time in s, which is set right.
     fn of(&mut self, time: f64, state: &mut [f64], rates: &mut [f64]);
 
-    /// The largest rate of a state, 1/s: a step is stable up to a multiple of its inverse.
-    fn fastest(&self, state: &[f64]) -> f64;
+    /// The largest rate of a state but for those of the axles, 1/s, and what it is of: a step is stable up to a multiple of
+    /// its inverse.
+    fn fastest(&self, state: &[f64]) -> (f64, StepBound);
 
     /// Implicit steps from a state, none longer than asked for in s; `None` where all steps have to be explicit.
     fn implicit(&self, state: &[f64], longest: f64) -> Option<Self::Implicit>;

@@ -72,7 +72,8 @@ mod tests {
         assert_eq!(kept(4, 4), [0.0, 1.0, 2.0, 3.0]);
         assert_eq!(kept(4, 5), [0.0, 2.0, 4.0]);
         assert_eq!(kept(3, 4), [0.0, 2.0]);
-        assert_eq!(kept(3, 14), [0.0, 4.0, 8.0]);
+        assert_eq!(kept(3, 12), [0.0, 4.0, 8.0]);
+        assert_eq!(kept(3, 14), [0.0, 8.0]);
         assert_eq!(kept(1, 14), [0.0]);
         assert_eq!(kept(0, 14), [0.0; 0]);
         for samples in 1..2000 {

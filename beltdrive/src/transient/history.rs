@@ -6,6 +6,7 @@ use super::implicit::ImplicitWork;
 use super::ledger::Ledger;
 use crate::drive::layout::Layout;
 use nalgebra::Vector2;
+use std::ops::Range;
 
 /// The history of a drive.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,8 +14,12 @@ use nalgebra::Vector2;
 pub struct History {
     /// Names of the pulleys, in belt order.
     pub pulleys: Vec<String>,
-    /// The loop of the belt, whose pulleys stay where they are.
+    /// The loop of the belt, whose pulleys stay where they are; of a V-belt that of its pitch line, as in
+    /// [`LoopState`](crate::belt_loop::LoopState).
     pub layout: Layout,
+    /// Places of the contact with each pulley in the lists of [`BeltAlongLoop`]; what follows up to the next one is of the
+    /// span behind it.
+    pub arcs: Vec<Range<usize>>,
     /// The drive at instants at equal intervals, the first at time 0.
     pub samples: Vec<Sample>,
     /// What happened, in the order of time.
@@ -181,7 +186,7 @@ impl Observer {
                 hub_load: self.hub_load(rates, state, index).into(),
             }
         };
-        let middle = |span: &std::ops::Range<usize>| {
+        let middle = |span: &Range<usize>| {
             let at = |cell: usize| rates.tension(rates.stretches()[cell]);
             let middle = span.start + span.len() / 2;
             match span.len() % 2 {

@@ -1,35 +1,17 @@
 //! From the statement to the equations, and the state at time 0.
 
-use super::axle::{Axle, Motion, Motor};
+use super::axle::Axle;
 use super::mesh::{LEAST_ARC_CELLS, LEAST_SPAN_CELLS, Mesh, Stretch, even};
-use super::schedule::Schedule;
-use super::simulation::{Cells, Simulation, Start, TransientError, Until};
+use super::simulation::{Cells, Simulation, TransientError};
 use super::state::Parts;
+use super::statement::{self, refuse, refuse_key};
 use super::string;
 use super::system::{System, Wheel};
 use super::transverse::{Across, End, RunOut, SpanAcross, Transverse};
 use crate::drive::layout::Layout;
 use crate::results::loop_state::LoopState;
-use crate::{Drive, FrictionLaw, Pulley};
+use crate::{Drive, Pulley};
 use nalgebra::Vector2;
-
-/// Most cells of a mesh: a second of motion then takes an hour.
-const MOST_CELLS: usize = 10_000;
-
-/// Most samples of a history: far more than a figure shows, some hundred megabytes.
-const MOST_SAMPLES: f64 = 1e6;
-
-/// A prescribed speed is that of the steady state from which it starts to this, relative: a number that is stated
-/// with seven digits.
-pub(super) const SAME_SPEED: f64 = 1e-6;
-
-/// Refuses a part of the statement.
-pub(crate) fn refuse<T>(subject: &str, problem: impl Into<String>) -> Result<T, TransientError> {
-    Err(TransientError::Statement {
-        subject: subject.to_owned(),
-        problem: problem.into(),
-    })
-}
 
 /// Half as many cells on every arc and span, as far as there may be so few.
 pub(crate) fn halved(arc: usize, span: usize) -> Cells {
@@ -61,15 +43,7 @@ pub(crate) fn system(
     drive: &Drive,
     layout: &Layout,
 ) -> Result<System, TransientError> {
-    let FrictionLaw::Epp { stiffness } = drive.law else {
-        return refuse(
-            "friction",
-            format!(
-                "a flat belt in time needs elastic/perfectly-plastic friction (`epp`), not `{}`",
-                drive.law.name()
-            ),
-        );
-    };
+    let stiffness = statement::stiffness(drive)?;
     let wraps = layout.pulleys().iter().zip(layout.wraps());
     let arcs = wraps.map(|(pulley, wrap)| pulley.radius * wrap);
     let parts: Vec<_> = { arcs.zip(layout.spans()) }
@@ -145,157 +119,6 @@ fn across(stated: &Transverse, layout: &Layout) -> Across {
     }
 }
 
-/// What is wrong with a motion of the spans across.
-fn of_transverse(stated: &Transverse, pulleys: usize) -> Option<&'static str> {
-    if !(stated.damping >= 0.0 && stated.damping.is_finite()) {
-        return Some("the damping must not be negative");
-    }
-    if !stated.gravity.iter().all(|part| part.is_finite()) {
-        return Some("gravity must be finite");
-    }
-    if [stated.plucks.len(), stated.run_outs.len()] != [pulleys; 2] {
-        return Some("there must be a pluck of every span and a run-out of every pulley, or none");
-    }
-    let mut plucks = stated.plucks.iter().flatten();
-    if plucks.any(|pluck| !pluck.amplitude.is_finite() || pluck.mode == 0) {
-        return Some("a pluck needs an amplitude and at least one half wave");
-    }
-    let mut run_outs = stated.run_outs.iter().flatten();
-    let is_wrong = |run_out: &RunOut| {
-        !(run_out.amplitude >= 0.0 && run_out.amplitude.is_finite()) || run_out.order == 0
-    };
-    (run_outs.any(is_wrong))
-        .then_some("a run-out needs an amplitude that is not negative and at least one wave")
-}
-
-/// Refuses what is out of range, whatever the state at time 0.
-pub(crate) fn check(simulation: &Simulation) -> Result<(), TransientError> {
-    let drive = &simulation.drive;
-    if let Some((pulley, _)) = drive.tensioner() {
-        let name = &drive.pulleys[pulley].name;
-        return refuse(name, "a drive with a tensioner cannot be simulated");
-    }
-    if simulation.axles.len() != drive.pulleys.len() {
-        return refuse("axles", "there must be one for every pulley");
-    }
-    let damping = simulation.axial_damping;
-    if !(damping >= 0.0 && damping.is_finite()) {
-        return refuse("axial damping", "it must not be negative");
-    }
-    if let Some(stated) = &simulation.transverse
-        && let Some(problem) = of_transverse(stated, drive.pulleys.len())
-    {
-        return refuse("motion of the spans across", problem);
-    }
-    let cells_are_in_range = match simulation.cells {
-        Cells::Total(cells) => (1..=MOST_CELLS).contains(&cells),
-        Cells::Each { arc, span } => {
-            let all = arc.saturating_add(span).saturating_mul(drive.pulleys.len());
-            arc >= LEAST_ARC_CELLS && span >= LEAST_SPAN_CELLS && all <= MOST_CELLS
-        }
-    };
-    if !cells_are_in_range {
-        return refuse(
-            "cells",
-            format!(
-                "there must be at least {LEAST_ARC_CELLS} on an arc, {LEAST_SPAN_CELLS} on a span and at most \
-                 {MOST_CELLS} in all"
-            ),
-        );
-    }
-    let positive = |value: f64| value > 0.0 && value.is_finite();
-    let (Until::Time(end) | Until::Steady { latest: end }) = simulation.until;
-    if !positive(end) {
-        return refuse("end", "its time must be positive");
-    }
-    if !positive(simulation.interval) || end / simulation.interval > MOST_SAMPLES {
-        return refuse(
-            "interval",
-            format!("it must be positive, with at most {MOST_SAMPLES:.0e} samples in all"),
-        );
-    }
-    if simulation.step.is_some_and(|step| !positive(step)) {
-        return refuse("step", "it must be positive");
-    }
-    let mut instants = simulation.instants.iter();
-    if !instants.all(|instant| (0.0..=end).contains(instant)) {
-        return refuse("instants", "they must lie between 0 and the end of the run");
-    }
-    let axles = drive.pulleys.iter().zip(&simulation.axles);
-    for (pulley, axle) in axles {
-        let problem = of_axle(axle, simulation.start).or_else(|| of_pulsations(axle, simulation));
-        if let Some(problem) = problem {
-            return refuse(&pulley.name, problem);
-        }
-    }
-    Ok(())
-}
-
-/// What is wrong with an axle.
-fn of_axle(axle: &Axle, start: Start) -> Option<String> {
-    let inertia = axle.inertia;
-    match &axle.motion {
-        Motion::Speed(speed) => {
-            if !(inertia >= 0.0 && inertia.is_finite()) {
-                return Some("the moment of inertia must not be negative".to_owned());
-            }
-            if let Some(time) = speed.first_jump() {
-                return Some(format!("its speed must not jump, as it does at {time} s"));
-            }
-            let first = speed.at(0.0);
-            (start == Start::Rest && first != 0.0).then(|| {
-                format!(
-                    "a drive at rest cannot start with a speed of {first} rad/s: let it rise from 0"
-                )
-            })
-        }
-        Motion::Torques { motor, load } => {
-            if !(inertia > 0.0 && inertia.is_finite()) {
-                return Some(
-                    "the moment of inertia of a pulley without a prescribed speed must be positive"
-                        .to_owned(),
-                );
-            }
-            if let Some(Motor::Characteristic(over_speed)) = motor
-                && let Some(speed) = over_speed.first_jump()
-            {
-                return Some(format!(
-                    "the torque of its motor must not jump over the speed, as it does at {speed} rad/s"
-                ));
-            }
-            (!(load.per_speed >= 0.0 && load.per_speed.is_finite()))
-                .then(|| "the torque per speed of its load must not be negative".to_owned())
-        }
-    }
-}
-
-/// What is wrong with the sines that are added to what an axle is given.
-fn of_pulsations(axle: &Axle, simulation: &Simulation) -> Option<String> {
-    if let Motion::Torques {
-        motor: Some(Motor::Characteristic(over_speed)),
-        ..
-    } = &axle.motion
-        && over_speed.pulsation().is_some()
-    {
-        return Some("the torque of its motor over the speed cannot pulsate over time".to_owned());
-    }
-    let given = axle.schedule().into_iter().flatten();
-    given.filter_map(Schedule::pulsation).find_map(|pulsation| {
-        let (amplitude, frequency) = (pulsation.amplitude, pulsation.angular_frequency);
-        if !(amplitude >= 0.0 && amplitude.is_finite()) {
-            Some("the amplitude of its pulsation must not be negative".to_owned())
-        } else if !(frequency > 0.0 && frequency.is_finite()) {
-            Some("the frequency of its pulsation must be positive".to_owned())
-        } else {
-            let is_steady_sought = matches!(simulation.until, Until::Steady { .. });
-            is_steady_sought.then(|| {
-                "it pulsates at all times, so that the drive is never steady: end the run at a time"
-                    .to_owned()
-            })
-        }
-    })
-}
-
 /// The belt at rest with a tension in N.
 pub(crate) fn at_rest(system: &System, tension: f64) -> Vec<f64> {
     let stretch = 1.0 + tension / system.axial_stiffness;
@@ -337,25 +160,34 @@ pub(crate) fn running(system: &System, found: &LoopState) -> Result<Vec<f64>, Tr
     }
     parts.close(&mut state);
     for (pulley, known) in found.pulleys.iter().enumerate() {
-        if let Motion::Speed(given) = &system.wheels[pulley].axle.motion {
-            let (first, speed) = (given.at(0.0), known.angular_speed);
-            if (first / speed - 1.0).abs() > SAME_SPEED {
-                return refuse(
-                    &known.name,
-                    format!(
-                        "its speed starts with {first} rad/s, but the running drive has {speed} rad/s"
-                    ),
-                );
-            }
-        }
+        statement::of_running(&system.wheels[pulley].axle, known)?;
         state[parts.speed.start + pulley] = known.angular_speed;
     }
     Ok(state)
 }
 
-/// Displaces the spans of a state as they are plucked.
-pub(crate) fn pluck(system: &System, stated: &Transverse, state: &mut [f64]) {
+/// Displaces the spans of a state of a drive as they are plucked.
+pub(crate) fn pluck(
+    system: &System,
+    drive: &Drive,
+    stated: &Transverse,
+    state: &mut [f64],
+) -> Result<(), TransientError> {
+    let plucked = drive.pulleys.iter().zip(&stated.plucks);
+    for ((pulley, pluck), span) in plucked.zip(&system.mesh.spans) {
+        // On fewer cells the half waves are others.
+        let most = span.len() / 2;
+        if let Some(pluck) = pluck.filter(|pluck| pluck.mode > most) {
+            let problem = format!(
+                "{} half waves of a pluck need two cells each, and the span behind it has {}",
+                pluck.mode,
+                span.len()
+            );
+            return refuse_key("transient.pulley.*.pluck_mode", &pulley.name, problem);
+        }
+    }
     string::pluck(system, &stated.plucks, state);
+    Ok(())
 }
 
 /// The value of a list at a place between others that rise.

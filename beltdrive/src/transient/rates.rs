@@ -12,9 +12,11 @@
 use super::axles::Axles;
 use super::bristle::transport;
 use super::dynamics::Dynamics;
+use super::explicit::{PER_SINE, larger, with_waves};
 use super::implicit::Implicit;
 use super::ledger::Ledger;
 use super::mesh::Mesh;
+use super::simulation::StepBound;
 use super::slip::{slipping, slips};
 use super::string::{self, Room};
 use super::sums::{LANES, dot, total};
@@ -272,9 +274,9 @@ impl Dynamics for Rates<'_> {
         rates[parts.damped] = self.damped(&state[parts.density.clone()]);
     }
 
-    /// That of the fastest axial wave between two cells with the belt held by its bristles, of axial damping, of light
-    /// pulleys and of torques that depend on speed.
-    fn fastest(&self, state: &[f64]) -> f64 {
+    /// That of the fastest axial wave between two cells with the belt held by its bristles, of damping, of rims with
+    /// run-out.
+    fn fastest(&self, state: &[f64]) -> (f64, StepBound) {
         let System {
             mass,
             axial_stiffness,
@@ -292,25 +294,34 @@ impl Dynamics for Rates<'_> {
         let speed = speeds.map(f64::abs).fold(0.0, f64::max);
         let cell = mesh.shortest();
         let wave = 2.0 * (stretch * (axial_stiffness / mass).sqrt() + speed) / cell;
-        let arcs = mesh.arcs.iter().zip(wheels);
+        let arcs = mesh.arcs.iter().zip(wheels).enumerate();
         // A belt held on a pulley that turns: its mass beside that of the pulley at the rim.
-        let held = arcs.map(|(arc, wheel)| {
+        let held = arcs.map(|(pulley, (arc, wheel))| {
             let length = arc.len() as f64 * mesh.lengths[arc.start];
-            let at_rim = wheel.radius * wheel.radius / wheel.axle.inertia;
-            match wheel.axle.inertia > 0.0 {
-                true => friction_stiffness * (mass.recip() + length * at_rim),
-                false => friction_stiffness / mass,
-            }
+            let per_mass = mass.recip() + length * wheel.mobility();
+            (
+                friction_stiffness * per_mass,
+                StepBound::Bristles { pulley },
+            )
         });
-        let held = held.fold(0.0, f64::max);
-        let axles = wheels
-            .iter()
-            .map(|wheel| wheel.axle.rate())
-            .fold(0.0, f64::max);
-        let damping = 4.0 * axial_damping / (mass * cell * cell);
-        let across = across.as_ref().map_or(0.0, |across| across.damping);
-        let damping = damping.max(across * stretch / mass);
-        (wave * wave + held).sqrt().max(damping).max(axles)
+        let first = with_waves(wave, held);
+        let axial = 4.0 * axial_damping / (mass * cell * cell);
+        let damping = across.as_ref().map_or(0.0, |across| across.damping);
+        let ends = across.iter().flat_map(|across| &across.spans);
+        let ends = ends.flat_map(|span| span.ends).map(|end| {
+            let round = end.order * state[parts.speed.start + end.pulley].abs();
+            let rate = if end.amplitude == 0.0 {
+                0.0
+            } else {
+                PER_SINE * round
+            };
+            (rate, StepBound::RunOut { pulley: end.pulley })
+        });
+        let damped = [
+            (axial, StepBound::AxialDamping),
+            (damping * stretch / mass, StepBound::DampingAcross),
+        ];
+        damped.into_iter().chain(ends).fold(first, larger)
     }
 
     fn implicit(&self, state: &[f64], longest: f64) -> Option<Implicit> {

@@ -6,10 +6,10 @@
 
 use super::dynamics::{Dynamics, ImplicitSteps};
 use super::events::Watch;
-use super::explicit::{Explicit, stable_step};
+use super::explicit::{Explicit, bounded_step};
 use super::frames::Frames;
 use super::history::{Effort, Ending, Entry, History, Observer};
-use super::simulation::{Simulation, TransientError, Until};
+use super::simulation::{Simulation, StepBound, TransientError, Until};
 use super::steady::Stillness;
 use crate::drive::layout::Layout;
 use web_time::Instant;
@@ -26,6 +26,7 @@ pub(crate) fn run<R: Dynamics>(
     let mut explicit = Explicit::new(state.len());
     rates.begin(0.0);
     explicit.rates(&mut rates, 0.0, &mut state);
+    possible(&rates, &state, 0.0)?;
     let mut run = Run::new(simulation, (rates, entries, layout), &state);
     let mut stillness = Stillness::new(&run.rates);
     let mut implicit: Option<R::Implicit> = None;
@@ -138,6 +139,9 @@ const LONGEST: f64 = 5.0;
 /// Most steps between two looks at the largest stable one: in so many a wave passes 40 cells at most.
 const MOST_STEPS: usize = 100;
 
+/// Most explicit steps of a run: a day of computing on 240 cells.
+pub(super) const MOST_IN_ALL: f64 = 1e9;
+
 /// What a run has told up to now, and what tells it.
 struct Run<R> {
     rates: R,
@@ -171,6 +175,7 @@ impl<R: Dynamics> Run<R> {
                     .map(|pulley| pulley.name.clone())
                     .collect(),
                 layout: layout.clone(),
+                arcs: rates.mesh().arcs.clone(),
                 samples: vec![],
                 events: vec![],
                 slack_spans: vec![],
@@ -265,8 +270,8 @@ fn step_to(
     state: &[f64],
     [time, stop]: [f64; 2],
 ) -> Result<(usize, f64, f64), TransientError> {
-    let stable = stable_step(rates, state);
-    let longest = match simulation.step {
+    let (stable, bound) = bounded_step(rates, state);
+    let (longest, bound) = match simulation.step {
         Some(asked) if asked > stable => {
             return Err(TransientError::Unstable {
                 asked,
@@ -274,9 +279,23 @@ fn step_to(
                 time,
             });
         }
-        Some(asked) => asked,
-        None => stable,
+        Some(asked) => (asked, StepBound::Asked),
+        None => (stable, bound),
     };
+    // On the way to a steady state steps stay explicit up to the next stop only.
+    let end = match simulation.until {
+        Until::Time(end) => end,
+        Until::Steady { .. } => stop,
+    };
+    let steps = (end - time) / longest;
+    if steps > MOST_IN_ALL {
+        return Err(TransientError::TooManySteps {
+            end,
+            steps,
+            step: longest,
+            bound,
+        });
+    }
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

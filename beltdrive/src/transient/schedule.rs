@@ -60,12 +60,18 @@ impl Schedule {
     /// number is not finite.
     #[must_use]
     pub fn table(points: Vec<[f64; 2]>) -> Option<Self> {
-        let rises = points.windows(2).all(|pair| pair[0][0] <= pair[1][0]);
-        let is_finite = points.iter().flatten().all(|number| number.is_finite());
-        (rises && is_finite && !points.is_empty()).then_some(Self {
+        let schedule = Self {
             points,
             pulsation: None,
-        })
+        };
+        schedule.is_in_order().then_some(schedule)
+    }
+
+    /// Whether there are points, with finite numbers and times that do not fall.
+    pub(crate) fn is_in_order(&self) -> bool {
+        let rises = self.points.windows(2).all(|pair| pair[0][0] <= pair[1][0]);
+        let mut numbers = self.points.iter().flatten();
+        rises && numbers.all(|number| number.is_finite()) && !self.points.is_empty()
     }
 
     /// The same with a sine added.

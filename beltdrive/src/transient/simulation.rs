@@ -71,6 +71,57 @@ pub enum Until {
     },
 }
 
+/// What makes the time steps of a run as short as they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StepBound {
+    /// The step that was asked for.
+    Asked,
+    /// Waves along the belt and the length of the cells.
+    Cells,
+    /// The stiffness of friction, with the mass of the belt and the inertia of a pulley.
+    Bristles {
+        /// The pulley, by its place in belt order.
+        pulley: usize,
+    },
+    /// Axial damping of the belt.
+    AxialDamping,
+    /// Damping of the motion of the spans across.
+    DampingAcross,
+    /// Torques of an axle that depend on its speed, with its inertia.
+    Torque {
+        /// The pulley, by its place in belt order.
+        pulley: usize,
+    },
+    /// A sine that is added to what an axle is given.
+    Pulsation {
+        /// The pulley, by its place in belt order.
+        pulley: usize,
+    },
+    /// The waves of a rim with run-out, and the speed of the pulley.
+    RunOut {
+        /// The pulley, by its place in belt order.
+        pulley: usize,
+    },
+}
+
+impl StepBound {
+    /// What it is, in words that end a sentence.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Asked => "the step asked for",
+            Self::Cells => "waves along short cells",
+            Self::Bristles { .. } => "stiff friction on a light pulley or belt",
+            Self::AxialDamping => "axial damping",
+            Self::DampingAcross => "damping of the spans across",
+            Self::Torque { .. } => "torques that depend on the speed of a light pulley",
+            Self::Pulsation { .. } => "a pulsation",
+            Self::RunOut { .. } => "run-out",
+        }
+    }
+}
+
 /// Why there is no history.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -82,6 +133,8 @@ pub enum TransientError {
         subject: String,
         /// What is wrong with it.
         problem: String,
+        /// The key of a drive file that states it, with `*` for the name of the pulley; none where several do.
+        key: Option<&'static str>,
     },
     /// The drive has no state to start from.
     #[error("no state to start from: {0}")]
@@ -97,6 +150,22 @@ pub enum TransientError {
         stable: f64,
         /// When it is, s.
         time: f64,
+    },
+    /// The run takes more time steps than a computer can be asked for.
+    #[error(
+        "up to {end} s there are {steps:.0e} time steps of {step:.1e} s, more than {:.0e}, because of {}",
+        super::run::MOST_IN_ALL,
+        bound.name()
+    )]
+    TooManySteps {
+        /// Time up to which the steps are counted, s.
+        end: f64,
+        /// How many there are.
+        steps: f64,
+        /// How long they are, s.
+        step: f64,
+        /// What makes them short.
+        bound: StepBound,
     },
     /// The belt was shortened to nothing or numbers grew beyond all bounds.
     #[error("the belt has no possible state after {time:.6} s: {problem}")]
@@ -130,7 +199,7 @@ impl TransientError {
     #[must_use]
     pub fn is_of_statement(&self) -> bool {
         match self {
-            Self::Statement { .. } | Self::Unstable { .. } => true,
+            Self::Statement { .. } | Self::Unstable { .. } | Self::TooManySteps { .. } => true,
             Self::Start(error) => error.is_of_statement(),
             Self::Impossible { .. } | Self::Eigenvalues | Self::Ledger { .. } => false,
         }

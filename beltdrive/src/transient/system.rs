@@ -98,3 +98,13 @@ impl System {
         pulleys.sum::<f64>() + belt.sum::<f64>() + string::energy(self, state)
     }
 }
+
+impl Wheel {
+    /// R²/J, by which a force at the rim accelerates it, 1/kg; 0 without an inertia, as of a given speed.
+    pub(super) fn mobility(&self) -> f64 {
+        match self.axle.inertia > 0.0 {
+            true => self.radius * self.radius / self.axle.inertia,
+            false => 0.0,
+        }
+    }
+}

@@ -2,7 +2,8 @@
 
 use super::{driver, from_rest, kim, loaded};
 use beltdrive::transient::{
-    Cells, Load, Motion, Motor, Schedule, Simulation, Start, TransientError, Until,
+    Cells, Load, Motion, Motor, Pluck, Schedule, Simulation, Start, StepBound, TransientError,
+    Transverse, Until,
 };
 use beltdrive::{BeltKind, Closure, FrictionLaw, VBelt, simulate};
 
@@ -32,7 +33,7 @@ fn load(simulation: &mut Simulation) -> (&mut Option<Motor>, &mut Load) {
 fn what_is_out_of_range_is_refused_with_its_reason() {
     simulate(&right(), &mut |_, _| true).unwrap();
     type Change = fn(&mut Simulation);
-    let cases: [(Change, &str); 17] = [
+    let cases: [(Change, &str); 23] = [
         (
             |wrong| wrong.axles[1].inertia = -0.005,
             "driven: the moment of inertia",
@@ -77,6 +78,37 @@ fn what_is_out_of_range_is_refused_with_its_reason() {
             |wrong| load(wrong).1.per_speed = -1.0,
             "driven: the torque per speed",
         ),
+        (
+            |wrong| load(wrong).1.torque = Schedule::constant(f64::NAN),
+            "driven: the points of what it is given",
+        ),
+        (
+            |wrong| load(wrong).1.torque = Schedule::pulse([2.0, 1.0], [0.0, 1.0]),
+            "driven: the points of what it is given",
+        ),
+        (
+            |wrong| *load(wrong).0 = Some(Motor::line(f64::INFINITY, 100.0)),
+            "driven: the points of what it is given",
+        ),
+        (
+            |wrong| wrong.axles[0] = driver(Schedule::ramp([1.0, 0.0], [0.0, 10.0])),
+            "driver: the points of what it is given",
+        ),
+        (
+            |wrong| (wrong.until, wrong.interval) = (Until::Time(1e6), 1e-3),
+            "interval: 1e9 samples, one every 1e-3 s up to 1000000 s, are more than 1e6",
+        ),
+        (
+            |wrong| {
+                let mut across = Transverse::free(2);
+                across.plucks[1] = Some(Pluck {
+                    amplitude: 1e-6,
+                    mode: 100,
+                });
+                wrong.transverse = Some(across);
+            },
+            "driven: 100 half waves of a pluck need two cells each",
+        ),
     ];
     for (change, words) in cases {
         let found = error(change);
@@ -96,7 +128,7 @@ fn what_is_not_modelled_is_refused() {
             height: None,
         });
     });
-    assert!(found.to_string().contains("flat belts"), "{found}");
+    assert!(found.to_string().contains("`bristle`"), "{found}");
 }
 
 #[test]
@@ -104,6 +136,12 @@ fn a_slack_belt_and_an_unstable_step_are_refused() {
     let found = error(|wrong| wrong.drive.closure = Closure::UnstretchedLength(1.02));
     assert!(matches!(found, TransientError::Start(_)), "{found}");
     assert!(found.to_string().contains("slack at rest"), "{found}");
+    let found = error(|wrong| wrong.step = Some(1e-15));
+    let TransientError::TooManySteps { steps, bound, .. } = found else {
+        panic!("{found}")
+    };
+    assert!((steps / 2e12 - 1.0).abs() < 1e-9, "{steps}");
+    assert_eq!(bound, StepBound::Asked);
     let found = error(|wrong| wrong.step = Some(1e-4));
     let TransientError::Unstable { stable, .. } = found else {
         panic!("{found}")

@@ -234,7 +234,7 @@ fn what_v_belts_have_no_model_in_time_for_is_refused() {
     };
     assert_eq!(
         refusal(&coulomb),
-        "friction: a simulation of a V-belt needs vector bristles (`bristle`), not `coulomb`"
+        "friction: a V-belt in time needs vector bristles (`bristle`), not `coulomb`"
     );
     let unstable = Simulation {
         step: Some(1e-3),

@@ -1,5 +1,6 @@
 //! The drives of the sources, from the drive files that come with the program.
 
+use crate::transient::TransientError;
 use crate::{Drive, SolveError, SolveOptions, SteadyState, examples, input, solve};
 
 /// Why a number is not computed.
@@ -14,6 +15,9 @@ pub(super) enum Failure {
     /// No steady state was found.
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// A drive could not be followed in time.
+    #[error(transparent)]
+    Transient(#[from] TransientError),
     /// Something that a state or a branch should show does not happen.
     #[error("{0} was not found")]
     Missing(&'static str),

@@ -15,6 +15,8 @@ const DRIVE_ENDS: &str = "the whole drive ends before its pulleys slip over thei
 const JOHNSON: &str = "cut off, not rounded; with the inertia of the belt in the normal force, which \
                        the thesis leaves out, the arc is 1.2883";
 
+const DEGREES: &str = "1.93 rad, rounded, in degrees, and what is left of 180°";
+
 /// The slack tension of the text, N.
 const SLACK: f64 = 200.0;
 
@@ -33,7 +35,7 @@ pub(super) fn section() -> Section {
                 "N/m²",
                 "2.8e7",
                 Criterion::Digits,
-                full(&smallest_stiffness(SOFTEST)),
+                full(&smallest_stiffness(SOFTEST.tensions())),
             ),
             row(
                 "T_H at 180° transition, driven pulley",
@@ -83,6 +85,20 @@ pub(super) fn section() -> Section {
                 "1.21",
                 Criterion::Digits,
                 full(&slip_of_stiffest(false)),
+            ),
+            row(
+                "transition, k_f = 8.1e9 N/m²",
+                "°",
+                "110.6",
+                Criterion::known(DEGREES, 110.8176, 1e-3),
+                full(&slip_of_stiffest(false).map(|slip| 180.0 - slip.to_degrees())),
+            ),
+            row(
+                "slip arc, k_f = 8.1e9 N/m²",
+                "°",
+                "69.4",
+                Criterion::known(DEGREES, 69.1824, 1e-3),
+                full(&slip_of_stiffest(false).map(f64::to_degrees)),
             ),
         ],
     }
@@ -142,8 +158,8 @@ fn largest() -> Result<f64, Failure> {
 /// The slip arc of the driven pulley in the column of table 2 with the greatest stiffness, or with a
 /// rigid one in its place, rad.
 fn slip_of_stiffest(rigid: bool) -> Result<f64, Failure> {
-    let (tensions, stiffness) = STIFFEST;
-    let mut drive = kim_flat(stiffness, tensions)?;
+    let (column, stiffness) = STIFFEST;
+    let mut drive = kim_flat(stiffness, column.tensions())?;
     if rigid {
         drive.law = FrictionLaw::Coulomb;
     }

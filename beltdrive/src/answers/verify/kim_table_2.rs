@@ -13,14 +13,14 @@ const STIFFNESS: &str = "computed at the smallest stiffness at which the driven 
                          other numbers are";
 
 /// A column of the table.
-struct Column {
+pub(super) struct Column {
     title: &'static str,
     /// Printed friction stiffness, N/m²; the smallest at which the driven pulley slips if none.
     stiffness: Option<f64>,
     /// Printed tensions of the slack and of the tight span, N.
-    tensions: [f64; 2],
+    pub(super) printed_tensions: [Published; 2],
     /// Transition and slip arc of the driven pulley, then of the driver, rad.
-    arcs: [Published; 4],
+    pub(super) arcs: [Published; 4],
     reference_tension: &'static str,
     strain: Published,
     /// The computed driven speed where it is not the printed one, rad/s.
@@ -29,16 +29,17 @@ struct Column {
     torque: Option<f64>,
 }
 
-const COLUMNS: [Column; 3] = [
+/// The table.
+pub(super) const COLUMNS: [Column; 3] = [
     Column {
         title: "Table 2, k_f = 2.8e7 N/m², T_L = 156.2 N, T_H = 712.2 N",
         stiffness: None,
-        tensions: [156.2, 712.2],
+        printed_tensions: [Published::new("156.2"), Published::new("712.2")],
         arcs: [
             Published::new("3.14"),
             Published::with_place("0", -2),
             Published::new("2.34"),
-            Published::new("0.8"),
+            Published::new("0.80"),
         ],
         reference_tension: "146.4",
         strain: Published::new("1.2e-4"),
@@ -48,7 +49,7 @@ const COLUMNS: [Column; 3] = [
     Column {
         title: "Table 2, k_f = 2.0e8 N/m², T_L = 155.1 N, T_H = 716.7 N",
         stiffness: Some(2.0e8),
-        tensions: [155.1, 716.7],
+        printed_tensions: [Published::new("155.1"), Published::new("716.7")],
         arcs: [
             Published::new("2.16"),
             Published::new("0.98"),
@@ -63,7 +64,7 @@ const COLUMNS: [Column; 3] = [
     Column {
         title: "Table 2, k_f = 8.1e9 N/m², T_L = 158.3 N, T_H = 707.1 N",
         stiffness: Some(8.1e9),
-        tensions: [158.3, 707.1],
+        printed_tensions: [Published::new("158.3"), Published::new("707.1")],
         arcs: [
             Published::new("1.93"),
             Published::new("1.21"),
@@ -83,12 +84,17 @@ pub(super) fn sections() -> Vec<Section> {
 }
 
 impl Column {
+    /// Tensions of the slack and of the tight span, N.
+    pub(super) fn tensions(&self) -> [f64; 2] {
+        self.printed_tensions.map(|tension| tension.value())
+    }
+
     fn drive(&self) -> Result<Drive, Failure> {
         let stiffness = match self.stiffness {
             Some(printed) => printed,
-            None => smallest_stiffness(self.tensions)?,
+            None => smallest_stiffness(self.tensions())?,
         };
-        kim_flat(stiffness, self.tensions)
+        kim_flat(stiffness, self.tensions())
     }
 
     fn section(&self) -> Section {
@@ -168,11 +174,11 @@ pub(super) fn smallest_stiffness(tensions: [f64; 2]) -> Result<f64, Failure> {
     smallest.ok_or(Failure::Missing("a smallest stiffness"))
 }
 
-/// The tensions of the column with the smallest stiffness, N.
-pub(super) const SOFTEST: [f64; 2] = COLUMNS[0].tensions;
+/// The column with the smallest stiffness.
+pub(super) const SOFTEST: &Column = &COLUMNS[0];
 
-/// The tensions of the column with the greatest stiffness, N, and that stiffness, N/m².
-pub(super) const STIFFEST: ([f64; 2], f64) = (COLUMNS[2].tensions, 8.1e9);
+/// The column with the greatest stiffness, and that stiffness, N/m².
+pub(super) const STIFFEST: (&Column, f64) = (&COLUMNS[2], 8.1e9);
 
 /// Where the belt begins to slip, rad from the entry.
 pub(super) fn transition_angle(pulley: &PulleyState) -> f64 {

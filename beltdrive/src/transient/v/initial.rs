@@ -1,16 +1,16 @@
 //! From the steady state of a drive with a V-belt to its equations in time, and the state at time 0.
 
-use super::super::axle::Motion;
 use super::super::history::Entry;
-use super::super::initial::{SAME_SPEED, interpolated, refuse, stretches};
+use super::super::initial::{interpolated, stretches};
 use super::super::mesh::Mesh;
 use super::super::simulation::{Simulation, TransientError};
+use super::super::statement::{self, refuse};
 use super::super::system::Wheel;
 use super::rates::Rates;
 use super::state::Parts;
 use super::system::System;
 use crate::results::loop_state::LoopState;
-use crate::{FrictionLaw, Profile, VBelt};
+use crate::{Profile, VBelt};
 
 /// The equations of a drive whose belt keeps the places of contact of a steady state.
 pub(crate) fn system(
@@ -19,21 +19,7 @@ pub(crate) fn system(
     found: &LoopState,
 ) -> Result<System, TransientError> {
     let drive = &simulation.drive;
-    if simulation.transverse.is_some() {
-        return refuse(
-            "motion of the spans across",
-            "the spans of a V-belt stay straight in time",
-        );
-    }
-    let FrictionLaw::Bristle { stiffness } = drive.law else {
-        return refuse(
-            "friction",
-            format!(
-                "a simulation of a V-belt needs vector bristles (`bristle`), not `{}`",
-                drive.law.name()
-            ),
-        );
-    };
+    let stiffness = statement::stiffness(drive)?;
     let pulleys = drive.pulleys.iter().zip(&found.pulleys);
     let mut parts = vec![];
     for (index, (pulley, known)) in pulleys.enumerate() {
@@ -184,17 +170,7 @@ pub(crate) fn running(
         rates.depths[pulley][0] = 0.0;
         rates.depths[pulley][last] = 0.0;
         seated(rates.seat(pulley, &state, tension, speed))?;
-        if let Motion::Speed(given) = &system.wheels[pulley].axle.motion {
-            let (first, speed) = (given.at(0.0), known.angular_speed);
-            if (first / speed - 1.0).abs() > SAME_SPEED {
-                return refuse(
-                    &known.name,
-                    format!(
-                        "its speed starts with {first} rad/s, but the running drive has {speed} rad/s"
-                    ),
-                );
-            }
-        }
+        statement::of_running(&system.wheels[pulley].axle, known)?;
         state[parts.speed.start + pulley] = known.angular_speed;
     }
     let amounts = &mut state[parts.amount.clone()];

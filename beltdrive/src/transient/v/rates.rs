@@ -14,8 +14,10 @@
 use super::super::axles::Axles;
 use super::super::bristle::weights;
 use super::super::dynamics::Dynamics;
+use super::super::explicit::{larger, with_waves};
 use super::super::ledger::Ledger;
 use super::super::mesh::Mesh;
+use super::super::simulation::StepBound;
 use super::super::slip::{slipping, slips};
 use super::super::system::Wheel;
 use super::radial::{Balance, Pull, Shape, Tridiagonal};
@@ -487,8 +489,8 @@ impl Dynamics for Rates<'_> {
     }
 
     /// That of the fastest axial wave between two cells with the belt held by its bristles, of axial damping, of bristles
-    /// that saturate, of light pulleys and of torques that depend on speed.
-    fn fastest(&self, state: &[f64]) -> f64 {
+    /// that saturate.
+    fn fastest(&self, state: &[f64]) -> (f64, StepBound) {
         let System {
             mass,
             axial_stiffness,
@@ -507,33 +509,28 @@ impl Dynamics for Rates<'_> {
             .map(|(length, g)| length * g)
             .fold(f64::INFINITY, f64::min);
         let wave = 2.0 * (stretch * (axial_stiffness / mass).sqrt() + speed) / cell;
-        let [mut held, mut relaxing] = [0.0_f64; 2];
-        for (pulley, arc) in mesh.arcs.iter().enumerate() {
-            let wheel = &wheels[pulley];
-            let seated = &self.seated[mesh.bristles[pulley].clone()];
-            let pressure = largest(&mut seated.iter().map(|seated| seated.pressure));
+        let arcs = mesh.arcs.iter().zip(wheels).enumerate();
+        let held = arcs.clone().map(|(pulley, (arc, wheel))| {
+            let seated = self.seated[mesh.bristles[pulley].clone()].iter();
+            let pressure = largest(&mut seated.map(|seated| seated.pressure));
             let length = arc.len() as f64 * mesh.lengths[arc.start];
-            let at_rim = match wheel.axle.inertia > 0.0 {
-                true => wheel.radius * wheel.radius / wheel.axle.inertia,
-                false => 0.0,
-            };
-            let bristles = 2.0 * pressure * bristle_stiffness;
-            held = held.max(bristles * (stretch / mass + length * at_rim));
-            let slips = seated.iter().enumerate().map(|(index, seated)| {
+            let per_mass = stretch / mass + length * wheel.mobility();
+            let rate = 2.0 * pressure * bristle_stiffness * per_mass;
+            (rate, StepBound::Bristles { pulley })
+        });
+        let elastic = with_waves(wave, held);
+        let saturating = arcs.map(|(pulley, (arc, wheel))| {
+            let seated = self.seated[mesh.bristles[pulley].clone()].iter();
+            let slips = seated.enumerate().map(|(index, seated)| {
                 let outward = self.middle[arc.start + index] * seated.direction[0];
                 seated.slip.hypot(outward / self.system.groove[1])
             });
             let slip = largest(&mut { slips });
-            relaxing = relaxing.max(bristle_stiffness * slip / wheel.friction_coefficient);
-        }
-        let axles = largest(&mut wheels.iter().map(|wheel| wheel.axle.rate()));
+            let rate = bristle_stiffness * slip / wheel.friction_coefficient;
+            (rate + 2.0 * speed / cell, StepBound::Bristles { pulley })
+        });
         let damping = 4.0 * axial_damping * stretch * stretch / (mass * cell * cell);
-        let relaxing = relaxing + 2.0 * speed / cell;
-        (wave * wave + held)
-            .sqrt()
-            .max(damping)
-            .max(relaxing)
-            .max(axles)
+        saturating.fold(larger(elastic, (damping, StepBound::AxialDamping)), larger)
     }
 
     fn implicit(&self, _: &[f64], _: f64) -> Option<Infallible> {

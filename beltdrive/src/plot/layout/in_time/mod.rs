@@ -40,7 +40,7 @@ fn still(drive: &Drive, history: &History, belt: &BeltAlongLoop, tension: &Axis)
         let speed = belt.angular_speeds[pulley];
         vec![measured(Measure::AngularSpeed, speed)]
     };
-    let parts = parts(&history.layout, &belt.position);
+    let parts = parts(history);
     let spans = parts.iter().filter(|part| part.is_span);
     let spans = spans.map(|span| {
         // As of samples: in the middle.
@@ -118,7 +118,7 @@ fn figure(
         heading: vec![title],
         ..Answer::default()
     };
-    let parts = parts(&history.layout, &frames[0].position);
+    let parts = parts(history);
     let legend = film::legend(frames, &parts);
     let (header, view, labels) = placed(drawn, |width| {
         Header::new(&heading, &caption, legend.clone(), width)

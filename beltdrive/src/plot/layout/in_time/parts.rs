@@ -1,7 +1,6 @@
 //! The parts of a loop and the cells of the belt on them.
 
-use crate::Layout;
-use crate::transient::BeltAlongLoop;
+use crate::transient::{BeltAlongLoop, History};
 use std::ops::Range;
 
 /// Pieces of the belt, each of one colour: a piece of a loop that fills the sheet is then some 20 px long, and an animation of
@@ -19,26 +18,26 @@ pub(super) struct Part {
     share: f64,
 }
 
-/// The parts of a loop in belt order, an arc and the span behind it in turn, with cells that have their middles at positions in
-/// m along it.
-pub(super) fn parts(layout: &Layout, positions: &[f64]) -> Vec<Part> {
-    let arcs = layout.pulleys().iter().zip(layout.wraps());
-    let arcs = arcs.map(|(pulley, wrap)| pulley.radius * wrap);
-    let lengths = arcs.zip(layout.spans()).enumerate();
-    let lengths = lengths
-        .flat_map(|(pulley, (arc, span))| [(pulley, false, arc), (pulley, true, span.length)]);
-    let (mut passed, mut first) = (0.0, 0);
-    let parts = lengths.map(|(pulley, is_span, length)| {
-        passed += length;
-        let end = positions.partition_point(|at| *at < passed);
-        let cells = first..end;
-        first = end;
-        Part {
+/// The parts of a loop in belt order, an arc and the span behind it in turn, with the cells of the belt on them.
+pub(super) fn parts(history: &History) -> Vec<Part> {
+    let layout = &history.layout;
+    let count = history.belts.iter().chain(&history.frames).next();
+    let count = count.map_or(0, |belt| belt.position.len());
+    let next = { history.arcs.iter().skip(1) }.map(|arc| arc.start);
+    let ends = next.chain([count]);
+    let arcs = history.arcs.iter().zip(ends).enumerate();
+    let parts = arcs.flat_map(|(pulley, (arc, end))| {
+        let on_pulley = layout.pulleys()[pulley].radius * layout.wraps()[pulley];
+        let part = |is_span, cells, length: f64| Part {
             pulley,
             is_span,
             cells,
             share: length / layout.length(),
-        }
+        };
+        [
+            part(false, arc.clone(), on_pulley),
+            part(true, arc.end..end, layout.spans()[pulley].length),
+        ]
     });
     parts.collect()
 }

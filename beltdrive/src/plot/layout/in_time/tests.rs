@@ -93,7 +93,7 @@ fn the_colours_of_a_frame_are_those_of_its_tensions() {
     let pieces: Vec<_> = tags
         .filter(|tag| tag.contains("stroke-width=\"6\"") && tag.contains("stroke=\"#"))
         .collect();
-    let parts = parts(&history.layout, &history.frames[0].position);
+    let parts = parts(&history);
     let cells: Vec<_> = parts.iter().flat_map(parts::Part::pieces).collect();
     assert_eq!((pieces.len(), cells.len()), (60, 60));
     let steps: Vec<_> = (0..=100)
