@@ -129,6 +129,11 @@ fn numbers_out_of_range_are_refused() {
             &["must not be negative"],
         ),
         (
+            TRANSIENT,
+            r#"friction_damping = "-1 N*s/m^2""#,
+            &["must not be negative"],
+        ),
+        (
             ACROSS,
             r#"damping = "-1 N*s/m^2""#,
             &["must not be negative"],

@@ -53,6 +53,7 @@ fn run(interval: f64) -> Simulation {
             },
         ],
         axial_damping: 0.1,
+        friction_damping: 0.0,
         transverse: None,
         start: Start::Running,
         cells: Cells::Total(60),

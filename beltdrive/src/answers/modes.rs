@@ -9,7 +9,7 @@ use crate::transient::{
     Cells, Motion, Schedule, Simulation, Start, TransientError, Until, VibrationMode, initial,
     statement, vibration,
 };
-use crate::{BeltKind, Drive, SolveOptions, ZoneKind};
+use crate::{BeltKind, Drive, FrictionLaw, SolveOptions, ZoneKind};
 
 /// What is asked of the modes of a drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,6 +120,20 @@ pub fn modes(
             "belt.type",
             "belt",
             "only drives with flat belts have modes here",
+        );
+    }
+    if let FrictionLaw::CreepRate { .. } = simulation.drive.law {
+        return statement::refuse_key(
+            "friction.law",
+            "friction",
+            "modes need elastic/perfectly-plastic friction (`epp`), not `creep-rate`",
+        );
+    }
+    if simulation.friction_damping > 0.0 {
+        return statement::refuse_key(
+            "transient.friction_damping",
+            "damping of friction",
+            "modes leave it out: set it to 0",
         );
     }
     if question.count == 0 {

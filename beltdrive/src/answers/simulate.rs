@@ -9,7 +9,8 @@ use crate::transient::rates::Rates;
 use crate::transient::{History, Simulation, Start, TransientError, initial, run, statement, v};
 use crate::{BeltKind, Closure, Drive, NormalForce, SolveOptions, VBelt};
 
-/// Follows a drive in time: with a flat belt and elastic/perfectly-plastic friction, or with a V-belt and bristles.
+/// Follows a drive in time: with a flat belt and elastic/perfectly-plastic or creep-rate friction, or with a V-belt
+/// and bristles.
 ///
 /// A V-belt keeps the places where it meets and leaves its pulleys in the steady state of the drive, which must have
 /// one: `docs/transient.md` has what that costs.
@@ -34,6 +35,7 @@ use crate::{BeltKind, Closure, Drive, NormalForce, SolveOptions, VBelt};
 ///     ],
 ///     drive,
 ///     axial_damping: 0.1,
+///     friction_damping: 0.0,
 ///     transverse: None,
 ///     start: Start::Rest,
 ///     cells: Cells::Total(60),

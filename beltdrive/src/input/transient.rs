@@ -33,6 +33,7 @@ const CELLS_OF_MESH: &str = "transient.cells";
 
 /// Axial damping of the belt.
 const DAMPING: &str = "transient.axial_damping";
+const FRICTION_DAMPING: &str = "transient.friction_damping";
 
 /// Cells of the mesh without `transient.cells`: the load step of the documentation is then off by a few thousandths
 /// in speed and tensions, at a second of computing per second.
@@ -172,6 +173,7 @@ impl DriveFile {
             axles: axles.collect::<Result<_, _>>()?,
             drive,
             axial_damping: values.number(DAMPING).unwrap_or(0.0),
+            friction_damping: values.number(FRICTION_DAMPING).unwrap_or(0.0),
             transverse: transverse(values, &names)?,
             start,
             cells: Cells::Total(cells.unwrap_or(CELLS)),

@@ -15,6 +15,9 @@
 //! Its steps damp what vibrates faster than they are long, so that it leads to the steady state and follows no
 //! vibrations. No load may hold a pulley at rest within a step.
 //!
+//! Creep-rate friction has no bristles: in their place stands the friction q = μ n λ clip((v − R ω)/`v_c`) itself, with its
+//! derivatives.
+//!
 //! A general integrator such as those of the crate `diffsol` has no place for the projection: it needs a law of the
 //! bristles that is smooth at their largest displacement, as ḃ = v − |v| sgn(b) |b/`b_max`|ⁿ, and then finds another
 //! steady state: with n = 16 the tight tension of 728 N is off by 0.31 N, with n = 4 by 1.1 N, in as many steps.
@@ -25,7 +28,7 @@ use super::explicit::stable_step;
 use super::jacobian::{Unknowns, derivatives, of_cap};
 use super::ledger::{BOUND, Ledger};
 use super::rates::Rates;
-use super::system::System;
+use super::system::{Resistance, System};
 use std::f64::consts::SQRT_2;
 use std::ops::Range;
 
@@ -129,7 +132,7 @@ impl Implicit {
             let wheel = &system.wheels[pulley];
             let pressed = wheel.friction_coefficient * system.axial_stiffness * strain;
             match pressed > 0.0 {
-                true => pressed / (wheel.radius * system.friction_stiffness),
+                true => pressed / (wheel.radius * system.friction_stiffness()),
                 false => 1.0,
             }
         };
@@ -332,6 +335,17 @@ impl Implicit {
         for (value, &(index, _)) in self.side.iter_mut().zip(&self.order) {
             *value = state[index] - self.constant[index] - ahead * self.rates[index];
         }
+        if let Resistance::Creep { .. } = system.resistance {
+            // The rates have set friction to what it is at the slip velocity.
+            for bristle in 0..self.slips.len() {
+                let index = system.parts.bristle.start + bristle;
+                self.slips[bristle] = state[index].abs() >= rates.caps[bristle];
+                if let Some(place) = self.places[self.unknowns.bristle(bristle)] {
+                    self.side[place] = 0.0;
+                }
+            }
+            return;
+        }
         for (bristle, slips) in self.slips.iter_mut().enumerate() {
             let index = system.parts.bristle.start + bristle;
             let cap = rates.caps[bristle];
@@ -355,23 +369,44 @@ impl Implicit {
         } = self;
         entries.clear();
         entries.extend((0..self.order.len()).map(|place| (place, place, 1.0)));
+        let creep = match rates.system.resistance {
+            Resistance::Bristles { .. } => None,
+            Resistance::Creep { velocity } => Some(velocity),
+        };
         derivatives(rates, state, &mut |row, column, value| {
-            let at_bound = unknowns
-                .as_bristle(row)
-                .is_some_and(|bristle| slips[bristle]);
+            let is_carried = |bristle: usize| creep.is_none() && !slips[bristle];
+            let at_bound = { unknowns.as_bristle(row) }.is_some_and(|bristle| !is_carried(bristle));
             if let (false, Some(row), Some(column)) = (at_bound, places[row], places[column]) {
                 entries.push((row, column, -ahead * value));
             }
         });
-        for (bristle, &(pulley, cell)) in arcs.iter().enumerate().filter(|(at, _)| slips[*at]) {
+        for (bristle, &(pulley, cell)) in arcs.iter().enumerate() {
             let index = rates.system.parts.bristle.start + bristle;
-            let free = self.constant[index] + ahead * self.rates[index];
-            for (unknown, slope) in of_cap(rates, pulley, cell) {
-                let row = places[unknowns.bristle(bristle)];
+            let row = places[unknowns.bristle(bristle)];
+            let mut add = |unknown: usize, value: f64| {
                 if let (Some(row), Some(column)) = (row, places[unknown]) {
-                    entries.push((row, column, -slope * free.signum()));
+                    entries.push((row, column, -value));
                 }
+            };
+            // Friction over its largest, b/b_max, and how it rises with the slip velocity.
+            let cap = rates.caps[bristle];
+            let (share, rise) = match creep {
+                _ if slips[bristle] => {
+                    let free = self.constant[index] + ahead * self.rates[index];
+                    let towards = if creep.is_some() { state[index] } else { free };
+                    (towards.signum(), 0.0)
+                }
+                Some(velocity) => (state[index] / cap, cap / velocity),
+                None => continue,
+            };
+            for (unknown, slope) in of_cap(rates, pulley, cell) {
+                add(unknown, share * slope);
             }
+            let radius = rates.system.wheels[pulley].radius;
+            for face in [cell, cell + 1] {
+                add(unknowns.velocity(face), 0.5 * rise);
+            }
+            add(unknowns.speed(pulley), -radius * rise);
         }
         self.work.factorisations += 1;
         self.factorised = ahead;

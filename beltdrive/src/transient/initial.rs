@@ -6,7 +6,7 @@ use super::simulation::{Cells, Simulation, TransientError};
 use super::state::Parts;
 use super::statement::{self, refuse, refuse_key};
 use super::string;
-use super::system::{System, Wheel};
+use super::system::{Resistance, System, Wheel};
 use super::transverse::{Across, End, RunOut, SpanAcross, Transverse};
 use crate::drive::layout::Layout;
 use crate::results::loop_state::LoopState;
@@ -43,7 +43,7 @@ pub(crate) fn system(
     drive: &Drive,
     layout: &Layout,
 ) -> Result<System, TransientError> {
-    let stiffness = statement::stiffness(drive)?;
+    let resistance = statement::resistance(simulation)?;
     let wraps = layout.pulleys().iter().zip(layout.wraps());
     let arcs = wraps.map(|(pulley, wrap)| pulley.radius * wrap);
     let parts: Vec<_> = { arcs.zip(layout.spans()) }
@@ -74,7 +74,7 @@ pub(crate) fn system(
         mass: drive.belt.mass_per_length,
         axial_stiffness: drive.belt.axial_stiffness,
         axial_damping: simulation.axial_damping,
-        friction_stiffness: stiffness,
+        resistance,
         across: simulation
             .transverse
             .as_ref()
@@ -141,8 +141,11 @@ pub(crate) fn running(system: &System, found: &LoopState) -> Result<Vec<f64>, Tr
             let at = (index as f64 + 0.5) * cell;
             let value = |list: &[f64]| interpolated(&profile.arc_length, list, at);
             state[parts.density.start + 1 + of_loop] = density(value(&profile.tension));
-            let bristle = parts.bristle.start + system.mesh.bristles[pulley].start + index;
-            state[bristle] = value(&profile.displacement);
+            // Creep-rate friction follows from velocities.
+            if let Resistance::Bristles { .. } = system.resistance {
+                let bristle = parts.bristle.start + system.mesh.bristles[pulley].start + index;
+                state[bristle] = value(&profile.displacement);
+            }
         }
     }
     // As long as the belt of the steady state.

@@ -80,7 +80,7 @@ pub(super) fn of_cap(rates: &Rates<'_>, pulley: usize, cell: usize) -> [(usize, 
     let bristle = system.mesh.bristles[pulley].start + cell - system.mesh.arcs[pulley].start;
     let wheel = &system.wheels[pulley];
     let per_cap = match rates.caps[bristle] > 0.0 {
-        true => wheel.friction_coefficient / (wheel.radius * system.friction_stiffness),
+        true => wheel.friction_coefficient / (wheel.radius * system.friction_stiffness()),
         false => 0.0,
     };
     let stretch = rates.stretch[cell + 1];
@@ -158,7 +158,7 @@ fn bristles(
     let runs_forward = rates.middle[arc.start] + rates.middle[arc.end - 1] >= 0.0;
     for (index, cell) in arc.clone().enumerate() {
         let row = unknowns.bristle(own.start + index);
-        let friction = system.friction_stiffness * system.mesh.lengths[cell];
+        let friction = system.friction_stiffness() * system.mesh.lengths[cell];
         for face in [cell, cell + 1] {
             let face = face % system.mesh.cells();
             let per_mass = rates.per_mass[face];
@@ -215,7 +215,7 @@ fn axle(
     let (arc, own) = (&system.mesh.arcs[pulley], &system.mesh.bristles[pulley]);
     for (cell, bristle) in arc.clone().zip(own.clone()) {
         let per_force = wheel.radius * per_inertia;
-        let stiffness = per_force * system.friction_stiffness * system.mesh.lengths[cell];
+        let stiffness = per_force * system.friction_stiffness() * system.mesh.lengths[cell];
         let displaced = state[system.parts.bristle.start + bristle];
         let density = state[system.parts.density.start + 1 + cell];
         entry(row, unknowns.density(cell), stiffness * displaced);

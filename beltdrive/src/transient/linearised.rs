@@ -65,7 +65,7 @@ pub(crate) fn linearised(rates: &Rates<'_>, state: &[f64], slips: &[bool]) -> Li
         .flat_map(|pulley| mesh.arcs[pulley].clone().zip(mesh.bristles[pulley].clone()));
     for (cell, bristle) in on_arcs {
         if let Some(unknown) = of_bristle[bristle] {
-            energies[unknown] = system.friction_stiffness * mesh.lengths[cell];
+            energies[unknown] = system.friction_stiffness() * mesh.lengths[cell];
         }
     }
     for (unknown, wheel) in speed.iter().zip(&system.wheels) {

@@ -25,6 +25,8 @@
 //!
 //! V-belts with bristles have equations of their own, in the module `v`, and the same runs.
 //!
+//! Flat belts have elastic/perfectly-plastic friction, with damped bristles or without, or creep-rate friction.
+//!
 //! Not modelled: tensioners, bending, other friction laws.
 
 mod axle;

@@ -6,6 +6,8 @@
 //! mass       h ρ̇ = −Δ(v ρ̂)
 //! momentum   m h̄ v̇ = Δ(½ EA λ² − ½ m v̂²) + c_d λ̄ Δλ̇ − ½ (q₋ h₋ + q₊ h₊)       λ = 1/ρ     λ̇ = λ ∂v/∂σ
 //! friction   q = k_f b, |b| ≤ μ n λ/k_f                n = max(EA (λ − 1) − m v²/λ, 0)/R
+//!            q = k_f b + c_f (v − R ω), |q| ≤ μ n λ    with damping of the bristles
+//!            q = μ n λ (v − R ω)/v_c, |q| ≤ μ n λ      with creep-rate friction (Leamy and Wasfy, 2002)
 //! pulley     J ω̇ = R ∫ q ρ dσ + M
 //! ```
 
@@ -20,7 +22,7 @@ use super::simulation::StepBound;
 use super::slip::{slipping, slips};
 use super::string::{self, Room};
 use super::sums::{LANES, dot, total};
-use super::system::{SLACK, System, Wheel};
+use super::system::{Resistance, SLACK, System, Wheel};
 use std::ops::Range;
 
 /// The rates of the states of a system; what they are computed from stays until the next ones.
@@ -127,12 +129,13 @@ impl<'s> Rates<'s> {
         let System {
             mass,
             axial_stiffness,
-            friction_stiffness,
+            resistance,
             ref wheels,
             ref mesh,
             ref parts,
             ..
         } = *self.system;
+        let friction_stiffness = resistance.stiffness();
         let mut power = 0.0;
         let (before, bristles) = state.split_at_mut(parts.bristle.start);
         let (bristles, speeds) = bristles.split_at_mut(parts.bristle.len());
@@ -159,13 +162,36 @@ impl<'s> Rates<'s> {
                 caps[cell] = cap;
                 bristles[cell] = held;
                 friction[cell] = friction_stiffness * held * cell_length;
-                forces[cell] = friction[cell] * density[cell];
+            }
+            let places = parts.bristle.start + bristle.start..parts.bristle.start + bristle.end;
+            let changes = &mut rates[places];
+            match resistance {
+                Resistance::Bristles { damping, .. } => {
+                    if damping > 0.0 {
+                        for cell in 0..cells {
+                            let most = friction_stiffness * caps[cell] * cell_length;
+                            let damped = damping * (middle[cell] - rim) * cell_length;
+                            friction[cell] = (friction[cell] + damped).max(-most).min(most);
+                        }
+                    }
+                    transport(changes, bristles, middle, rim, cell_length);
+                }
+                Resistance::Creep { velocity } => {
+                    for cell in 0..cells {
+                        let developed = ((middle[cell] - rim) / velocity).clamp(-1.0, 1.0);
+                        bristles[cell] = developed * caps[cell];
+                        friction[cell] = bristles[cell] * cell_length;
+                    }
+                    changes.fill(0.0);
+                }
+            }
+            for (force, (friction, density)) in forces.iter_mut().zip(friction.iter().zip(density))
+            {
+                *force = friction * density;
             }
             let force = total(forces);
             self.axles.torque[pulley] = wheel.radius * force;
             power += dot(forces, middle) - rim * force;
-            let places = parts.bristle.start + bristle.start..parts.bristle.start + bristle.end;
-            transport(&mut rates[places], bristles, middle, rim, cell_length);
         }
         let cells = mesh.cells();
         self.friction[0] = self.friction[cells];
@@ -281,7 +307,7 @@ impl Dynamics for Rates<'_> {
             mass,
             axial_stiffness,
             axial_damping,
-            friction_stiffness,
+            resistance,
             ref across,
             ref wheels,
             ref mesh,
@@ -294,15 +320,29 @@ impl Dynamics for Rates<'_> {
         let speed = speeds.map(f64::abs).fold(0.0, f64::max);
         let cell = mesh.shortest();
         let wave = 2.0 * (stretch * (axial_stiffness / mass).sqrt() + speed) / cell;
-        let arcs = mesh.arcs.iter().zip(wheels).enumerate();
         // A belt held on a pulley that turns: its mass beside that of the pulley at the rim.
-        let held = arcs.map(|(pulley, (arc, wheel))| {
+        let per_mass = |pulley: usize| {
+            let arc = &mesh.arcs[pulley];
             let length = arc.len() as f64 * mesh.lengths[arc.start];
-            let per_mass = mass.recip() + length * wheel.mobility();
-            (
-                friction_stiffness * per_mass,
-                StepBound::Bristles { pulley },
-            )
+            mass.recip() + length * wheels[pulley].mobility()
+        };
+        let pulleys = 0..wheels.len();
+        let held = pulleys.clone().map(|pulley| {
+            let stiffness = match resistance {
+                Resistance::Bristles { stiffness, .. } => stiffness,
+                Resistance::Creep { .. } => 0.0,
+            };
+            (stiffness * per_mass(pulley), StepBound::Bristles { pulley })
+        });
+        let rubbing = pulleys.map(|pulley| {
+            let damping = match resistance {
+                Resistance::Bristles { damping, .. } => damping,
+                Resistance::Creep { velocity } => {
+                    let largest = self.caps(pulley).iter().copied().fold(0.0, f64::max);
+                    RISE * largest / velocity
+                }
+            };
+            (damping * per_mass(pulley), StepBound::Bristles { pulley })
         });
         let first = with_waves(wave, held);
         let axial = 4.0 * axial_damping / (mass * cell * cell);
@@ -321,12 +361,17 @@ impl Dynamics for Rates<'_> {
             (axial, StepBound::AxialDamping),
             (damping * stretch / mass, StepBound::DampingAcross),
         ];
-        damped.into_iter().chain(ends).fold(first, larger)
+        damped
+            .into_iter()
+            .chain(rubbing)
+            .chain(ends)
+            .fold(first, larger)
     }
 
     fn implicit(&self, state: &[f64], longest: f64) -> Option<Implicit> {
         let is_straight = self.system.across.is_none();
-        is_straight.then(|| Implicit::new(self, state, longest))
+        let has_steps = is_straight && !self.system.resistance.damps_bristles();
+        has_steps.then(|| Implicit::new(self, state, longest))
     }
 
     fn wave_speed(&self) -> f64 {
@@ -361,25 +406,23 @@ impl Dynamics for Rates<'_> {
         slipping(self.bristles(state, pulley), self.caps(pulley))
     }
 
-    fn force(&self, state: &[f64], pulley: usize, index: usize) -> [f64; 2] {
+    fn force(&self, _: &[f64], pulley: usize, index: usize) -> [f64; 2] {
         let system = self.system;
         let of_loop = system.mesh.arcs[pulley].start + index;
         // The largest friction k_f b is μ n λ.
-        let per_cap = system.friction_stiffness / system.wheels[pulley].friction_coefficient;
-        let friction = system.friction_stiffness * self.bristles(state, pulley)[index];
+        let per_cap = system.friction_stiffness() / system.wheels[pulley].friction_coefficient;
         let pressure = per_cap * self.caps(pulley)[index];
         let unstretched = system.mesh.lengths[of_loop] / self.stretches()[of_loop];
-        [unstretched * friction, unstretched * pressure]
+        let place = system.mesh.bristles[pulley].start + index;
+        [self.forces[place], unstretched * pressure]
     }
 
-    fn friction(&self, state: &[f64]) -> Vec<f64> {
-        let system = self.system;
-        let density = &state[system.parts.density.clone()][1..];
-        let mut friction = vec![0.0; system.mesh.cells()];
-        for (pulley, arc) in system.mesh.arcs.iter().enumerate() {
-            let forces = { self.bristles(state, pulley).iter() }.zip(&density[arc.clone()]);
-            for (to, (bristle, density)) in friction[arc.clone()].iter_mut().zip(forces) {
-                *to = system.friction_stiffness * bristle * density;
+    fn friction(&self, _: &[f64]) -> Vec<f64> {
+        let mesh = &self.system.mesh;
+        let mut friction = vec![0.0; mesh.cells()];
+        for (arc, own) in mesh.arcs.iter().zip(&mesh.bristles) {
+            for (cell, place) in arc.clone().zip(own.clone()) {
+                friction[cell] = self.forces[place] / mesh.lengths[cell];
             }
         }
         friction
@@ -418,6 +461,10 @@ impl Dynamics for Rates<'_> {
             .then_some("a span moves across with a slope beyond which its stretch is wrong")
     }
 }
+
+/// The largest friction may rise so much until the next look at it, within the time of 100 steps, in which waves pass 40
+/// cells: as a pulley starts or a load comes, tensions do not double in less.
+const RISE: f64 = 2.0;
 
 /// Largest slope of a span that moves across: the stretch leaves out s⁴/8, which is then a thousandth.
 const STEEPEST: f64 = 0.3;

@@ -7,14 +7,17 @@ use crate::{Drive, SolveError};
 /// A drive in time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulation {
-    /// The drive, with pulleys at fixed centres: a flat belt with elastic/perfectly-plastic friction, or a V-belt with
-    /// bristles in the grooves of all pulleys. Its duties and loads decide where the run starts, and where a V-belt meets
+    /// The drive, with pulleys at fixed centres: a flat belt with elastic/perfectly-plastic or creep-rate friction, or a
+    /// V-belt with bristles in the grooves of all pulleys. Its duties and loads decide where the run starts, and where a V-belt meets
     /// and leaves its pulleys in all of it.
     pub drive: Drive,
     /// The axles of its pulleys, in belt order.
     pub axles: Vec<Axle>,
     /// Axial damping `c_d` of the belt, N·s: the tension is EA (λ − 1) + `c_d` λ̇. Not negative; 0 is no damping.
     pub axial_damping: f64,
+    /// Damping `c_f` of the bristles of elastic/perfectly-plastic friction per unstretched length, N·s/m²: friction is
+    /// `k_f` b + `c_f` (v − R ω) up to its limit μ n λ. Not negative; 0 is none.
+    pub friction_damping: f64,
     /// Motion of the spans across; without it they stay straight.
     pub transverse: Option<Transverse>,
     /// The state at time 0.

@@ -4,9 +4,10 @@ use super::axle::{Axle, Motion, Motor};
 use super::mesh::{LEAST_ARC_CELLS, LEAST_SPAN_CELLS};
 use super::schedule::Schedule;
 use super::simulation::{Cells, Simulation, Start, TransientError, Until};
+use super::system::Resistance;
 use super::transverse::{RunOut, Transverse};
 use crate::results::loop_state::PulleyState;
-use crate::{BeltKind, Drive, FrictionLaw};
+use crate::{BeltKind, FrictionLaw};
 
 /// Most cells of a mesh: a second of motion then takes an hour.
 const MOST_CELLS: usize = 10_000;
@@ -17,6 +18,9 @@ const MOST_SAMPLES: f64 = 1e6;
 /// A prescribed speed is that of the steady state from which it starts to this, relative: a number that is stated
 /// with seven digits.
 const SAME_SPEED: f64 = 1e-6;
+
+/// The key of the damping of bristles.
+const FRICTION_DAMPING: &str = "transient.friction_damping";
 
 /// The key of a given speed.
 const SPEED_KEY: &str = "transient.pulley.*.speed";
@@ -73,7 +77,15 @@ pub(crate) fn check(simulation: &Simulation) -> Result<(), TransientError> {
         let name = &drive.pulleys[pulley].name;
         return refuse(name, "a drive with a tensioner cannot be simulated");
     }
-    stiffness(drive)?;
+    let damping = simulation.friction_damping;
+    if !(damping >= 0.0 && damping.is_finite()) {
+        return refuse_key(
+            FRICTION_DAMPING,
+            "damping of friction",
+            "it must not be negative",
+        );
+    }
+    of_law(simulation)?;
     if let (BeltKind::V(_), Some(_)) = (drive.belt.kind, &simulation.transverse) {
         return refuse_key(
             "transient.transverse",
@@ -235,19 +247,55 @@ fn of_pulsations(axle: &Axle, simulation: &Simulation) -> Option<String> {
     })
 }
 
-/// The stiffness of the friction law that belts of a kind have in time: `k_f` in N/m² of flat belts, κ in 1/m of V-belts.
-pub(super) fn stiffness(drive: &Drive) -> Result<f64, TransientError> {
-    let (belt, law) = match (drive.belt.kind, drive.law) {
-        (BeltKind::Flat { .. }, FrictionLaw::Epp { stiffness })
-        | (BeltKind::V(_), FrictionLaw::Bristle { stiffness }) => return Ok(stiffness),
-        (BeltKind::Flat { .. }, _) => ("a flat belt", "elastic/perfectly-plastic friction (`epp`)"),
-        (BeltKind::V(_), _) => ("a V-belt", "vector bristles (`bristle`)"),
-    };
-    refuse_key(
-        "friction.law",
-        "friction",
-        format!("{belt} in time needs {law}, not `{}`", drive.law.name()),
-    )
+/// Refuses a friction law that belts of a kind do not have in time.
+fn of_law(simulation: &Simulation) -> Result<(), TransientError> {
+    match simulation.drive.belt.kind {
+        BeltKind::Flat { .. } => resistance(simulation).map(|_| ()),
+        BeltKind::V(_) => bristle_stiffness(simulation).map(|_| ()),
+    }
+}
+
+/// The friction of a flat belt in time.
+pub(super) fn resistance(simulation: &Simulation) -> Result<Resistance, TransientError> {
+    let damping = simulation.friction_damping;
+    match simulation.drive.law {
+        FrictionLaw::Epp { stiffness } => Ok(Resistance::Bristles { stiffness, damping }),
+        FrictionLaw::CreepRate { .. } if damping > 0.0 => refuse_key(
+            FRICTION_DAMPING,
+            "damping of friction",
+            "creep-rate friction has no bristles that it could damp",
+        ),
+        FrictionLaw::CreepRate { velocity } => Ok(Resistance::Creep { velocity }),
+        law => refuse_key(
+            "friction.law",
+            "friction",
+            format!(
+                "a flat belt in time needs elastic/perfectly-plastic friction (`epp`) or creep-rate friction \
+                 (`creep-rate`), not `{}`",
+                law.name()
+            ),
+        ),
+    }
+}
+
+/// The stiffness κ of the bristles of a V-belt in time, 1/m.
+pub(super) fn bristle_stiffness(simulation: &Simulation) -> Result<f64, TransientError> {
+    match simulation.drive.law {
+        FrictionLaw::Bristle { .. } if simulation.friction_damping > 0.0 => refuse_key(
+            FRICTION_DAMPING,
+            "damping of friction",
+            "the bristles of V-belts have none",
+        ),
+        FrictionLaw::Bristle { stiffness } => Ok(stiffness),
+        law => refuse_key(
+            "friction.law",
+            "friction",
+            format!(
+                "a V-belt in time needs vector bristles (`bristle`), not `{}`",
+                law.name()
+            ),
+        ),
+    }
 }
 
 /// Refuses a given speed that does not start with that of the steady state of its pulley.

@@ -19,8 +19,8 @@ pub(crate) struct System {
     pub(crate) axial_stiffness: f64,
     /// Axial damping `c_d`, N·s.
     pub(crate) axial_damping: f64,
-    /// Stiffness `k_f` of friction per unstretched length, N/m².
-    pub(crate) friction_stiffness: f64,
+    /// How friction is held against.
+    pub(crate) resistance: Resistance,
     /// What moves the spans across, if they move so.
     pub(crate) across: Option<Across>,
     /// The pulleys in belt order.
@@ -29,6 +29,39 @@ pub(crate) struct System {
     pub(crate) mesh: Mesh,
     /// Where the parts of a state stand.
     pub(crate) parts: Parts,
+}
+
+/// What friction grows with, up to its limit μ n λ per unstretched length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Resistance {
+    /// With the displacement b of bristles and the slip velocity, `k_f` b + `c_f` (v − R ω).
+    Bristles {
+        /// Stiffness `k_f` of friction per unstretched length, N/m².
+        stiffness: f64,
+        /// Damping `c_f` of the bristles per unstretched length, N·s/m².
+        damping: f64,
+    },
+    /// With the slip velocity v − R ω, up to one in m/s at which it is fully developed.
+    Creep {
+        /// That slip velocity, m/s.
+        velocity: f64,
+    },
+}
+
+impl Resistance {
+    /// Friction per unstretched length over what stands in the place of a bristle in a state, N/m²: `k_f` where that is a
+    /// displacement; 1 with creep, where it is the friction itself.
+    pub(crate) fn stiffness(self) -> f64 {
+        match self {
+            Self::Bristles { stiffness, .. } => stiffness,
+            Self::Creep { .. } => 1.0,
+        }
+    }
+
+    /// Whether it damps bristles: friction then depends on both displacement and velocity.
+    pub(crate) fn damps_bristles(self) -> bool {
+        matches!(self, Self::Bristles { damping, .. } if damping > 0.0)
+    }
 }
 
 /// A pulley.
@@ -43,6 +76,11 @@ pub(crate) struct Wheel {
 }
 
 impl System {
+    /// [`Resistance::stiffness`], N/m².
+    pub(crate) fn friction_stiffness(&self) -> f64 {
+        self.resistance.stiffness()
+    }
+
     /// The same drive with so many cells in place of each; its spans do not move across.
     pub(crate) fn refined(&self, by: usize) -> Self {
         let mesh = self.mesh.refined(by);

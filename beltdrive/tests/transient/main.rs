@@ -2,6 +2,7 @@
 //! a drive has to do.
 
 mod events;
+mod laws;
 mod load_step;
 mod loops;
 #[path = "../support/random.rs"]
@@ -65,6 +66,7 @@ pub(crate) fn from_rest(drive: Drive, axles: Vec<Axle>, cells: usize, end: f64) 
         drive,
         axles,
         axial_damping: 0.1,
+        friction_damping: 0.0,
         transverse: None,
         start: Start::Rest,
         cells: Cells::Total(cells),

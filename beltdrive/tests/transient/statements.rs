@@ -119,6 +119,11 @@ fn what_is_out_of_range_is_refused_with_its_reason() {
 
 #[test]
 fn what_is_not_modelled_is_refused() {
+    let found = error(|wrong| {
+        wrong.drive.law = FrictionLaw::CreepRate { velocity: 0.1 };
+        wrong.friction_damping = 1.0;
+    });
+    assert!(found.to_string().contains("has no bristles"), "{found}");
     let found = error(|wrong| wrong.drive.law = FrictionLaw::Coulomb);
     assert!(found.to_string().contains("`epp`"), "{found}");
     let found = error(|wrong| {

@@ -30,6 +30,7 @@ fn running(drive: &Drive, speed: Schedule, load: Schedule, cells: usize, end: f6
     axles[place(drive, "driver")] = driver(speed);
     Simulation {
         axial_damping: 1.0,
+        friction_damping: 0.0,
         start: Start::Running,
         ..from_rest(drive.clone(), axles, cells, end)
     }

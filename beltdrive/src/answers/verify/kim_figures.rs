@@ -193,6 +193,7 @@ fn simulation(drive: Drive, per_speed: f64) -> Simulation {
             .collect(),
         drive,
         axial_damping: DAMPING,
+        friction_damping: 0.0,
         transverse: None,
         start: Start::Rest,
         cells: CELLS,

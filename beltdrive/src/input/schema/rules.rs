@@ -335,6 +335,12 @@ const TRANSIENT: &[Rule] = &[
         Range::NotNegative,
     ),
     ranged(
+        "transient.friction_damping",
+        "\"2000 N*s/m^2\"",
+        Dimension::DAMPING_PER_LENGTH,
+        Range::NotNegative,
+    ),
+    ranged(
         "transient.transverse.damping",
         "\"0.2 N*s/m^2\"",
         Dimension::DAMPING_PER_LENGTH,

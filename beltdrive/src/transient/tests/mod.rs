@@ -15,7 +15,8 @@ use super::mesh::{Mesh, Stretch};
 use super::rates::Rates;
 use super::schedule::Schedule;
 use super::state::Parts;
-use super::system::{System, Wheel};
+
+use super::system::{Resistance, System, Wheel};
 
 /// Stretch of the belt at rest.
 const STRETCH: f64 = 1.00545;
@@ -40,7 +41,10 @@ fn system(cells: usize, friction: [f64; 2], axles: [Axle; 2]) -> System {
         mass: 0.1036,
         axial_stiffness: 80_068.0,
         axial_damping: 0.0,
-        friction_stiffness,
+        resistance: Resistance::Bristles {
+            stiffness: friction_stiffness,
+            damping: 0.0,
+        },
         across: None,
         wheels: axles.map(wheel).into(),
         parts: Parts::new(&mesh),

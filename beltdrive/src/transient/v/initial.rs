@@ -19,7 +19,7 @@ pub(crate) fn system(
     found: &LoopState,
 ) -> Result<System, TransientError> {
     let drive = &simulation.drive;
-    let stiffness = statement::stiffness(drive)?;
+    let stiffness = statement::bristle_stiffness(simulation)?;
     let pulleys = drive.pulleys.iter().zip(&found.pulleys);
     let mut parts = vec![];
     for (index, (pulley, known)) in pulleys.enumerate() {

@@ -30,6 +30,7 @@ fn the_unstretched_length_is_kept_while_a_load_rises_from_rest() {
             })
             .into(),
         axial_damping: 1.0,
+        friction_damping: 0.0,
         start: Start::Rest,
         cells: Cells::Total(60),
         until: Until::Time(0.1),
