@@ -114,7 +114,6 @@ pub fn modes(
         transverse: simulation.transverse.clone(),
         ..*simulation
     };
-    statement::check(&checked)?;
     if let BeltKind::V(_) = simulation.drive.belt.kind {
         return statement::refuse_key(
             "belt.type",
@@ -122,6 +121,7 @@ pub fn modes(
             "only drives with flat belts have modes here",
         );
     }
+    statement::check(&checked)?;
     if let FrictionLaw::CreepRate { .. } = simulation.drive.law {
         return statement::refuse_key(
             "friction.law",

@@ -28,7 +28,8 @@ Exit status:
 pub(super) struct Simulate {
     #[command(flatten)]
     common: Common,
-    /// When the run ends: a time, or `steady` [default: transient.end of the drive file]
+    /// When the run ends: a time, `steady`, `slip` or `slack`, which are the first of their kind [default: transient.end
+    /// of the drive file]
     #[arg(long, value_name = "TIME")]
     until: Option<String>,
     /// With --plot, draw the belt at this time, along the loop and on its pulleys; repeatable

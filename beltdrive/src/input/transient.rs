@@ -47,8 +47,8 @@ const INTERVAL: f64 = 1e-3;
 const LATEST: f64 = 10.0;
 
 impl DriveFile {
-    /// The drive in time, as the table `[transient]` states it, to an end on a command line: a time with its unit, or
-    /// `steady`; without one to `transient.end`.
+    /// The drive in time, as the table `[transient]` states it, to an end on a command line: a time with its unit,
+    /// `steady`, `slip` or `slack`; without one to `transient.end`.
     ///
     /// # Errors
     /// There is no such table, it lacks what a pulley needs, its values do not belong together, or the end is no time.
@@ -74,9 +74,7 @@ impl DriveFile {
         simulation: &Simulation,
         error: &TransientError,
     ) -> Option<Diagnostic> {
-        let end = match simulation.until {
-            Until::Time(end) | Until::Steady { latest: end } => end,
-        };
+        let end = simulation.until.latest();
         let values = Values::check(&self.document, &self.source).ok()?;
         let name = |pulley: usize| &simulation.drive.pulleys[pulley].name;
         let of_pulley = |name: &str, keys: &[&str]| -> Vec<_> {
@@ -131,13 +129,18 @@ impl DriveFile {
 
     /// The end that a command line asks for.
     fn until(&self, until: Argument<'_>, values: &Values<'_>) -> Result<Until, Diagnostic> {
-        if until.value == "steady" {
-            let latest = values.number(END).unwrap_or(LATEST);
-            return Ok(Until::Steady { latest });
+        let latest = values.number(END).unwrap_or(LATEST);
+        match until.value {
+            "steady" => return Ok(Until::Steady { latest }),
+            "slip" => return Ok(Until::Slip { latest }),
+            "slack" => return Ok(Until::Slack { latest }),
+            _ => {}
         }
         let time = check::quantity(END, &until.entry(), &until.source());
         time.map(Until::Time).map_err(|finding| {
-            until.diagnose(finding.help("or `steady`, for the time when nothing changes any more"))
+            until.diagnose(finding.help(
+                "or `steady`, for the time when nothing changes any more, `slip` or `slack`, for the first of its kind",
+            ))
         })
     }
 

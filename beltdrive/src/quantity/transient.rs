@@ -44,6 +44,7 @@ fn heading_of(history: &History) -> String {
     let how = match history.ending {
         Ending::Time => "in time",
         Ending::Steady => "to the steady state",
+        Ending::Event => "to the event asked for",
         Ending::NotSteady => "not steady in the end",
         Ending::Interrupted => "interrupted",
     };
@@ -148,6 +149,7 @@ fn row(history: &History, sample: &Sample) -> Subject {
             data("axle_torque", Measure::Torque, pulley.axle_torque),
             data("power", Measure::Power, pulley.power),
             data("slip_arc", Measure::Angle, pulley.slip_arc),
+            data("speed_loss", Measure::Share, pulley.speed_loss),
             data("hub_load_x", Measure::Force, x),
             data("hub_load_y", Measure::Force, y),
         ]);
@@ -217,6 +219,7 @@ fn run(history: &History) -> Vec<Quantity> {
     let ending = match history.ending {
         Ending::Time => "time",
         Ending::Steady => "steady",
+        Ending::Event => "event",
         Ending::NotSteady => "not steady",
         Ending::Interrupted => "interrupted",
     };

@@ -20,7 +20,7 @@ pub struct History {
     /// Places of the contact with each pulley in the lists of [`BeltAlongLoop`]; what follows up to the next one is of the
     /// span behind it.
     pub arcs: Vec<Range<usize>>,
-    /// The drive at instants at equal intervals, the first at time 0.
+    /// The drive at instants at equal intervals, the first at time 0, and where a run ends between two of them.
     pub samples: Vec<Sample>,
     /// What happened, in the order of time.
     pub events: Vec<TransientEvent>,
@@ -46,6 +46,8 @@ pub enum Ending {
     Steady,
     /// At the latest time, without the steady state that was asked for.
     NotSteady,
+    /// At the first gross slip or slack, as asked for: the last of the events.
+    Event,
     /// Whoever watched the run ended it.
     Interrupted,
 }
@@ -90,6 +92,8 @@ pub struct Sample {
 pub struct PulleySample {
     /// Angular speed ω, rad/s; positive along the motion of the belt.
     pub angular_speed: f64,
+    /// Speed loss 1 − R ω/(R ω of the driver); 0 while the driver stands still.
+    pub speed_loss: f64,
     /// Torque of the belt on the pulley, N·m; positive where it takes power out of the belt that runs forward.
     pub torque: f64,
     /// Torque of the axle on the pulley along the motion of the belt, N·m: of the motor less that of the load. With
@@ -138,13 +142,20 @@ pub(crate) struct Entry {
 pub(crate) struct Observer {
     /// Unit vectors along the motion of a pulley and towards its axis in the cells of each arc.
     frames: Vec<Vec<[Vector2<f64>; 2]>>,
+    /// The driver, by its place in belt order.
+    driver: usize,
     /// Energy at the start, J.
     energy: f64,
 }
 
 impl Observer {
-    /// An observer of a drive whose belt meets the pulleys at places, from a state on whose rates were computed last.
-    pub(crate) fn new(rates: &impl Dynamics, entries: &[Entry], state: &[f64]) -> Self {
+    /// An observer of a drive with a driver whose belt meets the pulleys at places, from a state on whose rates were
+    /// computed last.
+    pub(crate) fn new(
+        rates: &impl Dynamics,
+        (driver, entries): (usize, &[Entry]),
+        state: &[f64],
+    ) -> Self {
         let mesh = rates.mesh();
         let frames = mesh.arcs.iter().enumerate().map(|(pulley, arc)| {
             let Entry { direction, turns } = entries[pulley];
@@ -160,6 +171,7 @@ impl Observer {
         });
         Self {
             frames: frames.collect(),
+            driver,
             energy: rates.energy(state),
         }
     }
@@ -174,11 +186,17 @@ impl Observer {
     ) -> Sample {
         let (mesh, axles) = (rates.mesh(), rates.axles());
         let speeds = &state[rates.speeds()];
+        let rim = |index: usize| rates.wheels()[index].radius * speeds[index];
+        let driving = rim(self.driver);
         let pulley = |index: usize| {
             let torque = axles.torque[index];
             let cell = mesh.lengths[mesh.arcs[index].start];
             PulleySample {
                 angular_speed: speeds[index],
+                speed_loss: match driving == 0.0 {
+                    true => 0.0,
+                    false => 1.0 - rim(index) / driving,
+                },
                 torque,
                 axle_torque: axles.shaft[index],
                 power: torque * speeds[index],

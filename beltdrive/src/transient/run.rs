@@ -5,12 +5,13 @@
 //! pulley, they are explicit up to the next sample. Spans that move across take explicit steps only.
 
 use super::dynamics::{Dynamics, ImplicitSteps};
-use super::events::Watch;
+use super::events::{TransientEventKind, Watch};
 use super::explicit::{Explicit, bounded_step};
 use super::frames::Frames;
 use super::history::{Effort, Ending, Entry, History, Observer};
 use super::simulation::{Simulation, StepBound, TransientError, Until};
 use super::steady::Stillness;
+use crate::Duty;
 use crate::drive::layout::Layout;
 use web_time::Instant;
 
@@ -57,6 +58,13 @@ pub(crate) fn run<R: Dynamics>(
                 run.history.ending = Ending::Interrupted;
                 break;
             }
+        }
+        if run.has_what_ends_it() {
+            if { run.history.samples.last() }.is_none_or(|last| last.time < time) {
+                run.sample(time, &state)?;
+            }
+            run.history.ending = Ending::Event;
+            break;
         }
         if instants
             .next_if(|&instant| run.is_at(time, instant))
@@ -112,17 +120,25 @@ pub(crate) fn run<R: Dynamics>(
         is_implicit = false;
         let stop = run.earlier(run.next_sample(), stop);
         let (count, step, stop) = step_to(simulation, &run.rates, &state, [time, stop])?;
-        run.took(count, step);
-        for index in 0..count {
-            let at = time + index as f64 * step;
-            if index > 0 {
+        let mut taken = 0;
+        while taken < count {
+            let at = time + taken as f64 * step;
+            if taken > 0 {
                 explicit.rates(&mut run.rates, at, &mut state);
                 run.watch.look(at, &run.rates, &state);
+                if run.has_what_ends_it() {
+                    break;
+                }
             }
             explicit.step(&mut run.rates, at, step, &mut state);
+            taken += 1;
         }
+        run.took(taken, step);
         possible(&run.rates, &state, time)?;
-        time = stop;
+        time = match taken == count {
+            true => stop,
+            false => time + taken as f64 * step,
+        };
     }
     run.history.frames = run.frames.into_kept();
     run.history.slack_spans = run.watch.slack_spans.clone();
@@ -153,6 +169,7 @@ struct Run<R> {
     interval: f64,
     /// The latest end, s.
     end: f64,
+    until: Until,
     is_steady_sought: bool,
 }
 
@@ -162,12 +179,12 @@ impl<R: Dynamics> Run<R> {
         (rates, entries, layout): (R, &[Entry], &Layout),
         state: &[f64],
     ) -> Self {
-        let (end, is_steady_sought) = match simulation.until {
-            Until::Time(end) => (end, false),
-            Until::Steady { latest } => (latest, true),
-        };
+        let mut pulleys = simulation.drive.pulleys.iter();
+        let driver = pulleys.position(|pulley| matches!(pulley.duty, Duty::Driver(_)));
+        let driver = driver.unwrap_or(0);
+        let is_steady_sought = matches!(simulation.until, Until::Steady { .. });
         Self {
-            observer: Observer::new(&rates, entries, state),
+            observer: Observer::new(&rates, (driver, entries), state),
             watch: Watch::new(&rates, state),
             frames: Frames::new(simulation.frames),
             history: History {
@@ -193,8 +210,21 @@ impl<R: Dynamics> Run<R> {
             },
             rates,
             interval: simulation.interval,
-            end,
+            end: simulation.until.latest(),
+            until: simulation.until,
             is_steady_sought,
+        }
+    }
+
+    /// Whether the event has happened that the run was to end with.
+    fn has_what_ends_it(&self) -> bool {
+        let mut kinds = self.watch.events.iter().map(|event| event.kind);
+        match self.until {
+            Until::Time(_) | Until::Steady { .. } => false,
+            Until::Slip { .. } => {
+                kinds.any(|kind| matches!(kind, TransientEventKind::GrossSlip(_)))
+            }
+            Until::Slack { .. } => kinds.any(|kind| kind == TransientEventKind::Slack),
         }
     }
 
@@ -238,7 +268,7 @@ impl<R: Dynamics> Run<R> {
         let ledger = sample.ledger;
         let number = self.history.samples.len();
         // A last sample that the end of the run brings forward is none of evenly spaced ones.
-        if number as f64 * self.interval <= self.end * (1.0 + f64::EPSILON) {
+        if self.is_at(time, number as f64 * self.interval) {
             self.frames
                 .look(number, || Observer::belt(time, &self.rates, state));
         }
@@ -284,8 +314,8 @@ fn step_to(
     };
     // On the way to a steady state steps stay explicit up to the next stop only.
     let end = match simulation.until {
-        Until::Time(end) => end,
         Until::Steady { .. } => stop,
+        until => until.latest(),
     };
     let steps = (end - time) / longest;
     if steps > MOST_IN_ALL {

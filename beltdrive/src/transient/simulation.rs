@@ -72,6 +72,29 @@ pub enum Until {
         /// The time at which it ends if that has not happened, s.
         latest: f64,
     },
+    /// When the belt first begins to slip on the whole contact with a pulley.
+    Slip {
+        /// The time at which it ends if that has not happened, s.
+        latest: f64,
+    },
+    /// When the tension first falls below zero.
+    Slack {
+        /// The time at which it ends if that has not happened, s.
+        latest: f64,
+    },
+}
+
+impl Until {
+    /// The time at which a run ends at the latest, s.
+    #[must_use]
+    pub fn latest(self) -> f64 {
+        match self {
+            Self::Time(latest)
+            | Self::Steady { latest }
+            | Self::Slip { latest }
+            | Self::Slack { latest } => latest,
+        }
+    }
 }
 
 /// What makes the time steps of a run as short as they are.

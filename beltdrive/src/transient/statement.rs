@@ -127,7 +127,7 @@ pub(crate) fn check(simulation: &Simulation) -> Result<(), TransientError> {
         );
     }
     let positive = |value: f64| value > 0.0 && value.is_finite();
-    let (Until::Time(end) | Until::Steady { latest: end }) = simulation.until;
+    let end = simulation.until.latest();
     if !positive(end) {
         return refuse_key("transient.end", "end", "its time must be positive");
     }

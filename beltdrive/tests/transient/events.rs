@@ -2,7 +2,7 @@
 
 use super::{driver, follow, from_rest, kim, loaded};
 use beltdrive::transient::{
-    Ending, History, Load, Motion, Motor, Schedule, Start, TransientEventKind,
+    Ending, Load, Motion, Motor, Schedule, Simulation, Start, TransientEventKind, Until,
 };
 use beltdrive::{Duty, simulate};
 
@@ -144,7 +144,7 @@ fn a_run_ends_where_it_is_told_to() {
 }
 
 /// A drive with little tension whose driver is stopped in half a millisecond, on a mesh.
-fn slackened(cells: usize) -> History {
+fn slackened(cells: usize) -> Simulation {
     let axles = vec![
         driver(Schedule::ramp([0.01, 0.0105], [100.0, 0.0])),
         loaded(5e-4, Load::new(Schedule::constant(0.5))),
@@ -154,12 +154,49 @@ fn slackened(cells: usize) -> History {
     simulation.start = Start::Running;
     simulation.axial_damping = 0.1;
     simulation.interval = 1e-4;
-    follow(&simulation)
+    simulation
+}
+
+#[test]
+fn a_run_ends_with_the_first_slip_or_slack() {
+    let load = |most: f64| Load::new(Schedule::pulse([0.02, 0.05], [30.0, most]));
+    let pulse = |most: f64| {
+        let axles = vec![driver(Schedule::constant(120.0)), loaded(0.005, load(most))];
+        let mut simulation = from_rest(kim(2.0e8, 5.45e-3, 30.0), axles, 60, 0.3);
+        simulation.start = Start::Running;
+        simulation.until = Until::Slip { latest: 0.1 };
+        simulation.frames = 200;
+        simulation
+    };
+    let history = follow(&pulse(90.0));
+    assert_eq!(history.ending, Ending::Event);
+    let [event] = history.events[..] else {
+        panic!("one event: {:?}", history.events)
+    };
+    assert_eq!(event.kind, TransientEventKind::GrossSlip(1));
+    let last = history.samples.last().unwrap();
+    assert!(last.time == event.time && event.time > 0.02 && event.time < 0.03);
+    // The whole contact slips, and the belt of the frames is that of the samples at equal intervals.
+    assert!((last.pulleys[1].slip_arc - std::f64::consts::PI).abs() < 1e-9);
+    assert_eq!(history.frames.len() + 1, history.samples.len());
+    let creep = 1.0 - last.pulleys[1].angular_speed / 120.0;
+    assert!(
+        (last.pulleys[1].speed_loss - creep).abs() < 1e-12 && last.pulleys[0].speed_loss == 0.0
+    );
+    // What does not happen is waited for up to the latest time.
+    let history = follow(&pulse(40.0));
+    assert_eq!((history.ending, history.samples.len()), (Ending::Time, 101));
+    let mut slackened = slackened(60);
+    slackened.until = Until::Slack { latest: 0.03 };
+    let history = follow(&slackened);
+    let last = history.samples.last().unwrap();
+    assert_eq!(history.ending, Ending::Event);
+    assert!(last.smallest_tension < 0.0 && last.time > 0.01 && last.time < 0.012);
 }
 
 #[test]
 fn a_slack_span_gives_way_and_snaps() {
-    let histories = [60, 120, 240].map(slackened);
+    let histories = [60, 120, 240].map(|cells| follow(&slackened(cells)));
     let residuals = histories.each_ref().map(|history| {
         let ledger = history.samples.last().unwrap().ledger;
         ledger.residual() / ledger.turnover
