@@ -88,6 +88,18 @@ pub(super) struct Pull {
     pub(super) outward: [f64; 2],
 }
 
+impl Pull {
+    /// Of a belt with a tractive tension, and its derivative with g, that lies at a mean depth in m in a groove with a
+    /// stiffness in N/m²; one that lies above it is held by nothing.
+    pub(super) fn new(tractive: [f64; 2], stiffness: f64, depth: f64) -> Self {
+        let stiffness = if depth > 0.0 { stiffness } else { 0.0 };
+        Self {
+            tractive,
+            outward: [stiffness * depth, stiffness],
+        }
+    }
+}
+
 /// A tridiagonal system over the faces of an arc, at the ends of which the unknowns are held at 0.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tridiagonal {
@@ -193,7 +205,7 @@ impl Balance {
         &mut self,
         depths: &[f64],
         measure: &Measure,
-        pull: impl Fn(usize, f64, &Shape) -> Pull,
+        pull: &impl Fn(usize, f64, &Shape) -> Pull,
     ) {
         self.matrix.rows.fill([0.0; 3]);
         self.side.fill(0.0);

@@ -32,10 +32,8 @@ use std::ops::Range;
 pub(super) struct Seated {
     /// Shape of the cell.
     pub(super) shape: Shape,
-    /// Load k x per length of the groove without bristles, N/m; 0 where x < 0.
+    /// Load k x per length, N/m; 0 where x < 0.
     load: f64,
-    /// cos β + `B_w` sin β.
-    carrying: f64,
     /// Sine and cosine of the inclination θ to the local circle, positive outward.
     direction: [f64; 2],
     /// Slip `e_t` along the pulley, m/s.
@@ -49,6 +47,8 @@ pub(crate) struct Rates<'s> {
     pub(crate) system: &'s System,
     /// Of the cells of each arc.
     measures: Vec<Measure>,
+    /// 1/h of all cells, 1/m.
+    per_cell: Vec<f64>,
     /// Shares of the cells behind and before a face in the density there.
     shares: Vec<[f64; 2]>,
     /// Time of the last rates, s.
@@ -61,8 +61,11 @@ pub(crate) struct Rates<'s> {
     /// The cells of all arcs.
     pub(super) seated: Vec<Seated>,
     drawn: Vec<Drawn>,
-    /// Of all cells: g, its rate in 1/s, stretch, velocity in the middle in m/s, force f h on the belt against its
+    /// Pressure 2 p of both faces and outward load n in them, per k x.
+    pressing: Vec<[f64; 2]>,
+    /// Of all cells: 1/a, g, its rate in 1/s, stretch, velocity in the middle in m/s, force f h on the belt against its
     /// motion in N.
+    per_amount: Vec<f64>,
     pub(super) lengths: Vec<f64>,
     lengthening: Vec<f64>,
     stretch: Vec<f64>,
@@ -75,11 +78,11 @@ pub(crate) struct Rates<'s> {
     elastic: Vec<f64>,
     viscous: Vec<f64>,
     held: Vec<f64>,
-    /// Of the faces, the first one once more at the end: v in m/s, ρ̂ v in m/s, â h̄ in m, ½ v²/(â h̄) in m/s².
+    /// Of the faces, the first one once more at the end: v and ρ̂ v in m/s.
     velocity: Vec<f64>,
     flux: Vec<f64>,
-    amount: Vec<f64>,
-    kinetic: Vec<f64>,
+    /// Of the faces: deceleration ½ v/(â h̄) per ρ ġ h, 1/s.
+    slowing: Vec<f64>,
     /// Torques on the pulleys.
     axles: Axles,
 }
@@ -106,6 +109,7 @@ impl<'s> Rates<'s> {
             measures: measures
                 .map(|(arc, wheel)| Measure::new(wheel.radius, mesh.lengths[arc.start]))
                 .collect(),
+            per_cell: mesh.lengths.iter().map(|length| length.recip()).collect(),
             shares: (0..cells).map(share).collect(),
             time: 0.0,
             depths: faces().map(|faces| vec![0.0; faces]).collect(),
@@ -113,6 +117,8 @@ impl<'s> Rates<'s> {
             sinking: faces().map(Sinking::new).collect(),
             seated: vec![Seated::default(); mesh.bristle_cells()],
             drawn: vec![Drawn::default(); mesh.bristle_cells()],
+            pressing: vec![[0.0; 2]; mesh.bristle_cells()],
+            per_amount: room(),
             lengths: vec![1.0; cells],
             lengthening: room(),
             stretch: room(),
@@ -125,8 +131,7 @@ impl<'s> Rates<'s> {
             held: closed(),
             velocity: closed(),
             flux: closed(),
-            amount: closed(),
-            kinetic: closed(),
+            slowing: room(),
             axles: Axles::new(pulleys),
             system,
         }
@@ -149,7 +154,8 @@ impl<'s> Rates<'s> {
             let (tension, speed) = (tension(cell), velocity(cell));
             let density = (1.0 + tension / system.axial_stiffness).recip();
             let tractive = tension - system.mass * density * speed * speed;
-            pull(system, [tractive, 0.0], depth, up[cell])
+            let [_, outward] = system.pressing(up[cell]);
+            Pull::new([tractive, 0.0], system.radial_stiffness * outward, depth)
         });
         for (ends, length) in depths.windows(2).zip(&mut self.lengths[arc]) {
             *length = measure.shape([ends[0], ends[1]]).length;
@@ -157,11 +163,32 @@ impl<'s> Rates<'s> {
         settled
     }
 
+    /// What stands in a state whatever the depths are.
+    fn belt(&mut self, state: &[f64]) {
+        let System { parts, .. } = self.system;
+        let velocity = &state[parts.velocity.clone()];
+        let cells = velocity.len();
+        self.velocity[..cells].copy_from_slice(velocity);
+        self.velocity[cells] = velocity[0];
+        for (middle, ends) in self.middle.iter_mut().zip(self.velocity.windows(2)) {
+            *middle = 0.5 * (ends[0] + ends[1]);
+        }
+        let amounts = &state[parts.amount.clone()];
+        for (per_amount, amount) in self.per_amount.iter_mut().zip(amounts) {
+            *per_amount = amount.recip();
+        }
+        let up = &state[parts.up.clone()];
+        for (pressing, up) in self.pressing.iter_mut().zip(up) {
+            *pressing = self.system.pressing(*up);
+        }
+    }
+
     /// The depth in all grooves at a time in s, from the last one and its rate.
     fn settle(&mut self, time: f64, state: &[f64]) {
         let System {
             mass,
             axial_stiffness,
+            radial_stiffness,
             ref parts,
             ref mesh,
             ..
@@ -170,38 +197,26 @@ impl<'s> Rates<'s> {
         self.time = time;
         for (pulley, arc) in mesh.arcs.iter().enumerate() {
             let cells = arc.len();
-            let up = &state[parts.up.clone()][mesh.bristles[pulley].clone()][..cells];
+            let pressing = &self.pressing[mesh.bristles[pulley].clone()][..cells];
             let amounts = &state[parts.amount.clone()][arc.clone()][..cells];
+            let per_amount = &self.per_amount[arc.clone()][..cells];
             let velocity = &self.velocity[arc.start..=arc.end][..=cells];
             let depths = &mut self.depths[pulley];
-            for (depth, rate) in depths.iter_mut().zip(&self.sinking[pulley].rate) {
-                *depth += passed * rate;
-            }
+            self.sinking[pulley].go_on(passed, depths);
             let of_cell = |cell: usize, depth: f64, shape: &Shape| {
                 // F = T − m ρ v² and its derivative with g.
-                let per_amount = amounts[cell].recip();
                 let squares = squares([velocity[cell], velocity[cell + 1]]);
                 let centrifugal = mass * squares * amounts[cell] * shape.per_length;
                 let tractive = [
-                    axial_stiffness * (shape.length * per_amount - 1.0) - centrifugal,
-                    axial_stiffness * per_amount + centrifugal * shape.per_length,
+                    axial_stiffness * (shape.length * per_amount[cell] - 1.0) - centrifugal,
+                    axial_stiffness * per_amount[cell] + centrifugal * shape.per_length,
                 ];
-                pull(self.system, tractive, depth, up[cell])
+                let [_, outward] = pressing[cell];
+                Pull::new(tractive, radial_stiffness * outward, depth)
             };
             if !self.balances[pulley].settle(depths, &self.measures[pulley], of_cell) {
                 depths.fill(f64::NAN);
             }
-        }
-    }
-
-    /// Velocities at the faces and in the middles of the cells.
-    fn velocities(&mut self, state: &[f64]) {
-        let velocity = &state[self.system.parts.velocity.clone()];
-        let cells = velocity.len();
-        self.velocity[..cells].copy_from_slice(velocity);
-        self.velocity[cells] = velocity[0];
-        for (middle, ends) in self.middle.iter_mut().zip(self.velocity.windows(2)) {
-            *middle = 0.5 * (ends[0] + ends[1]);
         }
     }
 
@@ -210,11 +225,11 @@ impl<'s> Rates<'s> {
         let System {
             axial_stiffness,
             radial_stiffness,
-            groove: [sine, cosine],
             ref parts,
             ref mesh,
             ..
         } = *self.system;
+        let amounts = &state[parts.amount.clone()];
         let speeds = &state[parts.speed.clone()];
         for (pulley, arc) in mesh.arcs.iter().enumerate() {
             let measure = self.measures[pulley];
@@ -227,34 +242,37 @@ impl<'s> Rates<'s> {
                 let carried = &mut rates[part.clone()][own.clone()];
                 slopes(carried, list, is_forward, measure.cell);
             }
-            let cells = self.depths[pulley]
-                .windows(2)
-                .zip(middle)
-                .zip(along.iter().zip(up));
-            let lengths = self.lengths[arc.clone()].iter_mut();
-            let to = { self.seated[own].iter_mut().zip(lengths) }.zip(&mut self.force[arc.clone()]);
+            let cells = arc.len();
+            let (depths, middle) = (&self.depths[pulley][..=cells], &middle[..cells]);
+            let (along, pressing) = (&along[..cells], &self.pressing[own.clone()][..cells]);
+            let (seated, amounts) = (
+                &mut self.seated[own][..cells],
+                &amounts[arc.clone()][..cells],
+            );
+            let lengths = &mut self.lengths[arc.clone()][..cells];
+            let densities = &mut self.density[1..][arc.clone()][..cells];
+            let forces = &mut self.force[arc.clone()][..cells];
             let mut torque = 0.0;
-            for (((ends, v), (along, up)), ((seated, length), force)) in cells.zip(to) {
-                let shape = measure.shape([ends[0], ends[1]]);
+            for cell in 0..cells {
+                let ends = [depths[cell], depths[cell + 1]];
+                let shape = measure.shape(ends);
                 let direction = [-shape.slope, shape.radius].map(|part| part * shape.per_length);
                 let rim = measure.radius * shape.radius;
                 let load = radial_stiffness * (0.5 * (ends[0] + ends[1])).max(0.0);
-                let carrying = cosine + up * sine;
-                let pressure = 0.5 * load / carrying;
-                let outward = 2.0 * pressure * (sine - up * cosine);
-                let against = 2.0 * pressure * along;
-                *seated = Seated {
+                let [faces, outward] = pressing[cell].map(|pressing| load * pressing);
+                let against = faces * along[cell];
+                seated[cell] = Seated {
                     shape,
                     load,
-                    carrying,
                     direction,
-                    slip: v * direction[1] - speeds[pulley] * rim,
-                    pressure,
+                    slip: middle[cell] * direction[1] - speeds[pulley] * rim,
+                    pressure: 0.5 * faces,
                 };
-                *length = shape.length;
-                let cell = shape.length * measure.cell;
-                *force = cell * (against * direction[1] - outward * direction[0]);
-                torque += cell * against * rim;
+                lengths[cell] = shape.length;
+                densities[cell] = amounts[cell] * shape.per_length;
+                let length = shape.length * measure.cell;
+                forces[cell] = length * (against * direction[1] - outward * direction[0]);
+                torque += length * against * rim;
             }
             self.axles.torque[pulley] = torque;
             let own = mesh.bristles[pulley].clone();
@@ -266,18 +284,18 @@ impl<'s> Rates<'s> {
                 }
             }
         }
+        for span in &mesh.spans {
+            self.density[1..][span.clone()].copy_from_slice(&amounts[span.clone()]);
+        }
         let cells = mesh.cells();
-        let (lengths, amounts) = (
-            &self.lengths[..cells],
-            &state[parts.amount.clone()][..cells],
-        );
-        let (stretches, densities) = (&mut self.stretch[..cells], &mut self.density[1..=cells]);
+        let (lengths, amounts) = (&self.lengths[..cells], &amounts[..cells]);
+        let (stretches, per_amount) = (&mut self.stretch[..cells], &self.per_amount[..cells]);
         let (belt, elastic) = (&mut self.belt[1..=cells], &mut self.elastic[1..=cells]);
+        let pitch = &mesh.lengths[..cells];
         for cell in 0..cells {
-            let stretch = lengths[cell] / amounts[cell];
+            let stretch = lengths[cell] * per_amount[cell];
             stretches[cell] = stretch;
-            densities[cell] = amounts[cell] / lengths[cell];
-            belt[cell] = amounts[cell] * mesh.lengths[cell];
+            belt[cell] = amounts[cell] * pitch[cell];
             elastic[cell] = 0.5 * axial_stiffness * stretch * stretch;
         }
         for closed in [&mut self.density, &mut self.belt, &mut self.elastic] {
@@ -295,45 +313,45 @@ impl<'s> Rates<'s> {
             ..
         } = *self.system;
         let cells = mesh.cells();
+        let per_cell = &self.per_cell[..cells];
         let velocity = &self.velocity[..=cells];
-        let (density, belt) = (&self.density[..=cells], &self.belt[..=cells]);
-        let (flux, amount) = (&mut self.flux[..=cells], &mut self.amount[..=cells]);
-        let (kinetic, shares) = (&mut self.kinetic[..=cells], &self.shares[..cells]);
-        let elastic = &self.elastic[..=cells];
-        let accelerations = &mut rates[parts.velocity.clone()][..cells];
-        for face in 0..cells {
+        let (density, elastic) = (&self.density[..=cells], &self.elastic[..=cells]);
+        let (belt, shares) = (&self.belt[..=cells], &self.shares[..cells]);
+        let mean = |face: usize| {
             let [behind, before] = shares[face];
-            let mean = behind * density[face] + before * density[face + 1];
-            flux[face] = velocity[face] * mean;
-            amount[face] = 0.5 * (belt[face] + belt[face + 1]);
-            kinetic[face] = 0.5 * velocity[face] * velocity[face] / amount[face];
-            accelerations[face] = mean * (elastic[face + 1] - elastic[face]);
+            behind * density[face] + before * density[face + 1]
+        };
+        let flux = &mut self.flux[..=cells];
+        for face in 0..cells {
+            flux[face] = velocity[face] * mean(face);
         }
-        for closed in [&mut self.flux, &mut self.amount, &mut self.kinetic] {
-            closed[cells] = closed[0];
-        }
-        let flux = &self.flux[..=cells];
-        let (stretch, force) = (&self.stretch[..cells], &self.force[..cells]);
-        let (lengths, pitch) = (&self.lengths[..cells], &mesh.lengths[..cells]);
+        flux[cells] = flux[0];
+        let (per_amount, force) = (&self.per_amount[..cells], &self.force[..cells]);
         let (viscous, held) = (&mut self.viscous[..=cells], &mut self.held[..=cells]);
         let amounts = &mut rates[parts.amount.clone()][..cells];
         let mut damped = 0.0;
         for cell in 0..cells {
             let drop = velocity[cell + 1] - velocity[cell];
-            let damping = axial_damping * stretch[cell] * drop / (pitch[cell] * lengths[cell]);
+            // λ/g = 1/a.
+            let damping = axial_damping * per_amount[cell] * drop * per_cell[cell];
             damped += damping * drop;
             viscous[cell + 1] = damping;
             held[cell + 1] = force[cell] + 0.5 * mass * (flux[cell] + flux[cell + 1]) * drop;
-            amounts[cell] = (flux[cell] - flux[cell + 1]) / pitch[cell];
+            amounts[cell] = (flux[cell] - flux[cell + 1]) * per_cell[cell];
         }
         (viscous[0], held[0]) = (viscous[cells], held[cells]);
         rates[parts.damped] = damped;
-        let amount = &self.amount[..cells];
+        let slowing = &mut self.slowing[..cells];
         let accelerations = &mut rates[parts.velocity.clone()][..cells];
+        let per_mass = mass.recip();
         for face in 0..cells {
-            let damping = viscous[face + 1] - viscous[face];
-            let force = accelerations[face] + damping - 0.5 * (held[face] + held[face + 1]);
-            accelerations[face] = force / (mass * amount[face]);
+            let force = mean(face) * (elastic[face + 1] - elastic[face])
+                + (viscous[face + 1] - viscous[face])
+                - 0.5 * (held[face] + held[face + 1]);
+            // 1/(2 â h̄).
+            let per_belt = (belt[face] + belt[face + 1]).recip();
+            accelerations[face] = 2.0 * force * per_belt * per_mass;
+            slowing[face] = velocity[face] * per_belt;
         }
     }
 
@@ -362,13 +380,15 @@ impl<'s> Rates<'s> {
             let own = mesh.bristles[pulley].clone();
             let per_friction = wheels[pulley].friction_coefficient.recip();
             let seated = &self.seated[own.clone()][..cells];
+            let pressing = &self.pressing[own.clone()][..cells];
             let up = &state[parts.up.clone()][own.clone()][..cells];
             let carried = &rates[parts.up.clone()][own.clone()][..cells];
-            let amounts = &state[parts.amount.clone()][arc.clone()][..cells];
+            let per_amount = &self.per_amount[arc.clone()][..cells];
             let changes = &rates[parts.amount.clone()][arc.clone()][..cells];
             let faces = arc.start..=arc.end;
             let velocity = &self.velocity[faces.clone()][..=cells];
-            let accelerations = &rates[parts.velocity.clone()][faces.clone()][..=cells];
+            let slowing = &self.slowing[faces.clone()][..=cells];
+            let accelerations = &rates[parts.velocity.clone()][faces][..=cells];
             let (stretch, density) = (&self.stretch[arc.clone()], &self.density[1..][arc.clone()]);
             let (stretch, density) = (&stretch[..cells], &density[..cells]);
             let middle = &self.middle[arc.clone()][..cells];
@@ -377,29 +397,28 @@ impl<'s> Rates<'s> {
                 let Seated {
                     shape,
                     load,
-                    carrying,
                     direction,
                     slip,
                     ..
                 } = seated[index];
                 let inertia = mass * density[index];
                 let ends = [velocity[index], velocity[index + 1]];
-                let by_amount =
-                    -(axial_stiffness * stretch[index] + inertia * squares(ends)) / amounts[index];
+                let by_amount = -per_amount[index]
+                    * (axial_stiffness * stretch[index] + inertia * squares(ends));
                 let change = ends[0] * accelerations[index] + ends[1] * accelerations[index + 1];
                 drawn[index] = Drawn {
                     by: shape.by,
                     belt: density[index] * cell,
                     drawing: cell * (by_amount * changes[index] - inertia * change),
                     inertia: inertia * cell,
-                    pressed: -0.5 * cell * shape.length * load / (carrying * carrying),
+                    pressed: -0.5 * cell * shape.length * load * pressing[index][0].powi(2),
                     carried: carried[index],
                     slip: [slip, middle[index] * direction[0] * contact.per_cosine],
                     bent: up[index] * per_friction,
                 };
             }
             let matrix = &self.balances[pulley].matrix;
-            self.sinking[pulley].find(matrix, drawn, &self.kinetic[faces], &contact);
+            self.sinking[pulley].find(matrix, drawn, [velocity, slowing], &contact);
         }
     }
 
@@ -439,18 +458,13 @@ impl<'s> Rates<'s> {
             let mut behind = 0.0;
             for face in arc.clone() {
                 let before = self.density[face + 1] * self.lengthening[face] * cell;
-                rates[parts.velocity.start + face] -= self.slowing(face) * (behind + before);
+                rates[parts.velocity.start + face] -= self.slowing[face] * (behind + before);
                 behind = before;
             }
-            rates[parts.velocity.start + arc.end] -= self.slowing(arc.end) * behind;
+            rates[parts.velocity.start + arc.end] -= self.slowing[arc.end] * behind;
         }
         rates[parts.friction] = friction;
         rates[parts.compression] = compression;
-    }
-
-    /// Deceleration at a face per ρ ġ h, 1/s.
-    fn slowing(&self, face: usize) -> f64 {
-        0.5 * self.velocity[face] / self.amount[face]
     }
 
     /// Deflection of the bristles in a cell of all arcs.
@@ -478,18 +492,6 @@ impl<'s> Rates<'s> {
 /// Mean of the squares of the velocity at the faces of a cell, m²/s².
 fn squares([behind, before]: [f64; 2]) -> f64 {
     0.5 * (behind * behind + before * before)
-}
-
-fn pull(system: &System, tractive: [f64; 2], depth: f64, up: f64) -> Pull {
-    let [share, _] = system.outward(up);
-    let stiffness = match depth > 0.0 {
-        true => system.radial_stiffness * share,
-        false => 0.0,
-    };
-    Pull {
-        tractive,
-        outward: [stiffness * depth, stiffness],
-    }
 }
 
 /// A pulley slips grossly where the belt slips everywhere by this share of its speed: creep is a fifth of that at the
@@ -523,7 +525,7 @@ impl Dynamics for Rates<'_> {
         let System { wheels, parts, .. } = self.system;
         let axles = &mut self.axles;
         axles.prescribe(wheels, time, &mut state[parts.speed.clone()]);
-        self.velocities(state);
+        self.belt(state);
         self.settle(time, state);
         self.cells(state, rates);
         self.faces(rates);

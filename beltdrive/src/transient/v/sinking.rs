@@ -69,9 +69,16 @@ pub(super) struct Sinking {
     side: Vec<f64>,
     /// ρ ġ h of the cells, between zeros for the spans, m/s.
     lengthening: Vec<f64>,
-    /// What the square of a correction of s is left with in a cell, s/m.
-    curvature: Vec<f64>,
+    /// |e| − `e_w` `B_w`/μ of the cells at the last correction, m/s.
+    following: Vec<f64>,
+    /// The rate at an earlier time, and the time from then to the last one, s.
+    before: Vec<f64>,
+    passed: f64,
 }
+
+/// Times closer than this share of the last difference are one: they are equal but for rounding, or so close to each other
+/// that the rate does not change.
+const SAME_TIME: f64 = 1e-3;
 
 impl Sinking {
     /// None at a number of faces.
@@ -81,17 +88,38 @@ impl Sinking {
             matrix: Tridiagonal::new(faces),
             side: vec![0.0; faces],
             lengthening: vec![0.0; faces + 1],
-            curvature: vec![0.0; faces - 1],
+            following: vec![0.0; faces - 1],
+            before: vec![0.0; faces],
+            passed: 0.0,
         }
     }
 
-    /// Finds the rate from the last one, with the derivatives of the balance, the cells, and ½ v²/(â h̄) of the faces in
-    /// m/s².
+    /// Takes rate and depths on over a time in s as they changed before.
+    pub(super) fn go_on(&mut self, passed: f64, depths: &mut [f64]) {
+        if passed <= SAME_TIME * self.passed {
+            return;
+        }
+        let ahead = match self.passed > 0.0 {
+            true => passed / self.passed,
+            false => 0.0,
+        };
+        self.passed = passed;
+        let rates = self.rate.iter_mut().zip(&mut self.before);
+        for (depth, (rate, before)) in depths.iter_mut().zip(rates) {
+            let change = ahead * (*rate - *before);
+            *depth += passed * (*rate + 0.5 * change);
+            *before = *rate;
+            *rate += change;
+        }
+    }
+
+    /// Finds the rate from the last one, with the derivatives of the balance, the cells, and v in m/s and ½ v/(â h̄) in
+    /// 1/s at the faces.
     pub(super) fn find(
         &mut self,
         balance: &Tridiagonal,
         cells: &[Drawn],
-        faces: &[f64],
+        faces: [&[f64]; 2],
         contact: &Contact,
     ) {
         for _ in 0..MOST_CORRECTIONS {
@@ -104,16 +132,26 @@ impl Sinking {
                 (*side, *rate) = (*side - *rate, *side);
                 largest = largest.max(side.abs());
             }
-            let bent = self.side.windows(2).zip(&self.curvature);
-            let bent = bent.map(|(ends, curvature)| curvature * (ends[0] + ends[1]).powi(2));
-            if contact.moved * largest + 0.25 * bent.fold(0.0, f64::max) <= contact.error {
+            if largest <= contact.error || self.is_straight(largest, cells, contact) {
                 break;
             }
         }
     }
 
+    /// Whether what the last correction, the largest of a size in m/s, has left by v̇ and by |e| is no error: with `e_w`
+    /// |e| has a second derivative of 1/|e| at most.
+    fn is_straight(&self, largest: f64, cells: &[Drawn], contact: &Contact) -> bool {
+        let left = contact.error - contact.moved * largest;
+        let changes = self.side.windows(2).map(|ends| 0.5 * (ends[0] + ends[1]));
+        let mut parts = changes.zip(cells).zip(&self.following);
+        parts.all(|((change, cell), following)| {
+            let bent = 0.5 * contact.per_cosine * cell.bent.abs();
+            bent * change * change <= left * following
+        })
+    }
+
     /// Adds what the cells depend on to the derivatives, and makes the right-hand side for ẋ.
-    fn assemble(&mut self, cells: &[Drawn], faces: &[f64], contact: &Contact) {
+    fn assemble(&mut self, cells: &[Drawn], faces: [&[f64]; 2], contact: &Contact) {
         let rate = &self.rate[..=cells.len()];
         let lengthening = &mut self.lengthening[..cells.len() + 2];
         for (index, cell) in cells.iter().enumerate() {
@@ -122,21 +160,19 @@ impl Sinking {
         }
         self.side.fill(0.0);
         let side = &mut self.side[..=cells.len()];
-        let faces = &faces[..=cells.len()];
-        let curvature = &mut self.curvature[..cells.len()];
+        let [velocity, slowing] = faces.map(|faces| &faces[..=cells.len()]);
+        let following = &mut self.following[..cells.len()];
         for (index, cell) in cells.iter().enumerate() {
-            let around = [0, 1].map(|face| {
-                faces[index + face] * (lengthening[index + face] + lengthening[index + face + 1])
+            let around = [index, index + 1].map(|face| {
+                velocity[face] * slowing[face] * (lengthening[face] + lengthening[face + 1])
             });
             let drawing = cell.drawing + cell.inertia * (around[0] + around[1]);
             let sinks = 0.5 * (rate[index] + rate[index + 1]);
             let up = cell.slip[1] - sinks * contact.per_cosine;
             let norm = size([cell.slip[0], up]);
-            // |e| less what of it the bristles follow.
-            let left = norm - up * cell.bent;
+            following[index] = norm - up * cell.bent;
             let bends = cell.carried + contact.stiffness * (up - norm * cell.bent);
-            let by_sinking = -contact.stiffness * contact.per_cosine * left / norm;
-            curvature[index] = 0.5 * contact.per_cosine * cell.bent.abs() / left;
+            let by_sinking = -contact.stiffness * contact.per_cosine * following[index] / norm;
             let bent = cell.pressed * (bends - by_sinking * sinks);
             side[index] -= drawing * cell.by[0] + bent;
             side[index + 1] -= drawing * cell.by[1] + bent;
