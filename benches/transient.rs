@@ -1,9 +1,9 @@
 //! How long does a second of a flat belt in time take, start-up and load step included? How long its way from rest to
-//! the steady state?
+//! the steady state? How long a tenth of a second of a V-belt with a load step?
 
 use beltdrive::input::DriveFile;
-use beltdrive::simulate;
 use beltdrive::transient::{Cells, Ending, History, Load, Motion, Schedule, Simulation, Until};
+use beltdrive::{examples, simulate};
 use criterion::{BenchmarkId, Criterion};
 use std::hint::black_box;
 
@@ -82,9 +82,30 @@ fn steady(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// The example `v-load-step`, whose load falls by a fifth at 50 ms, up to 0.1 s.
+fn v_belt(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("V-belt in time, load step over 0.1 s");
+    group.sample_size(10);
+    let example = examples::find("v-load-step").expect("a shipped example");
+    let file = DriveFile::read(example.name, example.text, &[]).expect("a valid drive file");
+    let mut simulation = file.simulation(None).expect("a drive in time");
+    simulation.until = Until::Time(0.1);
+    for cells in [240, 120] {
+        simulation.cells = Cells::Total(cells);
+        group.bench_function(
+            BenchmarkId::new("explicit", format!("{cells} cells")),
+            |b| {
+                b.iter(|| follow(&simulation));
+            },
+        );
+    }
+    group.finish();
+}
+
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     load_step(&mut criterion);
     steady(&mut criterion);
+    v_belt(&mut criterion);
     criterion.final_summary();
 }

@@ -78,16 +78,52 @@ fn along(rates: &mut [f64], b: &[f64], velocity: &[f64], rim: f64, per_six: f64)
 /// As [`along`] where the belt runs backwards and enters at the other end.
 fn against(rates: &mut [f64], bristles: &[f64], velocity: &[f64], rim: f64, per_six: f64) {
     let last = bristles.len() - 1;
-    let b = |cell: usize| bristles[last - cell];
+    differences(
+        last,
+        |cell| bristles[last - cell],
+        |cell, difference| {
+            let v = velocity[last - cell];
+            rates[last - cell] = v - rim + v * (difference * per_six);
+        },
+    );
+}
+
+/// Tells six times the difference in each cell from where the belt enters on, from what its bristles are.
+fn differences(last: usize, b: impl Fn(usize) -> f64, mut tell: impl FnMut(usize, f64)) {
     let [first, second] = at_entry([b(0), b(1), b(2)]);
-    for cell in 0..=last {
-        let difference = match cell {
-            0 => first,
-            1 => second,
-            cell if cell == last => at_exit([b(cell - 3), b(cell - 2), b(cell - 1), b(cell)]),
-            cell => inside([b(cell - 2), b(cell - 1), b(cell), b(cell + 1)]),
-        };
-        let v = velocity[last - cell];
-        rates[last - cell] = v - rim + v * (difference * per_six);
+    tell(0, first);
+    tell(1, second);
+    for cell in 2..last {
+        tell(
+            cell,
+            inside([b(cell - 2), b(cell - 1), b(cell), b(cell + 1)]),
+        );
+    }
+    tell(
+        last,
+        at_exit([b(last - 3), b(last - 2), b(last - 1), b(last)]),
+    );
+}
+
+/// The slope of bristles along an arc, with a belt that runs forward on it or backwards, from the length of a cell in m.
+pub(crate) fn slopes(slopes: &mut [f64], bristles: &[f64], is_forward: bool, cell: f64) {
+    let last = bristles.len() - 1;
+    let per_six = 1.0 / (6.0 * cell);
+    let slopes = &mut slopes[..=last];
+    match is_forward {
+        true => differences(
+            last,
+            |cell| bristles[cell],
+            |cell, difference| {
+                slopes[cell] = difference * per_six;
+            },
+        ),
+        false => differences(
+            last,
+            |cell| bristles[last - cell],
+            |cell, difference| {
+                slopes[last - cell] = -difference * per_six;
+            },
+        ),
     }
 }

@@ -46,6 +46,7 @@
 pub(crate) mod initial;
 pub(crate) mod radial;
 pub(crate) mod rates;
+pub(crate) mod sinking;
 pub(crate) mod state;
 pub(crate) mod system;
 #[cfg(test)]

@@ -14,6 +14,8 @@
 pub(super) struct Shape {
     /// g.
     pub(super) length: f64,
+    /// 1/g.
+    pub(super) per_length: f64,
     /// r/R of the middle.
     pub(super) radius: f64,
     /// Slope ∂x/∂σ.
@@ -22,40 +24,58 @@ pub(super) struct Shape {
     pub(super) by: [f64; 2],
 }
 
-/// Derivatives of r/R and of the slope with the depths at both faces, 1/m.
-fn parts(radius: f64, cell: f64) -> [[f64; 2]; 2] {
-    let across = -0.5 / radius;
-    [[across, -cell.recip()], [across, cell.recip()]]
+/// The cells of an arc, which are of one length.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Measure {
+    /// Pitch radius R, m.
+    pub(super) radius: f64,
+    /// Length h of the pitch line in a cell, m.
+    pub(super) cell: f64,
+    /// Derivative −1/(2 R) of r/R with the depth at either face, 1/m.
+    across: f64,
+    /// Derivative 1/h of the slope with the depth at the face before, minus that with the depth at the face behind, 1/m.
+    along: f64,
 }
 
-impl Shape {
-    /// Of a cell of a length in m on a pitch radius in m, with the depths at its faces in m.
-    pub(super) fn new([behind, before]: [f64; 2], radius: f64, cell: f64) -> Self {
-        let (share, slope) = (
-            1.0 - 0.5 * (behind + before) / radius,
-            (before - behind) / cell,
-        );
-        let length = share.hypot(slope);
+impl Measure {
+    /// Of cells of a length in m on a pitch radius in m.
+    pub(super) fn new(radius: f64, cell: f64) -> Self {
         Self {
-            length,
-            radius: share,
-            slope,
-            by: parts(radius, cell)
-                .map(|[across, along]| (share * across + slope * along) / length),
+            radius,
+            cell,
+            across: -0.5 / radius,
+            along: cell.recip(),
         }
     }
 
-    /// Second derivatives of g, 1/m².
-    fn second(&self, radius: f64, cell: f64) -> [[f64; 2]; 2] {
-        let parts = parts(radius, cell);
-        [0, 1].map(|one| {
-            [0, 1].map(|other| {
-                let product: f64 = (0..2)
-                    .map(|part| parts[one][part] * parts[other][part])
-                    .sum();
-                (product - self.by[one] * self.by[other]) / self.length
-            })
-        })
+    /// Shape of a cell with the depths at its faces in m.
+    pub(super) fn shape(&self, [behind, before]: [f64; 2]) -> Shape {
+        let radius = 1.0 + self.across * (behind + before);
+        let slope = self.along * (before - behind);
+        // No depth makes it overflow, as `hypot` would mind.
+        let length = (radius * radius + slope * slope).sqrt();
+        let per_length = length.recip();
+        let across = radius * self.across * per_length;
+        let along = slope * self.along * per_length;
+        Shape {
+            length,
+            per_length,
+            radius,
+            slope,
+            by: [across - along, across + along],
+        }
+    }
+
+    /// Second derivatives of g, 1/m²: twice with the depth at the face behind, with both, twice with that at the face
+    /// before.
+    fn second(&self, shape: &Shape) -> [f64; 3] {
+        let [behind, before] = shape.by;
+        let (across, along) = (self.across * self.across, self.along * self.along);
+        [
+            (across + along - behind * behind) * shape.per_length,
+            (across - along - behind * before) * shape.per_length,
+            (across + along - before * before) * shape.per_length,
+        ]
     }
 }
 
@@ -68,126 +88,148 @@ pub(super) struct Pull {
     pub(super) outward: [f64; 2],
 }
 
-/// A tridiagonal system over the faces of an arc, the ends of which are held.
+impl Pull {
+    /// Of a belt with a tractive tension, and its derivative with g, that lies at a mean depth in m in a groove with a
+    /// stiffness in N/m²; one that lies above it is held by nothing.
+    pub(super) fn new(tractive: [f64; 2], stiffness: f64, depth: f64) -> Self {
+        let stiffness = if depth > 0.0 { stiffness } else { 0.0 };
+        Self {
+            tractive,
+            outward: [stiffness * depth, stiffness],
+        }
+    }
+}
+
+/// A tridiagonal system over the faces of an arc, at the ends of which the unknowns are held at 0.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tridiagonal {
-    /// Below, on and above the diagonal.
-    pub(super) rows: Vec<[f64; 3]>,
+    /// Below, on and above the diagonal; those of both ends are not looked at.
+    rows: Vec<[f64; 3]>,
     work: Vec<f64>,
 }
 
 impl Tridiagonal {
-    /// Zeros for a number of unknowns.
-    pub(super) fn clear(&mut self, unknowns: usize) {
-        self.rows.clear();
-        self.rows.resize(unknowns, [0.0; 3]);
+    /// Zeros for a number of faces.
+    pub(super) fn new(faces: usize) -> Self {
+        Self {
+            rows: vec![[0.0; 3]; faces],
+            work: vec![0.0; faces],
+        }
     }
 
-    /// Adds to the rows and columns of both faces of a cell of an arc, whose first face is held.
+    /// Takes the entries of another one with as many faces.
+    pub(super) fn copy(&mut self, other: &Self) {
+        self.rows.copy_from_slice(&other.rows);
+    }
+
+    /// Adds to the rows and columns of both faces of a cell.
     pub(super) fn add(&mut self, cell: usize, block: [[f64; 2]; 2]) {
-        let count = self.rows.len();
-        let inside = |face: usize| face.checked_sub(1).filter(|&row| row < count);
-        for (side, row) in [cell, cell + 1].into_iter().map(inside).enumerate() {
-            if let Some(row) = row {
-                for (other, value) in block[side].into_iter().enumerate() {
-                    self.rows[row][1 + other - side] += value;
-                }
-            }
-        }
+        let [behind, before] = block;
+        self.rows[cell][1] += behind[0];
+        self.rows[cell][2] += behind[1];
+        self.rows[cell + 1][0] += before[0];
+        self.rows[cell + 1][1] += before[1];
     }
 
     /// Solves for a right-hand side in its place.
     pub(super) fn solve(&mut self, side: &mut [f64]) {
-        let count = self.rows.len();
-        self.work.clear();
-        let mut before = [0.0; 2];
-        for (row, value) in self.rows.iter().zip(&mut *side) {
-            let pivot = row[1] - row[0] * before[0];
-            before = [row[2] / pivot, (*value - row[0] * before[1]) / pivot];
-            self.work.push(before[0]);
-            *value = before[1];
+        let last = self.rows.len() - 1;
+        (side[0], side[last]) = (0.0, 0.0);
+        let (mut above, mut before) = (0.0, 0.0);
+        let rows = self.rows[1..last].iter().zip(&mut self.work[1..last]);
+        for ((row, work), value) in rows.zip(&mut side[1..last]) {
+            let per_pivot = (row[1] - row[0] * above).recip();
+            above = row[2] * per_pivot;
+            before = (*value - row[0] * before) * per_pivot;
+            *work = above;
+            *value = before;
         }
-        for row in (0..count.saturating_sub(1)).rev() {
-            side[row] -= self.work[row] * side[row + 1];
+        let mut next = 0.0;
+        for (value, work) in side[1..last].iter_mut().zip(&self.work[1..last]).rev() {
+            next = *value - work * next;
+            *value = next;
         }
     }
 }
 
-/// A correction of the depth of this share of the pitch radius is the last one: Newton's method leaves its square.
+/// A correction of the depth of this share of the pitch radius is the last one: Newton's method leaves its square, and
+/// the derivatives are right to as much.
 const CORRECTION: f64 = 1e-8;
 
-/// Most corrections of the depth; one step of time takes two or three.
+/// Most corrections of the depth; one step of time takes one or two.
 const MOST_CORRECTIONS: usize = 30;
 
 /// Room for the radial balance of an arc.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Balance {
-    /// Derivatives of the balance with the depths, at the last depths.
+    /// Derivatives of the balance with the depths, at those before the last correction.
     pub(super) matrix: Tridiagonal,
     side: Vec<f64>,
 }
 
 impl Balance {
-    /// Brings the depths at the faces of an arc, of cells of a length in m on a pitch radius in m, into balance with
-    /// what its cells pull, which depends on their shape; whether that came to an end.
+    /// Room for a number of faces.
+    pub(super) fn new(faces: usize) -> Self {
+        Self {
+            matrix: Tridiagonal::new(faces),
+            side: vec![0.0; faces],
+        }
+    }
+
+    /// Brings the depths at the faces of an arc into balance with what its cells pull, which depends on their mean depth
+    /// and shape; whether that came to an end.
     pub(super) fn settle(
         &mut self,
         depths: &mut [f64],
-        [radius, cell]: [f64; 2],
+        measure: &Measure,
         pull: impl Fn(usize, f64, &Shape) -> Pull,
     ) -> bool {
-        let last = depths.len() - 1;
         for _ in 0..MOST_CORRECTIONS {
-            self.assemble(depths, [radius, cell], &pull);
+            self.assemble(depths, measure, &pull);
             self.matrix.solve(&mut self.side);
             let mut largest: f64 = 0.0;
-            for (depth, change) in depths[1..last].iter_mut().zip(&self.side) {
+            for (depth, change) in depths.iter_mut().zip(&self.side) {
                 *depth -= change;
                 largest = largest.max(change.abs());
             }
-            if largest <= CORRECTION * radius {
-                return true;
-            }
-            if !largest.is_finite() {
-                return false;
+            if largest <= CORRECTION * measure.radius {
+                // What is not a number in one row is none in any.
+                return !depths[1].is_nan();
             }
         }
         false
     }
 
     /// The derivatives and the balance itself at depths.
-    pub(super) fn assemble(
+    fn assemble(
         &mut self,
         depths: &[f64],
-        [radius, cell]: [f64; 2],
-        pull: impl Fn(usize, f64, &Shape) -> Pull,
+        measure: &Measure,
+        pull: &impl Fn(usize, f64, &Shape) -> Pull,
     ) {
-        let cells = depths.len() - 1;
-        self.matrix.clear(cells - 1);
-        self.side.clear();
-        self.side.resize(cells - 1, 0.0);
-        for index in 0..cells {
-            let ends = [depths[index], depths[index + 1]];
-            let shape = Shape::new(ends, radius, cell);
+        self.matrix.rows.fill([0.0; 3]);
+        self.side.fill(0.0);
+        for (index, ends) in depths.windows(2).enumerate() {
+            let shape = measure.shape([ends[0], ends[1]]);
+            let [behind, before] = shape.by;
             let Pull { tractive, outward } = pull(index, 0.5 * (ends[0] + ends[1]), &shape);
-            let second = shape.second(radius, cell);
-            let block = [0, 1].map(|one| {
-                [0, 1].map(|other| {
-                    let string = tractive[1] * shape.by[one] * shape.by[other]
-                        + tractive[0] * second[one][other];
-                    let groove = 0.5 * outward[1] * shape.length + outward[0] * shape.by[other];
-                    cell * (string + 0.5 * groove)
-                })
-            });
-            self.matrix.add(index, block);
-            let balance = shape
+            let second = measure.second(&shape);
+            let products = [behind * behind, behind * before, before * before];
+            let string = [0, 1, 2].map(|of| tractive[1] * products[of] + tractive[0] * second[of]);
+            let groove = shape
                 .by
-                .map(|by| cell * (tractive[0] * by + 0.5 * outward[0] * shape.length));
-            for (face, value) in [index, index + 1].into_iter().zip(balance) {
-                if let Some(row) = face.checked_sub(1).filter(|&row| row < cells - 1) {
-                    self.side[row] += value;
-                }
-            }
+                .map(|by| 0.5 * (0.5 * outward[1] * shape.length + outward[0] * by));
+            let block = [
+                [string[0] + groove[0], string[1] + groove[1]],
+                [string[1] + groove[0], string[2] + groove[1]],
+            ];
+            self.matrix.add(
+                index,
+                block.map(|row| row.map(|entry| measure.cell * entry)),
+            );
+            let load = 0.5 * outward[0] * shape.length;
+            self.side[index] += measure.cell * (tractive[0] * behind + load);
+            self.side[index + 1] += measure.cell * (tractive[0] * before + load);
         }
     }
 }

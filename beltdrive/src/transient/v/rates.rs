@@ -12,7 +12,7 @@
 //! face, that with ġ does the work of the part m ρ v² of F = T − m ρ v² in the radial balance.
 
 use super::super::axles::Axles;
-use super::super::bristle::weights;
+use super::super::bristle::slopes;
 use super::super::dynamics::Dynamics;
 use super::super::explicit::{larger, with_waves};
 use super::super::ledger::Ledger;
@@ -20,7 +20,8 @@ use super::super::mesh::Mesh;
 use super::super::simulation::StepBound;
 use super::super::slip::{slipping, slips};
 use super::super::system::Wheel;
-use super::radial::{Balance, Pull, Shape, Tridiagonal};
+use super::radial::{Balance, Measure, Pull, Shape};
+use super::sinking::{Contact, Drawn, Sinking, size};
 use super::system::System;
 use crate::vbelt::SLIPPING_BRISTLES;
 use std::convert::Infallible;
@@ -31,41 +32,57 @@ use std::ops::Range;
 pub(super) struct Seated {
     /// Shape of the cell.
     pub(super) shape: Shape,
-    /// Mean depth, m.
-    depth: f64,
+    /// Load k x per length, N/m; 0 where x < 0.
+    load: f64,
     /// Sine and cosine of the inclination θ to the local circle, positive outward.
     direction: [f64; 2],
     /// Slip `e_t` along the pulley, m/s.
     slip: f64,
     /// Pressure p of each face per length, N/m.
     pressure: f64,
-    /// Rates of both bristles without those of the slip that the sinking makes, 1/s.
-    carried: [f64; 2],
 }
 
 /// The rates of the states of a system; what they are computed from stays until the next ones.
 pub(crate) struct Rates<'s> {
     pub(crate) system: &'s System,
+    /// Of the cells of each arc.
+    measures: Vec<Measure>,
+    /// 1/h of all cells, 1/m.
+    per_cell: Vec<f64>,
+    /// Shares of the cells behind and before a face in the density there.
+    shares: Vec<[f64; 2]>,
+    /// Time of the last rates, s.
+    time: f64,
     /// Depth x at the faces of each arc, m.
     pub(super) depths: Vec<Vec<f64>>,
-    /// Rate of the depth, m/s.
-    sinking: Vec<Vec<f64>>,
     balances: Vec<Balance>,
-    matrix: Tridiagonal,
-    side: Vec<f64>,
+    /// Rate of the depth.
+    sinking: Vec<Sinking>,
     /// The cells of all arcs.
     pub(super) seated: Vec<Seated>,
-    /// Of all cells: g, its rate in 1/s, stretch, velocity in the middle in m/s, force f h on the belt against its
+    drawn: Vec<Drawn>,
+    /// Pressure 2 p of both faces and outward load n in them, per k x.
+    pressing: Vec<[f64; 2]>,
+    /// Of all cells: 1/a, g, its rate in 1/s, stretch, velocity in the middle in m/s, force f h on the belt against its
     /// motion in N.
+    per_amount: Vec<f64>,
     pub(super) lengths: Vec<f64>,
     lengthening: Vec<f64>,
     stretch: Vec<f64>,
     pub(super) middle: Vec<f64>,
     force: Vec<f64>,
-    /// Of all faces: ρ̂ v in m/s, â h̄ in m, acceleration without that of ġ in m/s².
+    /// Of the cells, after that of the last one: ρ, a h in m, ½ EA λ² in N, force of damping in N, `force` with ½ m Ψ Δv
+    /// of both faces in N.
+    density: Vec<f64>,
+    belt: Vec<f64>,
+    elastic: Vec<f64>,
+    viscous: Vec<f64>,
+    held: Vec<f64>,
+    /// Of the faces, the first one once more at the end: v and ρ̂ v in m/s.
+    velocity: Vec<f64>,
     flux: Vec<f64>,
-    amount: Vec<f64>,
-    acceleration: Vec<f64>,
+    /// Of the faces: deceleration ½ v/(â h̄) per ρ ġ h, 1/s.
+    slowing: Vec<f64>,
     /// Torques on the pulleys.
     axles: Axles,
 }
@@ -73,37 +90,48 @@ pub(crate) struct Rates<'s> {
 /// A rate of the depth is found to this share of the largest velocity of the belt; the ledger feels no more than that.
 const SINKING: f64 = 1e-10;
 
-/// Most corrections of the rates of the depth; they take two or three.
-const MOST_CORRECTIONS: usize = 30;
-
-/// Velocity that keeps the derivative of the slip |e| finite where the belt does not slip, m/s.
-const GUARD: f64 = 1e-20;
-
 impl<'s> Rates<'s> {
     /// The rates of a system, with the belt on the pitch circles up to the first state.
     pub(crate) fn new(system: &'s System) -> Self {
-        let cells = system.mesh.cells();
+        let mesh = &system.mesh;
+        let cells = mesh.cells();
         let pulleys = system.wheels.len();
-        let faces = || -> Vec<Vec<f64>> {
-            let arcs = system.mesh.arcs.iter();
-            arcs.map(|arc| vec![0.0; arc.len() + 1]).collect()
-        };
+        let faces = || mesh.arcs.iter().map(|arc| arc.len() + 1);
         let room = || vec![0.0; cells];
+        let closed = || vec![0.0; cells + 1];
+        let measures = mesh.arcs.iter().zip(&system.wheels);
+        let share = |face: usize| {
+            let [behind, before] =
+                [(face + cells - 1) % cells, face].map(|cell| mesh.lengths[cell]);
+            [before, behind].map(|other| other / (behind + before))
+        };
         Self {
-            depths: faces(),
-            sinking: faces(),
-            balances: vec![Balance::default(); pulleys],
-            matrix: Tridiagonal::default(),
-            side: vec![],
-            seated: vec![Seated::default(); system.mesh.bristle_cells()],
+            measures: measures
+                .map(|(arc, wheel)| Measure::new(wheel.radius, mesh.lengths[arc.start]))
+                .collect(),
+            per_cell: mesh.lengths.iter().map(|length| length.recip()).collect(),
+            shares: (0..cells).map(share).collect(),
+            time: 0.0,
+            depths: faces().map(|faces| vec![0.0; faces]).collect(),
+            balances: faces().map(Balance::new).collect(),
+            sinking: faces().map(Sinking::new).collect(),
+            seated: vec![Seated::default(); mesh.bristle_cells()],
+            drawn: vec![Drawn::default(); mesh.bristle_cells()],
+            pressing: vec![[0.0; 2]; mesh.bristle_cells()],
+            per_amount: room(),
             lengths: vec![1.0; cells],
             lengthening: room(),
             stretch: room(),
             middle: room(),
             force: room(),
-            flux: room(),
-            amount: room(),
-            acceleration: room(),
+            density: closed(),
+            belt: closed(),
+            elastic: closed(),
+            viscous: closed(),
+            held: closed(),
+            velocity: closed(),
+            flux: closed(),
+            slowing: room(),
             axles: Axles::new(pulleys),
             system,
         }
@@ -121,239 +149,319 @@ impl<'s> Rates<'s> {
         let system = self.system;
         let arc = system.mesh.arcs[pulley].clone();
         let up = &state[system.parts.up.clone()][system.mesh.bristles[pulley].clone()];
-        let measure = [system.wheels[pulley].radius, system.mesh.lengths[arc.start]];
-        let depths = &mut self.depths[pulley];
+        let (measure, depths) = (&self.measures[pulley], &mut self.depths[pulley]);
         let settled = self.balances[pulley].settle(depths, measure, |cell, depth, _| {
             let (tension, speed) = (tension(cell), velocity(cell));
             let density = (1.0 + tension / system.axial_stiffness).recip();
             let tractive = tension - system.mass * density * speed * speed;
-            pull(system, [tractive, 0.0], depth, up[cell])
+            let [_, outward] = system.pressing(up[cell]);
+            Pull::new([tractive, 0.0], system.radial_stiffness * outward, depth)
         });
-        for (index, of_loop) in arc.enumerate() {
-            let ends = [self.depths[pulley][index], self.depths[pulley][index + 1]];
-            self.lengths[of_loop] = Shape::new(ends, measure[0], measure[1]).length;
+        for (ends, length) in depths.windows(2).zip(&mut self.lengths[arc]) {
+            *length = measure.shape([ends[0], ends[1]]).length;
         }
         settled
     }
 
-    /// The depth in all grooves.
-    fn settle(&mut self, state: &[f64]) {
-        let system = self.system;
-        let parts = &system.parts;
-        let (amounts, velocity) = (&state[parts.amount.clone()], &state[parts.velocity.clone()]);
-        for (pulley, arc) in system.mesh.arcs.iter().enumerate() {
-            let up = &state[parts.up.clone()][system.mesh.bristles[pulley].clone()];
-            let measure = [system.wheels[pulley].radius, system.mesh.lengths[arc.start]];
-            let of_cell = |cell: usize, depth: f64, shape: &Shape| {
-                let of_loop = arc.start + cell;
-                let (amount, length) = (amounts[of_loop], shape.length);
-                let tractive = tractive(system, amount, length, squares(velocity, of_loop));
-                pull(system, [tractive.0, tractive.1], depth, up[cell])
-            };
-            let settled = self.balances[pulley].settle(&mut self.depths[pulley], measure, of_cell);
-            if !settled {
-                self.depths[pulley].fill(f64::NAN);
-            }
-            self.balances[pulley].assemble(&self.depths[pulley], measure, of_cell);
+    /// What stands in a state whatever the depths are.
+    fn belt(&mut self, state: &[f64]) {
+        let System { parts, .. } = self.system;
+        let velocity = &state[parts.velocity.clone()];
+        let cells = velocity.len();
+        self.velocity[..cells].copy_from_slice(velocity);
+        self.velocity[cells] = velocity[0];
+        for (middle, ends) in self.middle.iter_mut().zip(self.velocity.windows(2)) {
+            *middle = 0.5 * (ends[0] + ends[1]);
+        }
+        let amounts = &state[parts.amount.clone()];
+        for (per_amount, amount) in self.per_amount.iter_mut().zip(amounts) {
+            *per_amount = amount.recip();
+        }
+        let up = &state[parts.up.clone()];
+        for (pressing, up) in self.pressing.iter_mut().zip(up) {
+            *pressing = self.system.pressing(*up);
         }
     }
 
-    /// What stands in the cells.
-    fn cells(&mut self, state: &[f64]) {
-        let system = self.system;
-        let parts = &system.parts;
-        let (amounts, velocity) = (&state[parts.amount.clone()], &state[parts.velocity.clone()]);
-        let cells = amounts.len();
-        for cell in 0..cells {
-            self.middle[cell] = 0.5 * (velocity[cell] + velocity[(cell + 1) % cells]);
-        }
-        let speeds = &state[parts.speed.clone()];
-        let [sine, cosine] = system.groove;
-        for (pulley, arc) in system.mesh.arcs.iter().enumerate() {
-            let radius = system.wheels[pulley].radius;
-            let cell = system.mesh.lengths[arc.start];
-            let own = system.mesh.bristles[pulley].clone();
-            let [along, up] =
-                [&parts.along, &parts.up].map(|part| &state[part.clone()][own.clone()]);
-            let forward = self.middle[arc.start] + self.middle[arc.end - 1] >= 0.0;
-            let depths = &self.depths[pulley];
-            let mut torque = 0.0;
-            for (index, of_loop) in arc.clone().enumerate() {
-                let ends = [depths[index], depths[index + 1]];
-                let shape = Shape::new(ends, radius, cell);
-                let depth = 0.5 * (ends[0] + ends[1]);
-                let direction = [-shape.slope / shape.length, shape.radius / shape.length];
-                let v = self.middle[of_loop];
-                let rim = radius * shape.radius;
-                let pressure =
-                    0.5 * system.radial_stiffness * depth.max(0.0) / (cosine + up[index] * sine);
-                let outward = 2.0 * pressure * (sine - up[index] * cosine);
-                let against = 2.0 * pressure * along[index];
-                let slope = |list: &[f64]| slope(list, index, forward) / (6.0 * cell);
-                let carried = [along, up].map(|list| -(v / shape.length) * slope(list));
-                self.seated[own.start + index] = Seated {
-                    shape,
-                    depth,
-                    direction,
-                    slip: v * direction[1] - speeds[pulley] * rim,
-                    pressure,
-                    carried,
-                };
-                let length = shape.length * cell;
-                self.lengths[of_loop] = shape.length;
-                self.force[of_loop] = length * (against * direction[1] - outward * direction[0]);
-                torque += length * against * rim;
-            }
-            self.axles.torque[pulley] = torque;
-        }
-        for ((stretch, length), amount) in self.stretch.iter_mut().zip(&self.lengths).zip(amounts) {
-            *stretch = length / amount;
-        }
-    }
-
-    /// The rates of the mass, and accelerations without the part of ġ.
-    fn faces(&mut self, state: &[f64], rates: &mut [f64]) {
+    /// The depth in all grooves at a time in s, from the last one and its rate.
+    fn settle(&mut self, time: f64, state: &[f64]) {
         let System {
             mass,
             axial_stiffness,
+            radial_stiffness,
+            ref parts,
+            ref mesh,
+            ..
+        } = *self.system;
+        let passed = time - self.time;
+        self.time = time;
+        for (pulley, arc) in mesh.arcs.iter().enumerate() {
+            let cells = arc.len();
+            let pressing = &self.pressing[mesh.bristles[pulley].clone()][..cells];
+            let amounts = &state[parts.amount.clone()][arc.clone()][..cells];
+            let per_amount = &self.per_amount[arc.clone()][..cells];
+            let velocity = &self.velocity[arc.start..=arc.end][..=cells];
+            let depths = &mut self.depths[pulley];
+            self.sinking[pulley].go_on(passed, depths);
+            let of_cell = |cell: usize, depth: f64, shape: &Shape| {
+                // F = T − m ρ v² and its derivative with g.
+                let squares = squares([velocity[cell], velocity[cell + 1]]);
+                let centrifugal = mass * squares * amounts[cell] * shape.per_length;
+                let tractive = [
+                    axial_stiffness * (shape.length * per_amount[cell] - 1.0) - centrifugal,
+                    axial_stiffness * per_amount[cell] + centrifugal * shape.per_length,
+                ];
+                let [_, outward] = pressing[cell];
+                Pull::new(tractive, radial_stiffness * outward, depth)
+            };
+            if !self.balances[pulley].settle(depths, &self.measures[pulley], of_cell) {
+                depths.fill(f64::NAN);
+            }
+        }
+    }
+
+    /// What stands in the cells, and the rates of bristles that do not slip.
+    fn cells(&mut self, state: &[f64], rates: &mut [f64]) {
+        let System {
+            axial_stiffness,
+            radial_stiffness,
+            ref parts,
+            ref mesh,
+            ..
+        } = *self.system;
+        let amounts = &state[parts.amount.clone()];
+        let speeds = &state[parts.speed.clone()];
+        for (pulley, arc) in mesh.arcs.iter().enumerate() {
+            let measure = self.measures[pulley];
+            let own = mesh.bristles[pulley].clone();
+            let middle = &self.middle[arc.clone()];
+            let is_forward = middle[0] + middle[arc.len() - 1] >= 0.0;
+            let [along, up] =
+                [&parts.along, &parts.up].map(|part| &state[part.clone()][own.clone()]);
+            for (part, list) in [(&parts.along, along), (&parts.up, up)] {
+                let carried = &mut rates[part.clone()][own.clone()];
+                slopes(carried, list, is_forward, measure.cell);
+            }
+            let cells = arc.len();
+            let (depths, middle) = (&self.depths[pulley][..=cells], &middle[..cells]);
+            let (along, pressing) = (&along[..cells], &self.pressing[own.clone()][..cells]);
+            let (seated, amounts) = (
+                &mut self.seated[own][..cells],
+                &amounts[arc.clone()][..cells],
+            );
+            let lengths = &mut self.lengths[arc.clone()][..cells];
+            let densities = &mut self.density[1..][arc.clone()][..cells];
+            let forces = &mut self.force[arc.clone()][..cells];
+            let mut torque = 0.0;
+            for cell in 0..cells {
+                let ends = [depths[cell], depths[cell + 1]];
+                let shape = measure.shape(ends);
+                let direction = [-shape.slope, shape.radius].map(|part| part * shape.per_length);
+                let rim = measure.radius * shape.radius;
+                let load = radial_stiffness * (0.5 * (ends[0] + ends[1])).max(0.0);
+                let [faces, outward] = pressing[cell].map(|pressing| load * pressing);
+                let against = faces * along[cell];
+                seated[cell] = Seated {
+                    shape,
+                    load,
+                    direction,
+                    slip: middle[cell] * direction[1] - speeds[pulley] * rim,
+                    pressure: 0.5 * faces,
+                };
+                lengths[cell] = shape.length;
+                densities[cell] = amounts[cell] * shape.per_length;
+                let length = shape.length * measure.cell;
+                forces[cell] = length * (against * direction[1] - outward * direction[0]);
+                torque += length * against * rim;
+            }
+            self.axles.torque[pulley] = torque;
+            let own = mesh.bristles[pulley].clone();
+            for part in [&parts.along, &parts.up] {
+                let carried = rates[part.clone()][own.clone()].iter_mut();
+                let cells = self.seated[own.clone()].iter().zip(middle);
+                for (rate, (seated, v)) in carried.zip(cells) {
+                    *rate *= -v * seated.shape.per_length;
+                }
+            }
+        }
+        for span in &mesh.spans {
+            self.density[1..][span.clone()].copy_from_slice(&amounts[span.clone()]);
+        }
+        let cells = mesh.cells();
+        let (lengths, amounts) = (&self.lengths[..cells], &amounts[..cells]);
+        let (stretches, per_amount) = (&mut self.stretch[..cells], &self.per_amount[..cells]);
+        let (belt, elastic) = (&mut self.belt[1..=cells], &mut self.elastic[1..=cells]);
+        let pitch = &mesh.lengths[..cells];
+        for cell in 0..cells {
+            let stretch = lengths[cell] * per_amount[cell];
+            stretches[cell] = stretch;
+            belt[cell] = amounts[cell] * pitch[cell];
+            elastic[cell] = 0.5 * axial_stiffness * stretch * stretch;
+        }
+        for closed in [&mut self.density, &mut self.belt, &mut self.elastic] {
+            closed[0] = closed[cells];
+        }
+    }
+
+    /// The rates of the mass, and those of the velocity without the part of ġ.
+    fn faces(&mut self, rates: &mut [f64]) {
+        let System {
+            mass,
             axial_damping,
             ref parts,
             ref mesh,
             ..
         } = *self.system;
-        let (amounts, velocity) = (&state[parts.amount.clone()], &state[parts.velocity.clone()]);
-        let lengths = &mesh.lengths;
-        let cells = lengths.len();
-        let density = |cell: usize| self.stretch[cell].recip();
-        let mean = |face: usize, behind: usize| {
-            let [back, front] = [lengths[behind], lengths[face]];
-            (density(behind) * front + density(face) * back) / (back + front)
+        let cells = mesh.cells();
+        let per_cell = &self.per_cell[..cells];
+        let velocity = &self.velocity[..=cells];
+        let (density, elastic) = (&self.density[..=cells], &self.elastic[..=cells]);
+        let (belt, shares) = (&self.belt[..=cells], &self.shares[..cells]);
+        let mean = |face: usize| {
+            let [behind, before] = shares[face];
+            behind * density[face] + before * density[face + 1]
         };
+        let flux = &mut self.flux[..=cells];
         for face in 0..cells {
-            let behind = (face + cells - 1) % cells;
-            self.flux[face] = velocity[face] * mean(face, behind);
-            self.amount[face] =
-                0.5 * (amounts[behind] * lengths[behind] + amounts[face] * lengths[face]);
+            flux[face] = velocity[face] * mean(face);
         }
-        let through = |cell: usize| 0.5 * (self.flux[cell] + self.flux[(cell + 1) % cells]);
-        let drop = |cell: usize| velocity[(cell + 1) % cells] - velocity[cell];
-        let damping = |cell: usize| {
-            axial_damping * self.stretch[cell] * drop(cell) / (lengths[cell] * self.lengths[cell])
-        };
+        flux[cells] = flux[0];
+        let (per_amount, force) = (&self.per_amount[..cells], &self.force[..cells]);
+        let (viscous, held) = (&mut self.viscous[..=cells], &mut self.held[..=cells]);
+        let amounts = &mut rates[parts.amount.clone()][..cells];
         let mut damped = 0.0;
-        for face in 0..cells {
-            let behind = (face + cells - 1) % cells;
-            let squares = [behind, face].map(|cell| self.stretch[cell].powi(2));
-            let elastic = mean(face, behind) * 0.5 * axial_stiffness * (squares[1] - squares[0]);
-            let moved = 0.5 * mass * (through(face) * drop(face) + through(behind) * drop(behind));
-            let held = 0.5 * (self.force[face] + self.force[behind]);
-            let viscous = damping(face);
-            damped += viscous * drop(face);
-            let force = elastic + viscous - damping(behind) - moved - held;
-            self.acceleration[face] = force / (mass * self.amount[face]);
-            rates[parts.amount.start + face] =
-                (self.flux[face] - self.flux[(face + 1) % cells]) / lengths[face];
+        for cell in 0..cells {
+            let drop = velocity[cell + 1] - velocity[cell];
+            // λ/g = 1/a.
+            let damping = axial_damping * per_amount[cell] * drop * per_cell[cell];
+            damped += damping * drop;
+            viscous[cell + 1] = damping;
+            held[cell + 1] = force[cell] + 0.5 * mass * (flux[cell] + flux[cell + 1]) * drop;
+            amounts[cell] = (flux[cell] - flux[cell + 1]) * per_cell[cell];
         }
+        (viscous[0], held[0]) = (viscous[cells], held[cells]);
         rates[parts.damped] = damped;
+        let slowing = &mut self.slowing[..cells];
+        let accelerations = &mut rates[parts.velocity.clone()][..cells];
+        let per_mass = mass.recip();
+        for face in 0..cells {
+            let force = mean(face) * (elastic[face + 1] - elastic[face])
+                + (viscous[face + 1] - viscous[face])
+                - 0.5 * (held[face] + held[face + 1]);
+            // 1/(2 â h̄).
+            let per_belt = (belt[face] + belt[face + 1]).recip();
+            accelerations[face] = 2.0 * force * per_belt * per_mass;
+            slowing[face] = velocity[face] * per_belt;
+        }
     }
 
-    /// The rates of depth, bristles and velocity, which depend on each other; powers of friction and compression.
-    fn sink(&mut self, state: &[f64], rates: &mut [f64]) {
-        let system = self.system;
-        let (parts, mesh) = (&system.parts, &system.mesh);
-        let (amounts, velocity) = (&state[parts.amount.clone()], &state[parts.velocity.clone()]);
-        let cells = amounts.len();
-        let fastest = velocity.iter().map(|v| v.abs()).fold(0.0, f64::max);
-        let [_, cosine] = system.groove;
-        let stiffness = system.bristle_stiffness;
-        for correction in 0.. {
-            self.accelerate(state, rates);
-            let mut largest: f64 = 0.0;
-            for (pulley, arc) in mesh.arcs.iter().enumerate() {
-                let cell = mesh.lengths[arc.start];
-                let own = mesh.bristles[pulley].clone();
-                let friction_coefficient = system.wheels[pulley].friction_coefficient;
-                self.matrix.clone_from(&self.balances[pulley].matrix);
-                let inner = arc.len() - 1;
-                self.side.clear();
-                self.side.resize(inner, 0.0);
-                for (row, values) in self.balances[pulley].matrix.rows.iter().enumerate() {
-                    for (value, column) in values.iter().zip([row, row + 1, row + 2]) {
-                        self.side[row] += value * self.sinking[pulley][column];
-                    }
-                }
-                for (index, of_loop) in arc.clone().enumerate() {
-                    let seated = self.seated[own.start + index];
-                    let shape = seated.shape;
-                    let sinking =
-                        0.5 * (self.sinking[pulley][index] + self.sinking[pulley][index + 1]);
-                    let place = own.start + index;
-                    let bristles =
-                        [parts.along.start, parts.up.start].map(|part| state[part + place]);
-                    let outward = self.middle[of_loop] * seated.direction[0] - sinking;
-                    let slip = [seated.slip, outward / cosine];
-                    let norm = (slip[0] * slip[0] + slip[1] * slip[1] + GUARD * GUARD).sqrt();
-                    let bends = [0, 1].map(|axis| {
-                        let saturation = norm * bristles[axis] / friction_coefficient;
-                        seated.carried[axis] + stiffness * (slip[axis] - saturation)
-                    });
-                    rates[parts.along.start + place] = bends[0];
-                    rates[parts.up.start + place] = bends[1];
-                    // The tractive tension changes with the mass in the cell and with its velocity.
-                    let (amount, length) = (amounts[of_loop], shape.length);
-                    let next = (of_loop + 1) % cells;
-                    let squares = squares(velocity, of_loop);
-                    let change = velocity[of_loop] * rates[parts.velocity.start + of_loop]
-                        + velocity[next] * rates[parts.velocity.start + next];
-                    let by_amount = -(system.axial_stiffness * length / amount
-                        + system.mass * squares * amount / length)
-                        / amount;
-                    let tractive = by_amount * rates[parts.amount.start + of_loop]
-                        - system.mass * amount / length * change;
-                    let pressed = system.radial_stiffness * seated.depth.max(0.0);
-                    let [_, by_up] = system.outward(bristles[1]);
-                    let per_bend = 0.5 * cell * length * pressed * by_up;
-                    for (side, face) in [index, index + 1].into_iter().enumerate() {
-                        if let Some(row) = face.checked_sub(1).filter(|&row| row < inner) {
-                            self.side[row] +=
-                                cell * tractive * shape.by[side] + per_bend * bends[1];
-                        }
-                    }
-                    // What the rate of the bristles changes with the sinking of the middle.
-                    let bend = -stiffness / cosine
-                        * (1.0 - slip[1] * bristles[1] / (norm * friction_coefficient));
-                    let entry = 0.5 * per_bend * bend;
-                    self.matrix.add(index, [[entry; 2]; 2]);
-                }
-                self.matrix.solve(&mut self.side);
-                for (rate, change) in self.sinking[pulley][1..].iter_mut().zip(&self.side) {
-                    *rate -= change;
-                    largest = largest.max(change.abs());
-                }
-            }
-            if largest <= SINKING * fastest || correction == MOST_CORRECTIONS || largest.is_nan() {
-                break;
-            }
-        }
-        let [mut friction, mut compression] = [0.0; 2];
-        let [sine, _] = system.groove;
+    /// The rates of the depths.
+    fn sink(&mut self, state: &[f64], rates: &[f64]) {
+        let System {
+            mass,
+            axial_stiffness,
+            bristle_stiffness,
+            groove: [_, cosine],
+            ref wheels,
+            ref parts,
+            ref mesh,
+            ..
+        } = *self.system;
+        let fastest = self.velocity.iter().map(|v| v.abs()).fold(0.0, f64::max);
+        let contact = Contact {
+            stiffness: bristle_stiffness,
+            per_cosine: cosine.recip(),
+            moved: 2.0 * mass * fastest * fastest / axial_stiffness,
+            error: SINKING * fastest,
+        };
         for (pulley, arc) in mesh.arcs.iter().enumerate() {
-            let cell = mesh.lengths[arc.start];
+            let cells = arc.len();
+            let cell = self.measures[pulley].cell;
             let own = mesh.bristles[pulley].clone();
-            for index in 0..arc.len() {
-                let place = own.start + index;
-                let seated = &self.seated[place];
-                let up = self.sliding(pulley, index);
-                let slip = [seated.slip, up];
-                let bristles = [parts.along.start, parts.up.start].map(|part| state[part + place]);
-                let length = cell * seated.shape.length;
-                friction += 2.0
-                    * length
-                    * seated.pressure
-                    * (bristles[0] * slip[0] + bristles[1] * slip[1]);
-                let pressed = system.radial_stiffness * seated.depth.max(0.0);
-                compression -= length * pressed * sine * up;
+            let per_friction = wheels[pulley].friction_coefficient.recip();
+            let seated = &self.seated[own.clone()][..cells];
+            let pressing = &self.pressing[own.clone()][..cells];
+            let up = &state[parts.up.clone()][own.clone()][..cells];
+            let carried = &rates[parts.up.clone()][own.clone()][..cells];
+            let per_amount = &self.per_amount[arc.clone()][..cells];
+            let changes = &rates[parts.amount.clone()][arc.clone()][..cells];
+            let faces = arc.start..=arc.end;
+            let velocity = &self.velocity[faces.clone()][..=cells];
+            let slowing = &self.slowing[faces.clone()][..=cells];
+            let accelerations = &rates[parts.velocity.clone()][faces][..=cells];
+            let (stretch, density) = (&self.stretch[arc.clone()], &self.density[1..][arc.clone()]);
+            let (stretch, density) = (&stretch[..cells], &density[..cells]);
+            let middle = &self.middle[arc.clone()][..cells];
+            let drawn = &mut self.drawn[own.clone()][..cells];
+            for index in 0..cells {
+                let Seated {
+                    shape,
+                    load,
+                    direction,
+                    slip,
+                    ..
+                } = seated[index];
+                let inertia = mass * density[index];
+                let ends = [velocity[index], velocity[index + 1]];
+                let by_amount = -per_amount[index]
+                    * (axial_stiffness * stretch[index] + inertia * squares(ends));
+                let change = ends[0] * accelerations[index] + ends[1] * accelerations[index + 1];
+                drawn[index] = Drawn {
+                    by: shape.by,
+                    belt: density[index] * cell,
+                    drawing: cell * (by_amount * changes[index] - inertia * change),
+                    inertia: inertia * cell,
+                    pressed: -0.5 * cell * shape.length * load * pressing[index][0].powi(2),
+                    carried: carried[index],
+                    slip: [slip, middle[index] * direction[0] * contact.per_cosine],
+                    bent: up[index] * per_friction,
+                };
             }
+            let matrix = &self.balances[pulley].matrix;
+            self.sinking[pulley].find(matrix, drawn, [velocity, slowing], &contact);
+        }
+    }
+
+    /// What the sinking does to the rates of velocity and bristles; powers of friction and compression.
+    fn slip(&mut self, state: &[f64], rates: &mut [f64]) {
+        let System {
+            bristle_stiffness,
+            groove: [sine, cosine],
+            ref wheels,
+            ref parts,
+            ref mesh,
+            ..
+        } = *self.system;
+        let [mut friction, mut compression] = [0.0; 2];
+        for (pulley, arc) in mesh.arcs.iter().enumerate() {
+            let cell = self.measures[pulley].cell;
+            let per_friction = wheels[pulley].friction_coefficient.recip();
+            let first = mesh.bristles[pulley].start;
+            for (index, ends) in self.sinking[pulley].rate.windows(2).enumerate() {
+                let (place, of_loop) = (first + index, arc.start + index);
+                let seated = &self.seated[place];
+                let [behind, before] = seated.shape.by;
+                self.lengthening[of_loop] = behind * ends[0] + before * ends[1];
+                let outward =
+                    self.middle[of_loop] * seated.direction[0] - 0.5 * (ends[0] + ends[1]);
+                let slip = [seated.slip, outward / cosine];
+                let size = size(slip) * per_friction;
+                let bristles = [parts.along.start, parts.up.start].map(|part| part + place);
+                let length = cell * seated.shape.length;
+                for (bristle, slip) in bristles.into_iter().zip(slip) {
+                    rates[bristle] += bristle_stiffness * (slip - size * state[bristle]);
+                    friction += 2.0 * length * seated.pressure * state[bristle] * slip;
+                }
+                compression -= length * seated.load * sine * slip[1];
+            }
+            // ρ ġ h of the cell behind a face.
+            let mut behind = 0.0;
+            for face in arc.clone() {
+                let before = self.density[face + 1] * self.lengthening[face] * cell;
+                rates[parts.velocity.start + face] -= self.slowing[face] * (behind + before);
+                behind = before;
+            }
+            rates[parts.velocity.start + arc.end] -= self.slowing[arc.end] * behind;
         }
         rates[parts.friction] = friction;
         rates[parts.compression] = compression;
@@ -373,73 +481,17 @@ impl<'s> Rates<'s> {
     /// Slip `e_w` of the belt up the groove faces in a cell of an arc, m/s.
     fn sliding(&self, pulley: usize, index: usize) -> f64 {
         let mesh = &self.system.mesh;
-        let sinking = 0.5 * (self.sinking[pulley][index] + self.sinking[pulley][index + 1]);
+        let rate = &self.sinking[pulley].rate;
+        let sinking = 0.5 * (rate[index] + rate[index + 1]);
         let direction = self.seated[mesh.bristles[pulley].start + index].direction;
         let v = self.middle[mesh.arcs[pulley].start + index];
         (v * direction[0] - sinking) / self.system.groove[1]
     }
-
-    /// Rates of the lengths of the cells, and accelerations with what they do.
-    fn accelerate(&mut self, state: &[f64], rates: &mut [f64]) {
-        let system = self.system;
-        let (parts, mesh) = (&system.parts, &system.mesh);
-        let (amounts, velocity) = (&state[parts.amount.clone()], &state[parts.velocity.clone()]);
-        for (pulley, arc) in mesh.arcs.iter().enumerate() {
-            for (index, of_loop) in arc.clone().enumerate() {
-                let [behind, before] = self.seated[mesh.bristles[pulley].start + index].shape.by;
-                let sinking = &self.sinking[pulley];
-                self.lengthening[of_loop] = behind * sinking[index] + before * sinking[index + 1];
-            }
-        }
-        let cells = amounts.len();
-        for face in 0..cells {
-            let around = [(face + cells - 1) % cells, face];
-            let lengthening: f64 = around
-                .iter()
-                .map(|&cell| self.lengthening[cell] * mesh.lengths[cell] / self.stretch[cell])
-                .sum();
-            rates[parts.velocity.start + face] =
-                self.acceleration[face] - 0.5 * velocity[face] * lengthening / self.amount[face];
-        }
-    }
 }
 
 /// Mean of the squares of the velocity at the faces of a cell, m²/s².
-pub(super) fn squares(velocity: &[f64], cell: usize) -> f64 {
-    let next = velocity[(cell + 1) % velocity.len()];
-    0.5 * (velocity[cell] * velocity[cell] + next * next)
-}
-
-/// F = T − m ρ v² of a cell with an amount of belt and a length, and its derivative with the length, N.
-fn tractive(system: &System, amount: f64, length: f64, squares: f64) -> (f64, f64) {
-    let (stretch, centrifugal) = (length / amount, system.mass * squares * amount / length);
-    (
-        system.tension(stretch) - centrifugal,
-        system.axial_stiffness / amount + centrifugal / length,
-    )
-}
-
-fn pull(system: &System, tractive: [f64; 2], depth: f64, up: f64) -> Pull {
-    let [share, _] = system.outward(up);
-    let stiffness = match depth > 0.0 {
-        true => system.radial_stiffness * share,
-        false => 0.0,
-    };
-    Pull {
-        tractive,
-        outward: [stiffness * depth, stiffness],
-    }
-}
-
-/// Six times the difference of what the belt carries along an arc in a cell, from where it enters.
-fn slope(list: &[f64], cell: usize, forward: bool) -> f64 {
-    let count = list.len();
-    let place = |at: usize| if forward { at } else { count - 1 - at };
-    let (first, weights) = weights(place(cell), count);
-    let sum: f64 = { weights.iter().enumerate() }
-        .map(|(offset, weight)| weight * list[place(first + offset)])
-        .sum();
-    if forward { sum } else { -sum }
+fn squares([behind, before]: [f64; 2]) -> f64 {
+    0.5 * (behind * behind + before * before)
 }
 
 /// A pulley slips grossly where the belt slips everywhere by this share of its speed: creep is a fifth of that at the
@@ -473,10 +525,12 @@ impl Dynamics for Rates<'_> {
         let System { wheels, parts, .. } = self.system;
         let axles = &mut self.axles;
         axles.prescribe(wheels, time, &mut state[parts.speed.clone()]);
-        self.settle(state);
-        self.cells(state);
-        self.faces(state, rates);
+        self.belt(state);
+        self.settle(time, state);
+        self.cells(state, rates);
+        self.faces(rates);
         self.sink(state, rates);
+        self.slip(state, rates);
         let mut turnover = 0.0;
         let speeds = &state[parts.speed.clone()];
         self.axles

@@ -40,12 +40,12 @@ impl System {
         lengths.zip(amounts).map(|(length, a)| length * a).sum()
     }
 
-    /// Outward load n of both faces per length over k x, and its derivative with `B_w`.
-    pub(crate) fn outward(&self, up: f64) -> [f64; 2] {
+    /// Pressure 2 p of both faces and outward load n per length, each per k x. The derivative of the latter with `B_w` is
+    /// minus the square of the former.
+    pub(crate) fn pressing(&self, up: f64) -> [f64; 2] {
         let [sine, cosine] = self.groove;
-        let carrying = cosine + up * sine;
-        let per_squared = -1.0 / (carrying * carrying);
-        [(sine - up * cosine) / carrying, per_squared]
+        let pressure = (cosine + up * sine).recip();
+        [pressure, (sine - up * cosine) * pressure]
     }
 
     /// Kinetic energy of pulleys and belt and strain energy of the belt, whose cells have lengths g per length of the
