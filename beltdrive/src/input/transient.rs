@@ -1,8 +1,8 @@
 //! How a drive moves in time: the table `[transient]` of a drive file.
 
 use super::{
-    Argument, Diagnostic, DriveFile, check, diagnostic::Finding, document::Content, file,
-    overrides, schema, values::Values,
+    Argument, Diagnostic, DriveFile, check, diagnostic::Finding, dimension::Dimension,
+    document::Content, file, overrides, schema, values::Values,
 };
 use crate::transient::{
     Axle, Cells, Load, Motion, Motor, Pluck, Pulsation, RunOut, Schedule, Simulation, Start,
@@ -384,12 +384,15 @@ fn schedule(
 }
 
 impl Argument<'_> {
-    /// A time with its unit, s; positive.
+    /// A time of a run with its unit, s; 0 is its start.
     ///
     /// # Errors
-    /// The value is no time.
+    /// The value is no time, or negative.
     pub fn time(&self) -> Result<f64, Diagnostic> {
-        let time = check::quantity(END, &self.entry(), &self.source());
-        time.map_err(|finding| self.diagnose(finding))
+        let end = schema::rule(END).expect("a key is one of the schema");
+        let range = schema::Range::NotNegative;
+        let (entry, source) = (self.entry(), self.source());
+        check::number(self.option, end, Dimension::TIME, range, &entry, &source)
+            .map_err(|finding| self.diagnose(finding))
     }
 }

@@ -345,7 +345,7 @@ impl Dynamics for Rates<'_> {
             (damping * per_mass(pulley), StepBound::Bristles { pulley })
         });
         let first = with_waves(wave, held);
-        let axial = 4.0 * axial_damping / (mass * cell * cell);
+        let axial = 4.0 * axial_damping * stretch * stretch / (mass * cell * cell);
         let damping = across.as_ref().map_or(0.0, |across| across.damping);
         let ends = across.iter().flat_map(|across| &across.spans);
         let ends = ends.flat_map(|span| span.ends).map(|end| {

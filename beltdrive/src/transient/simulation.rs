@@ -207,7 +207,7 @@ pub enum TransientError {
     /// Energy was lost or won beside what the ledger accounts for.
     #[error(
         "the energy ledger does not close: {residual:.2e} J of {turnover:.2e} J are not accounted for at {time:.6} s, \
-         more than {:.0e} of them; take more cells",
+         more than {:.0e} of them; take more cells or a shorter time step",
         super::ledger::BOUND
     )]
     Ledger {

@@ -235,3 +235,15 @@ fn a_slack_span_gives_way_and_snaps() {
     // Second order, where the kink of the stiffness allows it.
     assert!(residuals[2].abs() < 1e-5, "{residuals:?}");
 }
+
+#[test]
+fn a_damped_belt_that_is_stretched_far_stays_stable() {
+    // Damping bounds the step, and is larger by the square of the stretch.
+    let axles = vec![
+        driver(Schedule::ramp([0.0, 0.01], [0.0, 20.0])),
+        loaded(0.005, Load::new(Schedule::constant(1.0))),
+    ];
+    let mut simulation = from_rest(kim(2.0e8, 0.2, 1.0), axles, 60, 0.01);
+    simulation.axial_damping = 20.0;
+    assert_eq!(follow(&simulation).ending, Ending::Time);
+}
