@@ -123,14 +123,16 @@ fn a_history_goes_to_table_rows_json_and_figures() {
 #[test]
 fn instants_reach_from_the_start_to_the_end() {
     let pulse = example("slip-pulse");
-    let drawn = ["--until", "10 ms", "--plot", "figures", "--at"];
-    let at = |name: &str, instant: &str| simulate(name, pulse, &[&drawn[..], &[instant]].concat());
+    let at = |name: &str, instant: &str| {
+        let at = format!("--at={instant}");
+        simulate(name, pulse, &["--until", "10 ms", "--plot", "figures", &at])
+    };
     for (name, instant, told) in [
         ("at-start", "0 s", "at 0 s"),
         ("at-end", "10 ms", "at 0.01 s"),
     ] {
         stdout(&at(name, instant));
-        let figure = fs::read_to_string(directory(name).join("figures/loop.svg")).unwrap();
+        let figure = fs::read_to_string(directory(name).join("figures/loop-1.svg")).unwrap();
         assert!(figure.contains(told), "{figure}");
     }
     fails(&at("at-none", "-1 s"), 2, "`--at` must not be negative");
