@@ -118,12 +118,12 @@ fn of_v(
         Start::Rest => v::initial::at_rest(&mut rates, found)?,
     };
     let entries = v::initial::entries(found);
-    run::run(
-        simulation,
-        (rates, &entries, &found.layout),
-        state,
-        progress,
-    )
+    let parts = (rates, &entries[..], &found.layout);
+    let history = run::run(simulation, parts, state, progress)?;
+    Ok(History {
+        coarse: v::initial::coarse(&system, found),
+        ..history
+    })
 }
 
 /// A drive with a flat belt with finite strains and the momentum of the belt, as in time.

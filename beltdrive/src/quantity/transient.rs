@@ -41,6 +41,8 @@ pub fn answer(drive: &Drive, history: &History) -> Answer {
 
 fn heading_of(history: &History) -> String {
     let end = history.samples.last().map_or(0.0, |sample| sample.time);
+    // An event is located to a step, of some microseconds.
+    let end = (1e6 * end).round() / 1e6;
     let how = match history.ending {
         Ending::Time => "in time",
         Ending::Steady => "to the steady state",
@@ -64,6 +66,18 @@ fn remarks(history: &History) -> Vec<String> {
                 true => " and stays straight",
                 false => "",
             }
+        ));
+    }
+    let coarse = history
+        .coarse
+        .iter()
+        .map(|&pulley| history.pulleys[pulley].as_str());
+    let coarse: Vec<_> = coarse.collect();
+    if !coarse.is_empty() {
+        remarks.push(format!(
+            "the belt sinks into the grooves of {} within less than a cell: tensions are off by per cents, take more \
+             cells",
+            coarse.join(", ")
         ));
     }
     if history.ending == Ending::NotSteady {

@@ -26,6 +26,9 @@ pub struct History {
     pub events: Vec<TransientEvent>,
     /// How slack each span was; span i leaves pulley i.
     pub slack_spans: Vec<SlackSpan>,
+    /// Pulleys, by their places in belt order, into whose grooves a V-belt sinks within less than a cell in the steady state
+    /// of the drive, so that tensions are off by per cents.
+    pub coarse: Vec<usize>,
     /// The belt along the loop at the instants asked for.
     pub belts: Vec<BeltAlongLoop>,
     /// The belt along the loop at evenly spaced samples, from time 0 on; [`Simulation::frames`](super::Simulation::frames)

@@ -196,6 +196,7 @@ impl<R: Dynamics> Run<R> {
                 samples: vec![],
                 events: vec![],
                 slack_spans: vec![],
+                coarse: vec![],
                 belts: vec![],
                 frames: vec![],
                 ending: match is_steady_sought {

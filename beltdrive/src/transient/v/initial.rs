@@ -57,6 +57,22 @@ pub(crate) fn system(
     })
 }
 
+/// The pulleys into whose grooves the belt sinks within less than a cell in a steady state.
+///
+/// Near its ends the balance of the depth is F x″ = k tan β x, so that it sinks over √(F/(k tan β)). With cells of 1.6 times
+/// that length tensions are off by 6 %, with 0.8 times by 0.3 %.
+pub(crate) fn coarse(system: &System, found: &LoopState) -> Vec<usize> {
+    let (spans, mesh) = (&found.spans, &system.mesh);
+    let count = spans.len();
+    let [sine, cosine] = system.groove;
+    let sinks_within_a_cell = |pulley: &usize| {
+        let ends = [(pulley + count - 1) % count, *pulley].map(|span| spans[span].tractive_tension);
+        let sinking = (ends[0].min(ends[1]) * cosine / (system.radial_stiffness * sine)).sqrt();
+        mesh.lengths[mesh.arcs[*pulley].start] > sinking
+    };
+    (0..count).filter(sinks_within_a_cell).collect()
+}
+
 /// Where the belt meets the grooves in a steady state.
 pub(crate) fn entries(found: &LoopState) -> Vec<Entry> {
     let count = found.pulleys.len();

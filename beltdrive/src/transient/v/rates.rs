@@ -612,12 +612,18 @@ impl Dynamics for Rates<'_> {
         slips(self.bent(state, place), self.limit(pulley))
     }
 
-    fn slips_grossly(&self, _: &[f64], pulley: usize) -> bool {
-        let own = self.system.mesh.bristles[pulley].clone();
-        let first = self.system.mesh.arcs[pulley].start;
-        self.seated[own].iter().enumerate().all(|(index, seated)| {
-            let slip = seated.slip.hypot(self.sliding(pulley, index));
-            slip > GROSS * self.middle[first + index].abs()
+    fn slips_grossly(&self, state: &[f64], pulley: usize) -> bool {
+        let arc = self.system.mesh.arcs[pulley].clone();
+        let (cells, own) = (arc.len(), &self.system.mesh.bristles[pulley]);
+        let forward = self.middle[arc.start] + self.middle[arc.end - 1] >= 0.0;
+        let towards_exit =
+            |index: usize| 2 * index >= cells && forward || 2 * index < cells && !forward;
+        (0..cells).all(|index| {
+            let along = self.seated[own.start + index].slip;
+            let slip = along.hypot(self.sliding(pulley, index));
+            // From rest any slip is a large share of the speed until the bristles are bent.
+            let is_bent = !towards_exit(index) || self.slips(state, pulley, index);
+            is_bent && slip > GROSS * self.middle[arc.start + index].abs()
         })
     }
 
