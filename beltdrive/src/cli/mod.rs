@@ -77,7 +77,7 @@ enum Command {
     Sweep(sweep::Command),
     /// Find out whether small axial motions of a flat belt grow, and from which load on
     Stability(stability::Command),
-    /// Follow a drive with a flat belt in time: start-up, load steps, slip and its end
+    /// Follow a drive in time: start-up, load steps, slip and its end
     Simulate(simulate::Simulate),
     /// Find the vibrations of a running drive with a flat belt, also over its speed
     Modes(modes::Command),
