@@ -2,6 +2,7 @@
 
 use super::axle::{Motion, Motor};
 use super::system::Wheel;
+use std::ops::Range;
 
 /// The torques of a drive; those of the last rates stay until the next ones.
 #[derive(Clone, Debug)]
@@ -41,18 +42,19 @@ impl Axles {
         }
     }
 
-    /// The torques of the axles at speeds in rad/s, with those of the belt. Tells for each pulley the rate of its speed in
-    /// rad/s² and the power of its axle in W.
+    /// The torques of the axles at the speeds of a state, with those of the belt. The rates of speeds and works, and that of
+    /// the turnover, stand at places of their own.
     pub(super) fn turn(
         &mut self,
-        wheels: &[Wheel],
-        time: f64,
-        speeds: &[f64],
-        mut tell: impl FnMut(usize, f64, f64),
+        (wheels, time): (&[Wheel], f64),
+        (speeds, works, turnover): (&Range<usize>, &Range<usize>, usize),
+        state: &[f64],
+        rates: &mut [f64],
     ) {
+        rates[turnover] = 0.0;
         for (pulley, wheel) in wheels.iter().enumerate() {
             let (torque, lines) = (self.torque[pulley], self.lines[pulley]);
-            let speed = speeds[pulley];
+            let speed = state[speeds.start + pulley];
             let inertia = wheel.axle.inertia;
             let (shaft, change) = match &wheel.axle.motion {
                 Motion::Speed(given) => {
@@ -71,7 +73,10 @@ impl Axles {
                 }
             };
             self.shaft[pulley] = shaft;
-            tell(pulley, change, shaft * speed);
+            let power = shaft * speed;
+            rates[speeds.start + pulley] = change;
+            rates[works.start + pulley] = power;
+            rates[turnover] += power.abs();
         }
     }
 

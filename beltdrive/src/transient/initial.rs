@@ -1,6 +1,5 @@
 //! From the statement to the equations, and the state at time 0.
 
-use super::axle::Axle;
 use super::mesh::{LEAST_ARC_CELLS, LEAST_SPAN_CELLS, Mesh, Stretch, even};
 use super::simulation::{Cells, Simulation, TransientError};
 use super::state::Parts;
@@ -8,9 +7,9 @@ use super::statement::{self, refuse, refuse_key};
 use super::string;
 use super::system::{Resistance, System, Wheel};
 use super::transverse::{Across, End, RunOut, SpanAcross, Transverse};
+use crate::Drive;
 use crate::drive::layout::Layout;
 use crate::results::loop_state::LoopState;
-use crate::{Drive, Pulley};
 use nalgebra::Vector2;
 
 /// Half as many cells on every arc and span, as far as there may be so few.
@@ -35,6 +34,17 @@ pub(super) fn stretches(cells: Cells, parts: &[[f64; 2]]) -> Vec<Stretch> {
             parts.iter().map(cells).collect()
         }
     }
+}
+
+/// The pulleys of a drive with their axles.
+pub(super) fn wheels(simulation: &Simulation) -> Vec<Wheel> {
+    let pulleys = simulation.drive.pulleys.iter().zip(&simulation.axles);
+    let wheels = pulleys.map(|(pulley, axle)| Wheel {
+        radius: pulley.radius,
+        friction_coefficient: pulley.friction_coefficient,
+        axle: axle.clone(),
+    });
+    wheels.collect()
 }
 
 /// The equations of a drive that is laid out.
@@ -64,12 +74,6 @@ pub(crate) fn system(
     }
     let stretches = stretches(simulation.cells, &parts);
     let mesh = Mesh::new(&stretches);
-    let wheels = drive.pulleys.iter().zip(&simulation.axles);
-    let wheel = |(pulley, axle): (&Pulley, &Axle)| Wheel {
-        radius: pulley.radius,
-        friction_coefficient: pulley.friction_coefficient,
-        axle: axle.clone(),
-    };
     Ok(System {
         mass: drive.belt.mass_per_length,
         axial_stiffness: drive.belt.axial_stiffness,
@@ -79,7 +83,7 @@ pub(crate) fn system(
             .transverse
             .as_ref()
             .map(|stated| across(stated, layout)),
-        wheels: wheels.map(wheel).collect(),
+        wheels: wheels(simulation),
         parts: match simulation.transverse {
             Some(_) => Parts::across(&mesh),
             None => Parts::new(&mesh),

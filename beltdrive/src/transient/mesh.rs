@@ -75,6 +75,17 @@ impl Mesh {
         Self::new(&stretches.collect::<Vec<_>>())
     }
 
+    /// Shares of the cells behind and before each face in what is interpolated to it from their middles.
+    pub(crate) fn shares(&self) -> Vec<[f64; 2]> {
+        let cells = self.cells();
+        let share = |face: usize| {
+            let [behind, before] =
+                [(face + cells - 1) % cells, face].map(|cell| self.lengths[cell]);
+            [before, behind].map(|other| other / (behind + before))
+        };
+        (0..cells).map(share).collect()
+    }
+
     /// Number of cells.
     pub(crate) fn cells(&self) -> usize {
         self.lengths.len()

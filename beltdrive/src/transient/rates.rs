@@ -66,20 +66,15 @@ impl<'s> Rates<'s> {
     pub(crate) fn new(system: &'s System) -> Self {
         let lengths = &system.mesh.lengths;
         let cells = lengths.len();
-        let around = |face: usize| [lengths[(face + cells - 1) % cells], lengths[face]];
-        let share = |face: usize| {
-            let [behind, before] = around(face);
-            [before, behind].map(|other| other / (behind + before))
-        };
         let per_mass = |face: usize| {
-            let [behind, before] = around(face);
+            let [behind, before] = [(face + cells - 1) % cells, face].map(|cell| lengths[cell]);
             2.0 / (system.mass * (behind + before))
         };
         let closed = || vec![0.0; cells + 1];
         let pulleys = system.wheels.len();
         Self {
             per_cell: lengths.iter().map(|length| length.recip()).collect(),
-            shares: (0..cells).map(share).collect(),
+            shares: system.mesh.shares(),
             per_mass: (0..cells).map(per_mass).collect(),
             stretch: closed(),
             stretching: closed(),
@@ -287,15 +282,8 @@ impl Dynamics for Rates<'_> {
         self.raise(state);
         rates[parts.contact] = self.arcs(state, rates);
         self.faces(state, rates);
-        let mut turnover = 0.0;
-        let speeds = &state[parts.speed.clone()];
-        self.axles
-            .turn(wheels, time, speeds, |pulley, change, power| {
-                rates[parts.speed.start + pulley] = change;
-                rates[parts.work.start + pulley] = power;
-                turnover += power.abs();
-            });
-        rates[parts.turnover] = turnover;
+        let places = (&parts.speed, &parts.work, parts.turnover);
+        self.axles.turn((wheels, time), places, state, rates);
         self.across(state, rates);
         rates[parts.damped] = self.damped(&state[parts.density.clone()]);
     }

@@ -50,11 +50,11 @@ pub(crate) fn run<R: Dynamics>(
                 Some(implicit) if is_implicit => implicit.changes(),
                 _ => changes,
             };
-            if run.is_steady_sought && stillness.look(time, &run.rates, &state, changes) {
+            if run.is_steady_sought() && stillness.look(time, &run.rates, &state, changes) {
                 run.history.ending = Ending::Steady;
                 break;
             }
-            if time < run.end && !progress(time, time / run.end) {
+            if time < run.end() && !progress(time, time / run.end()) {
                 run.history.ending = Ending::Interrupted;
                 break;
             }
@@ -73,14 +73,14 @@ pub(crate) fn run<R: Dynamics>(
             let belt = Observer::belt(time, &run.rates, &state);
             run.history.belts.push(belt);
         }
-        if run.is_at(time, run.end) {
+        if run.is_at(time, run.end()) {
             break;
         }
         let corners = run.rates.wheels().iter();
         let corners = corners.map(|wheel| wheel.axle.next_corner(time));
-        let stop = corners.fold(run.end, f64::min);
+        let stop = corners.fold(run.end(), f64::min);
         let stop = { instants.peek() }.map_or(stop, |&instant| run.earlier(instant, stop));
-        if run.is_steady_sought
+        if run.is_steady_sought()
             && simulation.step.is_none()
             && stillness.is_after_corners(time)
             && time >= explicit_until
@@ -167,10 +167,7 @@ struct Run<R> {
     history: History,
     /// Time between two samples, s.
     interval: f64,
-    /// The latest end, s.
-    end: f64,
     until: Until,
-    is_steady_sought: bool,
 }
 
 impl<R: Dynamics> Run<R> {
@@ -182,7 +179,6 @@ impl<R: Dynamics> Run<R> {
         let mut pulleys = simulation.drive.pulleys.iter();
         let driver = pulleys.position(|pulley| matches!(pulley.duty, Duty::Driver(_)));
         let driver = driver.unwrap_or(0);
-        let is_steady_sought = matches!(simulation.until, Until::Steady { .. });
         Self {
             observer: Observer::new(&rates, (driver, entries), state),
             watch: Watch::new(&rates, state),
@@ -199,9 +195,9 @@ impl<R: Dynamics> Run<R> {
                 coarse: vec![],
                 belts: vec![],
                 frames: vec![],
-                ending: match is_steady_sought {
-                    true => Ending::NotSteady,
-                    false => Ending::Time,
+                ending: match simulation.until {
+                    Until::Steady { .. } => Ending::NotSteady,
+                    _ => Ending::Time,
                 },
                 effort: Effort {
                     cells: rates.mesh().cells(),
@@ -211,10 +207,18 @@ impl<R: Dynamics> Run<R> {
             },
             rates,
             interval: simulation.interval,
-            end: simulation.until.latest(),
             until: simulation.until,
-            is_steady_sought,
         }
+    }
+
+    /// Whether the run is to end in a steady state.
+    fn is_steady_sought(&self) -> bool {
+        matches!(self.until, Until::Steady { .. })
+    }
+
+    /// The latest end, s.
+    fn end(&self) -> f64 {
+        self.until.latest()
     }
 
     /// Whether the event has happened that the run was to end with.
@@ -245,7 +249,7 @@ impl<R: Dynamics> Run<R> {
 
     /// Time of a sample by its number, s.
     fn sample_at(&self, count: f64) -> f64 {
-        (count * self.interval).min(self.end)
+        (count * self.interval).min(self.end())
     }
 
     /// Time of the next sample, s.

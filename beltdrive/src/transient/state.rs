@@ -46,25 +46,44 @@ pub(crate) struct AcrossParts {
     pub(crate) damped: usize,
 }
 
+/// Hands out places in a list, one part behind the other.
+pub(crate) struct Places {
+    end: usize,
+}
+
+impl Places {
+    /// Those behind the first `count`.
+    pub(crate) fn after(count: usize) -> Self {
+        Self { end: count }
+    }
+
+    /// The next `count` places.
+    pub(crate) fn next(&mut self, count: usize) -> Range<usize> {
+        let start = self.end;
+        self.end += count;
+        start..self.end
+    }
+
+    /// The next place.
+    pub(crate) fn one(&mut self) -> usize {
+        self.next(1).start
+    }
+}
+
 impl Parts {
     /// The parts of a state on a mesh.
     pub(crate) fn new(mesh: &Mesh) -> Self {
         let (cells, pulleys) = (mesh.cells(), mesh.arcs.len());
-        let mut end = 0;
-        let mut next = |count: usize| {
-            let start = end;
-            end += count;
-            start..end
-        };
+        let mut places = Places::after(0);
         Self {
-            density: next(cells + 1),
-            velocity: next(cells + 1),
-            bristle: next(mesh.bristle_cells()),
-            speed: next(pulleys),
-            work: next(pulleys),
-            damped: next(1).start,
-            contact: next(1).start,
-            turnover: next(1).start,
+            density: places.next(cells + 1),
+            velocity: places.next(cells + 1),
+            bristle: places.next(mesh.bristle_cells()),
+            speed: places.next(pulleys),
+            work: places.next(pulleys),
+            damped: places.one(),
+            contact: places.one(),
+            turnover: places.one(),
             across: None,
         }
     }
@@ -73,19 +92,14 @@ impl Parts {
     pub(crate) fn across(mesh: &Mesh) -> Self {
         let parts = Self::new(mesh);
         let faces = mesh.spans.iter().map(|span| span.len() + 1).sum();
-        let mut end = parts.len();
-        let mut next = |count: usize| {
-            let start = end;
-            end += count;
-            start..end
-        };
+        let mut places = Places::after(parts.len());
         let across = AcrossParts {
-            displacement: next(faces),
-            velocity: next(faces),
-            angle: next(mesh.arcs.len()),
-            gravity: next(1).start,
-            run_out: next(1).start,
-            damped: next(1).start,
+            displacement: places.next(faces),
+            velocity: places.next(faces),
+            angle: places.next(mesh.arcs.len()),
+            gravity: places.one(),
+            run_out: places.one(),
+            damped: places.one(),
         };
         Self {
             across: Some(across),

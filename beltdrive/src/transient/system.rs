@@ -119,7 +119,7 @@ impl System {
     /// Kinetic energy of pulleys and belt and strain energy of the belt, J.
     pub(crate) fn energy(&self, state: &[f64]) -> f64 {
         let speeds = self.wheels.iter().zip(&state[self.parts.speed.clone()]);
-        let pulleys = speeds.map(|(wheel, speed)| 0.5 * wheel.axle.inertia * speed * speed);
+        let pulleys = speeds.map(|(wheel, speed)| wheel.energy(*speed));
         let lengths = &self.mesh.lengths;
         let density = &state[self.parts.density.clone()];
         let velocity = &state[self.parts.velocity.clone()];
@@ -138,6 +138,11 @@ impl System {
 }
 
 impl Wheel {
+    /// Its kinetic energy at a speed in rad/s, J.
+    pub(super) fn energy(&self, speed: f64) -> f64 {
+        0.5 * self.axle.inertia * speed * speed
+    }
+
     /// R²/J, by which a force at the rim accelerates it, 1/kg; 0 without an inertia, as of a given speed.
     pub(super) fn mobility(&self) -> f64 {
         match self.axle.inertia > 0.0 {

@@ -19,20 +19,25 @@ use beltdrive::{
     Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, NormalForce, Pulley, Sense, simulate,
 };
 
+/// A flat belt with a mass per length in kg/m and an axial stiffness in N, in the convention of runs in time.
+pub(crate) fn flat_belt(mass_per_length: f64, axial_stiffness: f64) -> Belt {
+    Belt {
+        mass_per_length,
+        axial_stiffness,
+        kind: BeltKind::Flat {
+            normal_force: NormalForce::Exact,
+        },
+        ribs: 1,
+    }
+}
+
 /// The belt and the pulleys of Kim (2009), table 2: the driver first, then the driven pulley.
 pub(crate) fn kim(stiffness: f64, strain: f64, torque: f64) -> Drive {
     let axial_stiffness = 80_068.0;
     let pulley = |name, x, duty| Pulley::new(name, [x, 0.0], 0.08125, 1.2, duty);
     Drive {
         title: None,
-        belt: Belt {
-            mass_per_length: 0.1036,
-            axial_stiffness,
-            kind: BeltKind::Flat {
-                normal_force: NormalForce::Exact,
-            },
-            ribs: 1,
-        },
+        belt: flat_belt(0.1036, axial_stiffness),
         law: FrictionLaw::Epp { stiffness },
         sense: Sense::CounterClockwise,
         turning_number: 1,

@@ -1,14 +1,12 @@
 //! Random loops of two to five pulleys: from rest to the steady state of the closed form, or refused by both.
 
-use super::{driver, from_rest, loaded};
+use super::{driver, flat_belt, from_rest, loaded};
 use crate::random::Random;
 use beltdrive::belt_loop::solve;
 use beltdrive::transient::{
     Ending, History, Load, Schedule, TransientError, TransientEventKind, Until,
 };
-use beltdrive::{
-    Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, NormalForce, Pulley, Sense, simulate,
-};
+use beltdrive::{Closure, Drive, Duty, FrictionLaw, Pulley, Sense, simulate};
 use std::f64::consts::TAU;
 
 /// Time in which the driver comes up to speed, s; the loads rise after it.
@@ -69,14 +67,7 @@ fn drive(random: &mut Random) -> Drive {
     });
     Drive {
         title: None,
-        belt: Belt {
-            mass_per_length,
-            axial_stiffness,
-            kind: BeltKind::Flat {
-                normal_force: NormalForce::Exact,
-            },
-            ribs: 1,
-        },
+        belt: flat_belt(mass_per_length, axial_stiffness),
         law: FrictionLaw::Epp { stiffness },
         sense: Sense::CounterClockwise,
         turning_number: 1,

@@ -1,11 +1,10 @@
 //! From the steady state of a drive with a V-belt to its equations in time, and the state at time 0.
 
 use super::super::history::Entry;
-use super::super::initial::{interpolated, stretches};
+use super::super::initial::{interpolated, stretches, wheels};
 use super::super::mesh::Mesh;
 use super::super::simulation::{Simulation, TransientError};
 use super::super::statement::{self, refuse};
-use super::super::system::Wheel;
 use super::rates::Rates;
 use super::state::Parts;
 use super::system::System;
@@ -37,12 +36,6 @@ pub(crate) fn system(
         parts.push([pulley.radius * known.wrap, found.spans[index].length]);
     }
     let mesh = Mesh::new(&stretches(simulation.cells, &parts));
-    let wheels = drive.pulleys.iter().zip(&simulation.axles);
-    let wheels = wheels.map(|(pulley, axle)| Wheel {
-        radius: pulley.radius,
-        friction_coefficient: pulley.friction_coefficient,
-        axle: axle.clone(),
-    });
     let (sine, cosine) = belt.half_angle.sin_cos();
     Ok(System {
         mass: drive.belt.mass_per_length,
@@ -51,7 +44,7 @@ pub(crate) fn system(
         bristle_stiffness: stiffness,
         radial_stiffness: belt.radial_stiffness,
         groove: [sine, cosine],
-        wheels: wheels.collect(),
+        wheels: wheels(simulation),
         parts: Parts::new(&mesh),
         mesh,
     })

@@ -100,17 +100,12 @@ impl<'s> Rates<'s> {
         let room = || vec![0.0; cells];
         let closed = || vec![0.0; cells + 1];
         let measures = mesh.arcs.iter().zip(&system.wheels);
-        let share = |face: usize| {
-            let [behind, before] =
-                [(face + cells - 1) % cells, face].map(|cell| mesh.lengths[cell]);
-            [before, behind].map(|other| other / (behind + before))
-        };
         Self {
             measures: measures
                 .map(|(arc, wheel)| Measure::new(wheel.radius, mesh.lengths[arc.start]))
                 .collect(),
             per_cell: mesh.lengths.iter().map(|length| length.recip()).collect(),
-            shares: (0..cells).map(share).collect(),
+            shares: mesh.shares(),
             time: 0.0,
             depths: faces().map(|faces| vec![0.0; faces]).collect(),
             balances: faces().map(Balance::new).collect(),
@@ -531,15 +526,8 @@ impl Dynamics for Rates<'_> {
         self.faces(rates);
         self.sink(state, rates);
         self.slip(state, rates);
-        let mut turnover = 0.0;
-        let speeds = &state[parts.speed.clone()];
-        self.axles
-            .turn(wheels, time, speeds, |pulley, change, power| {
-                rates[parts.speed.start + pulley] = change;
-                rates[parts.work.start + pulley] = power;
-                turnover += power.abs();
-            });
-        rates[parts.turnover] = turnover;
+        let places = (&parts.speed, &parts.work, parts.turnover);
+        self.axles.turn((wheels, time), places, state, rates);
     }
 
     /// That of the fastest axial wave between two cells with the belt held by its bristles, of axial damping, of bristles

@@ -1,6 +1,7 @@
 //! The state of a drive with a V-belt on the mesh, as one list of numbers.
 
 use super::super::mesh::Mesh;
+use super::super::state::Places;
 use std::ops::Range;
 
 /// Where the parts of a state stand in its list.
@@ -32,23 +33,18 @@ impl Parts {
     /// The parts of a state on a mesh.
     pub(crate) fn new(mesh: &Mesh) -> Self {
         let (cells, pulleys) = (mesh.cells(), mesh.arcs.len());
-        let mut end = 0;
-        let mut next = |count: usize| {
-            let start = end;
-            end += count;
-            start..end
-        };
+        let mut places = Places::after(0);
         Self {
-            amount: next(cells),
-            velocity: next(cells),
-            along: next(mesh.bristle_cells()),
-            up: next(mesh.bristle_cells()),
-            speed: next(pulleys),
-            work: next(pulleys),
-            damped: next(1).start,
-            friction: next(1).start,
-            compression: next(1).start,
-            turnover: next(1).start,
+            amount: places.next(cells),
+            velocity: places.next(cells),
+            along: places.next(mesh.bristle_cells()),
+            up: places.next(mesh.bristle_cells()),
+            speed: places.next(pulleys),
+            work: places.next(pulleys),
+            damped: places.one(),
+            friction: places.one(),
+            compression: places.one(),
+            turnover: places.one(),
         }
     }
 

@@ -53,7 +53,7 @@ impl System {
     pub(crate) fn energy(&self, state: &[f64], lengths: &[f64]) -> f64 {
         let parts = &self.parts;
         let speeds = self.wheels.iter().zip(&state[parts.speed.clone()]);
-        let pulleys = speeds.map(|(wheel, speed)| 0.5 * wheel.axle.inertia * speed * speed);
+        let pulleys = speeds.map(|(wheel, speed)| wheel.energy(*speed));
         let amount = &state[parts.amount.clone()];
         let velocity = &state[parts.velocity.clone()];
         let cells = amount.len();
