@@ -6,6 +6,7 @@
 
 /// The rates of the bristles of an arc in m/s, from their displacements in m, the velocity of the belt and that of
 /// the rim in m/s, and the length of a cell in m.
+#[inline(always)]
 pub(crate) fn transport(
     rates: &mut [f64],
     bristles: &[f64],
@@ -41,6 +42,7 @@ pub(crate) fn weights(cell: usize, cells: usize) -> (usize, [f64; 4]) {
 }
 
 /// Six times the differences at the entry: in the first and in the second cell, from the first three.
+#[inline(always)]
 fn at_entry(b: [f64; 3]) -> [f64; 2] {
     let before = -2.0 * b[0] + b[1] / 3.0;
     [
@@ -50,15 +52,18 @@ fn at_entry(b: [f64; 3]) -> [f64; 2] {
 }
 
 /// Six times the difference inside, of the cell with one behind it and two before it.
+#[inline(always)]
 fn inside(b: [f64; 4]) -> f64 {
     2.0 * b[3] + 3.0 * b[2] - 6.0 * b[1] + b[0]
 }
 
 /// Six times the difference in the last cell.
+#[inline(always)]
 fn at_exit(b: [f64; 4]) -> f64 {
     11.0 * b[3] - 18.0 * b[2] + 9.0 * b[1] - 2.0 * b[0]
 }
 
+#[inline(always)]
 fn along(rates: &mut [f64], b: &[f64], velocity: &[f64], rim: f64, per_six: f64) {
     let last = b.len() - 1;
     let [first, second] = at_entry([b[0], b[1], b[2]]);

@@ -6,6 +6,7 @@
 use super::dynamics::Dynamics;
 use super::schedule::Schedule;
 use super::simulation::StepBound;
+use pulp::{Arch, NullaryFnOnce};
 
 /// Radius of the half disc in the left half plane in which the method is stable: 2.78 on the real axis, 2.82 on
 /// the imaginary one, rounded down.
@@ -15,11 +16,38 @@ const STABLE: f64 = 2.7;
 /// at it, by far less than a tenth of the speed of waves.
 const SAFETY: f64 = 0.9;
 
+/// The way to the next evaluation, compiled as [`Rates`](super::rates::Rates) are.
+struct Advance<'r> {
+    /// What rates are multiplied by in the sum and on the way, s.
+    by: [f64; 2],
+    from: &'r [f64],
+    rates: &'r [f64],
+    sum: &'r mut [f64],
+    to: &'r mut [f64],
+}
+
+impl NullaryFnOnce for Advance<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let count = self.to.len();
+        let (from, rates) = (&self.from[..count], &self.rates[..count]);
+        let (sum, to) = (&mut self.sum[..count], &mut self.to[..count]);
+        let [weight, ahead] = self.by;
+        for index in 0..count {
+            sum[index] += weight * rates[index];
+            to[index] = from[index] + ahead * rates[index];
+        }
+    }
+}
+
 /// A Runge–Kutta step and what it works with.
 pub(crate) struct Explicit {
     rates: Vec<f64>,
     from: Vec<f64>,
     sum: Vec<f64>,
+    arch: Arch,
 }
 
 impl Explicit {
@@ -30,6 +58,7 @@ impl Explicit {
             rates: room(),
             from: room(),
             sum: room(),
+            arch: Arch::new(),
         }
     }
 
@@ -57,13 +86,13 @@ impl Explicit {
         // Weight of the rates in the sum, place of the next evaluation.
         for [weight, next] in [[1.0 / 6.0, 0.5], [1.0 / 3.0, 0.5], [1.0 / 3.0, 1.0]] {
             let (weight, ahead) = (weight * step, next * step);
-            let count = state.len();
-            let (from, known) = (&self.from[..count], &self.rates[..count]);
-            let sums = &mut self.sum[..count];
-            for index in 0..count {
-                sums[index] += weight * known[index];
-                state[index] = from[index] + ahead * known[index];
-            }
+            self.arch.dispatch(Advance {
+                by: [weight, ahead],
+                from: &self.from,
+                rates: &self.rates,
+                sum: &mut self.sum,
+                to: state,
+            });
             self.stop(rates, time, state);
             rates.of(time + ahead, state, &mut self.rates);
         }

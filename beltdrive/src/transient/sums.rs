@@ -4,6 +4,7 @@
 pub(super) const LANES: usize = 4;
 
 /// The sum of a list.
+#[inline(always)]
 pub(super) fn total(list: &[f64]) -> f64 {
     let mut parts = [0.0; LANES];
     let chunks = list.chunks_exact(LANES);
@@ -17,6 +18,7 @@ pub(super) fn total(list: &[f64]) -> f64 {
 }
 
 /// The sum of the products of two lists.
+#[inline(always)]
 pub(super) fn dot(one: &[f64], other: &[f64]) -> f64 {
     let mut parts = [0.0; LANES];
     let (ones, others) = (one.chunks_exact(LANES), other.chunks_exact(LANES));
