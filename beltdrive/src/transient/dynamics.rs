@@ -37,8 +37,8 @@ pub(crate) trait Dynamics: Sized {
     /// its inverse.
     fn fastest(&self, state: &[f64]) -> (f64, StepBound);
 
-    /// Implicit steps from a state, none longer than asked for in s; `None` where all steps have to be explicit.
-    fn implicit(&self, state: &[f64], longest: f64) -> Option<Self::Implicit>;
+    /// Implicit steps from a state; `None` where all steps have to be explicit.
+    fn implicit(&self, state: &[f64], limits: StepLimits) -> Option<Self::Implicit>;
 
     /// Speed √(EA/m) of axial waves against the belt, m/s.
     fn wave_speed(&self) -> f64;
@@ -83,6 +83,17 @@ pub(crate) trait Dynamics: Sized {
 
     /// What makes a state one that no belt has.
     fn impossible(&self, state: &[f64]) -> Option<&'static str>;
+}
+
+/// What implicit steps keep to.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StepLimits {
+    /// The longest step, s.
+    pub(crate) longest: f64,
+    /// The shortest step that the first ones may lead to, in explicit steps.
+    pub(crate) shortest: f64,
+    /// The largest error of a step, in the scales of the state.
+    pub(crate) tolerance: f64,
 }
 
 /// Implicit steps over rates.

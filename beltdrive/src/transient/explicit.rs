@@ -6,6 +6,7 @@
 use super::dynamics::Dynamics;
 use super::schedule::Schedule;
 use super::simulation::StepBound;
+use super::system::Wheel;
 use pulp::{Arch, NullaryFnOnce};
 
 /// Radius of the half disc in the left half plane in which the method is stable: 2.78 on the real axis, 2.82 on
@@ -126,16 +127,25 @@ pub(crate) fn stable_step(rates: &impl Dynamics, state: &[f64]) -> f64 {
 /// The step of [`stable_step`], and what bounds it.
 pub(crate) fn bounded_step(rates: &impl Dynamics, state: &[f64]) -> (f64, StepBound) {
     let of_axles = rates.wheels().iter().enumerate().map(|(pulley, wheel)| {
-        let given = wheel.axle.schedule().into_iter().flatten();
-        let sines = given.filter_map(Schedule::pulsation);
-        let sine = sines.fold(0.0, |fastest: f64, sine| {
-            fastest.max(PER_SINE * sine.angular_frequency)
-        });
         let torque = (wheel.axle.rate(), StepBound::Torque { pulley });
-        larger(torque, (sine, StepBound::Pulsation { pulley }))
+        larger(torque, (of_sines(wheel), StepBound::Pulsation { pulley }))
     });
     let (rate, bound) = of_axles.fold(rates.fastest(state), larger);
     (SAFETY * STABLE / rate, bound)
+}
+
+/// The longest step that resolves the sines that the axles of pulleys are given over time, s.
+pub(crate) fn step_of_sines(wheels: &[Wheel]) -> f64 {
+    SAFETY * STABLE / wheels.iter().map(of_sines).fold(0.0, f64::max)
+}
+
+/// The largest rate of sines that the axle of a pulley is given over time, 1/s.
+fn of_sines(wheel: &Wheel) -> f64 {
+    let given = wheel.axle.schedule().into_iter().flatten();
+    let sines = given.filter_map(Schedule::pulsation);
+    sines.fold(0.0, |fastest: f64, sine| {
+        fastest.max(PER_SINE * sine.angular_frequency)
+    })
 }
 
 /// The larger one of two rates, with what it is of.

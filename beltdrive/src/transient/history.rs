@@ -65,7 +65,7 @@ pub struct Effort {
     pub steps: usize,
     /// The shortest and the longest time step, s.
     pub step: [f64; 2],
-    /// What the implicit steps among them took; none are taken but on the way to a steady state.
+    /// What the implicit steps among them took: those on the way to a steady state and in runs of many steps.
     pub implicit: ImplicitWork,
     /// Time that it took, s.
     pub seconds: f64,

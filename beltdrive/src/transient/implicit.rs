@@ -23,7 +23,7 @@
 //! steady state: with n = 16 the tight tension of 728 N is off by 0.31 N, with n = 4 by 1.1 N, in as many steps.
 
 use super::bordered::Bordered;
-use super::dynamics::{Dynamics, ImplicitSteps};
+use super::dynamics::{Dynamics, ImplicitSteps, StepLimits};
 use super::explicit::stable_step;
 use super::jacobian::{Unknowns, derivatives, of_cap};
 use super::ledger::{BOUND, Ledger};
@@ -45,9 +45,6 @@ const ERROR: [f64; 3] = [
     DIAGONAL * (1.0 - 1.0 / 3.0),
 ];
 
-/// Largest error of a step, in the scales of [`Implicit::new`]: the steady state does not depend on it.
-const TOLERANCE: f64 = 1e-3;
-
 /// Newton's method ends with a correction of this share of the largest error, or of the change in a stage where that is
 /// smaller: what it leaves is not taken for a motion, and dies out with it on the way to a steady state.
 const NEWTON: f64 = 1e-2;
@@ -64,6 +61,9 @@ const MOST_ITERATIONS: usize = 15;
 
 /// A step that takes other derivatives has to be longer by this, which pays for a factorisation of its own.
 const WORTHWHILE: f64 = 1.2;
+
+/// A step that makes the next one longer by less has found the length that errors allow, but for a factor of a few.
+const GROWTH: f64 = 2.0;
 
 /// Largest energy that a step may win or lose beside what the ledger accounts for, in shares of the energy of the state
 /// and of the work in the step: a run of a thousand such steps closes with half of the bound.
@@ -109,17 +109,19 @@ pub(crate) struct Implicit {
     /// Length of the next step, s.
     next: f64,
     first: f64,
-    longest: f64,
+    /// Whether steps have become longer and longer since the last start.
+    is_growing: bool,
+    limits: StepLimits,
     work: ImplicitWork,
 }
 
 impl Implicit {
-    /// Steps from a state of a system, none longer than asked for in s.
+    /// Steps from a state of a system.
     ///
     /// Errors are measured by what belongs to the mean strain ε of that state: ε itself in the densities, the velocity
     /// ε √(EA/m) of a wave with that strain, that velocity over the radius in the speeds, and the largest displacement of
     /// the bristles.
-    pub(crate) fn new(rates: &Rates<'_>, state: &[f64], longest: f64) -> Self {
+    pub(crate) fn new(rates: &Rates<'_>, state: &[f64], limits: StepLimits) -> Self {
         let system = rates.system;
         let unknowns = Unknowns::new(system);
         let cells = system.mesh.cells();
@@ -168,7 +170,7 @@ impl Implicit {
             places[unknown] = Some(place);
         }
         let room = || vec![0.0; state.len()];
-        let first = stable_step(rates, state).min(longest);
+        let first = stable_step(rates, state).min(limits.longest);
         Self {
             unknowns,
             places,
@@ -189,9 +191,20 @@ impl Implicit {
             side: vec![0.0; inner.len()],
             next: first,
             first,
-            longest,
+            is_growing: true,
+            limits,
             work: ImplicitWork::default(),
         }
+    }
+
+    /// Whether its longest steps pay.
+    pub(crate) fn is_worthwhile(&self) -> bool {
+        self.pays(self.limits.longest)
+    }
+
+    /// Whether a step of a length in s is as long as one has to be.
+    fn pays(&self, step: f64) -> bool {
+        step >= self.limits.shortest * self.first
     }
 
     /// Whether the speed of a pulley has changed its sign under a load that opposes motion.
@@ -239,7 +252,7 @@ impl Implicit {
         }
         // What is stiff is filtered from the estimate.
         self.matrix.solve(&mut self.side);
-        let error = self.norm() / TOLERANCE + self.unaccounted(rates.system, state);
+        let error = self.norm() / self.limits.tolerance + self.unaccounted(rates.system, state);
         error.is_finite().then_some(error)
     }
 
@@ -293,7 +306,7 @@ impl Implicit {
         for (value, &(index, _)) in self.side.iter_mut().zip(&self.order) {
             *value = ahead * self.slopes[0][index];
         }
-        let enough = (NEWTON * self.norm().min(TOLERANCE)).max(ROUNDING);
+        let enough = (NEWTON * self.norm().min(self.limits.tolerance)).max(ROUNDING);
         let mut refresh = self.factorised != ahead;
         let mut last = f64::INFINITY;
         for _ in 0..MOST_ITERATIONS {
@@ -425,6 +438,7 @@ impl ImplicitSteps<Rates<'_>> for Implicit {
             }
         }
         self.next = self.first;
+        self.is_growing = true;
     }
 
     fn changes(&self) -> &[f64] {
@@ -474,11 +488,12 @@ impl ImplicitSteps<Rates<'_>> for Implicit {
             // No step is left that is much shorter than the others.
             let step = match self.next {
                 next if next >= 0.999 * left => left,
-                next if 2.0 * next > left && next < self.longest => 0.5 * left,
+                next if 2.0 * next > left && next < self.limits.longest => 0.5 * left,
                 next => next,
             };
-            // An explicit step would be as long, and takes a tenth of the time.
-            if step < 0.5 * self.first.min(left) {
+            // Not even the first steps are as short, half of one that is shared between two aside.
+            let is_tiny = step < 0.5 * self.first.min(left);
+            if is_tiny || !self.is_growing && !self.pays(self.next) {
                 return None;
             }
             let error = self.attempt(rates, time, step, state);
@@ -490,14 +505,17 @@ impl ImplicitSteps<Rates<'_>> for Implicit {
             let factor = error.map_or(0.25, |error| (0.9 * error.powf(-1.0 / 3.0)).clamp(0.2, 4.0));
             if error.is_some_and(|error| error <= 1.0) {
                 self.work.steps += 1;
+                self.is_growing &= factor > GROWTH;
                 let longer = if !(1.0..=WORTHWHILE).contains(&factor) {
                     factor
                 } else {
                     1.0
                 };
-                self.next = (self.next.min(step.max(0.5 * self.next)) * longer).min(self.longest);
+                self.next =
+                    (self.next.min(step.max(0.5 * self.next)) * longer).min(self.limits.longest);
                 return Some(if step == left { stop } else { time + step });
             }
+            self.is_growing = false;
             self.next = step * factor.min(0.5);
             state.copy_from_slice(&self.from);
         }

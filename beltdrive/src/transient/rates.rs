@@ -13,7 +13,7 @@
 
 use super::axles::Axles;
 use super::bristle::transport;
-use super::dynamics::Dynamics;
+use super::dynamics::{Dynamics, StepLimits};
 use super::explicit::{PER_SINE, larger, with_waves};
 use super::implicit::Implicit;
 use super::ledger::Ledger;
@@ -394,10 +394,10 @@ impl Dynamics for Rates<'_> {
             .fold(first, larger)
     }
 
-    fn implicit(&self, state: &[f64], longest: f64) -> Option<Implicit> {
+    fn implicit(&self, state: &[f64], limits: StepLimits) -> Option<Implicit> {
         let is_straight = self.system.across.is_none();
         let has_steps = is_straight && !self.system.resistance.damps_bristles();
-        has_steps.then(|| Implicit::new(self, state, longest))
+        { has_steps.then(|| Implicit::new(self, state, limits)) }.filter(Implicit::is_worthwhile)
     }
 
     fn wave_speed(&self) -> f64 {

@@ -28,9 +28,9 @@ impl Stillness {
         }
     }
 
-    /// Whether a time in s is after the last corner of what is given over time.
-    pub(crate) fn is_after_corners(&self, time: f64) -> bool {
-        time >= self.corner
+    /// The time of the last corner of what is given over time, s.
+    pub(crate) fn last_corner(&self) -> f64 {
+        self.corner
     }
 
     /// Looks at a state and its rates at the time of a sample in s; whether it is steady.
@@ -47,7 +47,7 @@ impl Stillness {
             rims.fold(0.0, f64::max)
         };
         let is_still = rates.unrest(state, changes) < STILL && rims(changes) <= STILL * rims(state);
-        self.still = match is_still && self.is_after_corners(time) {
+        self.still = match is_still && time >= self.corner {
             true => self.still + 1,
             false => 0,
         };

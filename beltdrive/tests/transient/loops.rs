@@ -5,7 +5,7 @@ use beltdrive::belt_loop::solve;
 use beltdrive::transient::{Load, Schedule, Start};
 use beltdrive::{Drive, examples, input};
 
-fn example(name: &str, changes: &[&str]) -> Drive {
+pub(crate) fn example(name: &str, changes: &[&str]) -> Drive {
     let example = examples::find(name).expect("a shipped example");
     let changes: Vec<_> = changes.iter().map(|change| (*change).to_owned()).collect();
     input::parse(example.name, example.text, &changes).unwrap()

@@ -4,6 +4,7 @@
 mod events;
 mod laws;
 mod load_step;
+mod long_runs;
 mod loops;
 #[path = "../support/random.rs"]
 mod random;

@@ -1,7 +1,7 @@
 //! The way to the steady state with both integrators.
 
 use super::super::axle::{Axle, Load, Motion};
-use super::super::dynamics::{Dynamics, ImplicitSteps};
+use super::super::dynamics::{Dynamics, ImplicitSteps, StepLimits};
 use super::super::implicit::{Implicit, ImplicitWork};
 use super::super::ledger::Ledger;
 use super::super::schedule::Schedule;
@@ -42,7 +42,15 @@ fn implicitly(system: &System, end: f64) -> (Vec<f64>, ImplicitWork) {
     let mut state = running(system);
     let mut rates = Rates::new(system);
     let mut changes = vec![0.0; state.len()];
-    let mut implicit = Implicit::new(&rates, &state, 0.1);
+    let mut implicit = Implicit::new(
+        &rates,
+        &state,
+        StepLimits {
+            longest: 0.1,
+            shortest: 0.0,
+            tolerance: 1e-3,
+        },
+    );
     rates.begin(0.0);
     rates.of(0.0, &mut state, &mut changes);
     implicit.begin(&rates, &state, &changes);

@@ -13,7 +13,7 @@
 
 use super::super::axles::Axles;
 use super::super::bristle::slopes;
-use super::super::dynamics::Dynamics;
+use super::super::dynamics::{Dynamics, StepLimits};
 use super::super::explicit::{larger, with_waves};
 use super::super::ledger::Ledger;
 use super::super::mesh::Mesh;
@@ -575,7 +575,7 @@ impl Dynamics for Rates<'_> {
         saturating.fold(larger(elastic, (damping, StepBound::AxialDamping)), larger)
     }
 
-    fn implicit(&self, _: &[f64], _: f64) -> Option<Infallible> {
+    fn implicit(&self, _: &[f64], _: StepLimits) -> Option<Infallible> {
         None
     }
 
