@@ -62,6 +62,9 @@ const MOST_ITERATIONS: usize = 15;
 /// A step that takes other derivatives has to be longer by this, which pays for a factorisation of its own.
 const WORTHWHILE: f64 = 1.2;
 
+/// The field of the bristles, or of creep-rate friction.
+const FRICTION: usize = 2;
+
 /// A step that makes the next one longer by less has found the length that errors allow, but for a factor of a few.
 const GROWTH: f64 = 2.0;
 
@@ -150,7 +153,7 @@ impl Implicit {
             inner.push((unknowns.velocity(cell), 1, velocity));
             if arcs.get(bristle).is_some_and(|on| on.1 == cell) {
                 let scale = displacement(arcs[bristle].0);
-                inner.push((unknowns.bristle(bristle), 2, scale));
+                inner.push((unknowns.bristle(bristle), FRICTION, scale));
                 bristle += 1;
             }
         }
@@ -252,6 +255,12 @@ impl Implicit {
         }
         // What is stiff is filtered from the estimate.
         self.matrix.solve(&mut self.side);
+        if let Resistance::Creep { .. } = rates.system.resistance {
+            // Friction follows the speeds without a rate of its own, and has no error but theirs.
+            for (value, &field) in self.side.iter_mut().zip(&self.fields) {
+                *value *= f64::from(u8::from(field != FRICTION));
+            }
+        }
         let error = self.norm() / self.limits.tolerance + self.unaccounted(rates.system, state);
         error.is_finite().then_some(error)
     }
@@ -497,13 +506,13 @@ impl ImplicitSteps<Rates<'_>> for Implicit {
                 return None;
             }
             let error = self.attempt(rates, time, step, state);
-            if error.is_some() && self.stops(rates, time, state) {
-                state.copy_from_slice(&self.from);
-                return None;
-            }
             // The error is in proportion to the third power.
             let factor = error.map_or(0.25, |error| (0.9 * error.powf(-1.0 / 3.0)).clamp(0.2, 4.0));
             if error.is_some_and(|error| error <= 1.0) {
+                if self.stops(rates, time, state) {
+                    state.copy_from_slice(&self.from);
+                    return None;
+                }
                 self.work.steps += 1;
                 self.is_growing &= factor > GROWTH;
                 let longer = if !(1.0..=WORTHWHILE).contains(&factor) {

@@ -161,7 +161,7 @@ const MANY: f64 = 1e6;
 /// Explicit steps that take as long as an implicit one of a history: 28 with 240 cells.
 const PAYS: f64 = 25.0;
 
-/// Longest implicit step in intervals between samples. A steady state is told from five steps one after the other, and a
+/// Longest implicit step towards a steady state in intervals between samples. A steady state is told from five steps one after the other, and a
 /// step ten times as long as what decays takes a seventh of that with it, its sense turned: with 100 `soft-start` was not
 /// steady at 6 s and with 20 not at 3 s, where explicit steps find it steady at 2.35 s.
 const LONGEST: f64 = 5.0;
@@ -238,13 +238,12 @@ impl<R: Dynamics> Run<R> {
     /// What implicit steps keep to. A steady state does not depend on the errors of the way; tensions in the seconds after a
     /// load step on a stiff drive are off by 0.6 N with 1e-3, and by 0.15 N with 1e-4 in as much time.
     fn limits(&self) -> StepLimits {
-        let sines = step_of_sines(self.rates.wheels());
-        let (shortest, tolerance) = match self.until {
-            Until::Steady { .. } => (0.0, 1e-3),
-            _ => (PAYS, 1e-4),
+        let (intervals, shortest, tolerance) = match self.until {
+            Until::Steady { .. } => (LONGEST, 0.0, 1e-3),
+            _ => (f64::INFINITY, PAYS, 1e-4),
         };
         StepLimits {
-            longest: sines.min(LONGEST * self.interval),
+            longest: step_of_sines(self.rates.wheels()).min(intervals * self.interval),
             shortest,
             tolerance,
         }
