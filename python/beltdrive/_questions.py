@@ -129,8 +129,9 @@ def modes(
     """At which frequencies does the running belt vibrate, and how fast do they die out?
 
     The ``count`` lowest axial and torsional modes, 1 to 40, about the steady state of a flat belt with
-    elastic/perfectly-plastic friction, and the transverse frequencies of its spans; with ``stop``, also over speeds of the driver from ``start``, a tenth of
-    ``stop`` unless given. ``[transient]`` of the drive file gives the inertia of the pulleys.
+    elastic/perfectly-plastic or creep-rate friction, and the transverse frequencies of its spans; with ``stop``, also
+    over speeds of the driver from ``start``, a tenth of ``stop`` unless given. ``[transient]`` of the drive file gives
+    the inertia of the pulleys.
     """
     ends = [None if end is None else quantity(name, end) for name, end in (("start", start), ("stop", stop))]
     return Answer(_native.modes(stated(drive, 1e-6, overrides), count, ends[0], ends[1]))

@@ -9,7 +9,7 @@ use crate::transient::{
     Cells, Motion, Schedule, Simulation, Start, TransientError, Until, VibrationMode, initial,
     statement, vibration,
 };
-use crate::{BeltKind, Drive, FrictionLaw, SolveOptions, ZoneKind};
+use crate::{BeltKind, Drive, SolveOptions, ZoneKind};
 
 /// What is asked of the modes of a drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +48,8 @@ pub struct Modes {
     pub arcs: Vec<[f64; 2]>,
     /// Axial and torsional modes with the slip zones of the steady state held, in the order of frequency.
     pub slipping: Vec<VibrationMode>,
-    /// The same where the belt sticks on all of the contacts, as without load.
+    /// The same where friction is below its limit on all of the contacts, as without load: bristles stick, and with
+    /// creep-rate friction the belt creeps.
     pub sticking: Vec<VibrationMode>,
     /// The modes at other speeds, in ascending order; empty unless asked for.
     pub over_speed: Vec<ModesAtSpeed>,
@@ -73,11 +74,12 @@ const SPEEDS: usize = 25;
 
 /// The axial and torsional modes of a drive about its steady state.
 ///
-/// The steady state is that of the drive itself; of the simulation, axles, axial damping and cells count, not how it
-/// starts and ends. Pulleys whose speed is given over time keep that of the steady state; the torque of a motor over
+/// The steady state is that of the drive itself; of the simulation, axles, damping and cells count, not how it starts
+/// and ends. Pulleys whose speed is given over time keep that of the steady state; the torque of a motor over
 /// speed counts by its slope there. The equations are those of [`simulate`](crate::simulate()) on its mesh, linearised
-/// about the steady state with its slip zones held. Told are vibrations with less than a fifth of the critical damping
-/// on which a mesh with half the cells agrees.
+/// about the steady state with its slip zones held. Damping `c_f` of bristles acts where friction is below its limit; it
+/// is left out of the steady state itself, whose slip zones it moves by the order of `c_f`/`k_f` times the belt speed.
+/// Told are vibrations with less than a fifth of the critical damping on which a mesh with half the cells agrees.
 ///
 /// Over a range of speeds the torques and the length of the belt are kept.
 ///
@@ -118,24 +120,11 @@ pub fn modes(
         return statement::refuse_key(
             "belt.type",
             "belt",
-            "only drives with flat belts have modes here",
+            "only flat belts have modes here: the depth of a V-belt in its grooves, and its contact with them, which \
+             moves, are not linearised",
         );
     }
     statement::check(&checked)?;
-    if let FrictionLaw::CreepRate { .. } = simulation.drive.law {
-        return statement::refuse_key(
-            "friction.law",
-            "friction",
-            "modes need elastic/perfectly-plastic friction (`epp`), not `creep-rate`",
-        );
-    }
-    if simulation.friction_damping > 0.0 {
-        return statement::refuse_key(
-            "transient.friction_damping",
-            "damping of friction",
-            "modes leave it out: set it to 0",
-        );
-    }
     if question.count == 0 {
         return statement::refuse("modes", "their number must be positive");
     }
@@ -193,7 +182,8 @@ pub fn modes(
     })
 }
 
-/// The modes about a steady state, at most so many, with its slip zones or as if the belt stuck; and the mesh.
+/// The modes about a steady state, at most so many, with its slip zones or as if friction were below its limit; and the
+/// mesh.
 fn about(
     simulation: &Simulation,
     drive: &Drive,
@@ -217,21 +207,25 @@ fn about(
     let fine = coarse.refined(2);
     let on = |system| -> Result<_, TransientError> {
         let running = initial::running(system, state)?;
-        let mut slipping = vec![false; system.mesh.bristle_cells()];
-        for (bristles, pulley) in system.mesh.bristles.iter().zip(&state.pulleys) {
-            let cells = bristles.len() as f64;
-            for (index, slipping) in slipping[bristles.clone()].iter_mut().enumerate() {
-                let at = (index as f64 + 0.5) / cells * pulley.wrap;
-                let mut zones = pulley.zones.iter();
-                *slipping = slips
-                    && zones.any(|zone| {
-                        zone.kind == ZoneKind::Slip && zone.from <= at && at <= zone.to
-                    });
-            }
-        }
-        Ok((system, running, slipping))
+        let slips = slips.then(|| slipping(&system.mesh, state));
+        Ok((system, running, slips))
     };
     let found = vibration::modes([on(&coarse)?, on(&fine)?], count);
     let found = found.ok_or(TransientError::Eigenvalues)?;
     Ok((found, fine.mesh))
+}
+
+/// Whether the belt slips in the cells of all arcs in a steady state.
+fn slipping(mesh: &Mesh, state: &LoopState) -> Vec<bool> {
+    let mut slipping = vec![false; mesh.bristle_cells()];
+    for (bristles, pulley) in mesh.bristles.iter().zip(&state.pulleys) {
+        let cells = bristles.len() as f64;
+        for (index, slipping) in slipping[bristles.clone()].iter_mut().enumerate() {
+            let at = (index as f64 + 0.5) / cells * pulley.wrap;
+            let mut zones = pulley.zones.iter();
+            *slipping =
+                zones.any(|zone| zone.kind == ZoneKind::Slip && zone.from <= at && at <= zone.to);
+        }
+    }
+    slipping
 }

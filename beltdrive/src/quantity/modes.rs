@@ -3,7 +3,7 @@
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value, belt_loop};
 use crate::belt_loop::LoopState;
 use crate::transient::VibrationMode;
-use crate::{Modes, ModesAtSpeed};
+use crate::{FrictionLaw, Modes, ModesAtSpeed};
 use std::f64::consts::TAU;
 
 /// A span is solved in closed form: so many digits are shown.
@@ -12,7 +12,8 @@ const SPAN: f64 = 0.0;
 /// Modes over speed that a table has room for.
 const SHOWN: usize = 4;
 
-/// The modes with the slip zones held and sticking, the spans, and the modes over speed if they were asked for.
+/// The modes with the slip zones held and with friction below its limit, the spans, and the modes over speed if they
+/// were asked for.
 pub fn answer(modes: &Modes) -> Answer {
     let drive = &modes.drive;
     let mut heading = belt_loop::heading(drive);
@@ -30,7 +31,11 @@ pub fn answer(modes: &Modes) -> Answer {
         Group::new(key, Layout::Rows, rows.collect())
     };
     groups.push(of("modes", "slip zones held", &modes.slipping));
-    groups.push(of("sticking_modes", "sticking", &modes.sticking));
+    let below_its_limit = match drive.law {
+        FrictionLaw::CreepRate { .. } => "creeping",
+        _ => "sticking",
+    };
+    groups.push(of("sticking_modes", below_its_limit, &modes.sticking));
     groups.push(Group::new("spans", Layout::Rows, spans(&modes.state)));
     groups.push(Group::single(
         "mesh",

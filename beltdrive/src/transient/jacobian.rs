@@ -1,8 +1,9 @@
 //! The derivatives of the rates, entry by entry.
 //!
 //! The unknowns are the densities of the cells, the velocities at the faces, the displacements of the bristles in the
-//! cells of all arcs and the speeds of all pulleys, in this order ([`Unknowns`]). Displacements are taken below their
-//! largest value here; [`of_cap`] has the derivatives of that value, for the cells that slip.
+//! cells of all arcs and the speeds of all pulleys, in this order ([`Unknowns`]). Friction is taken as `k_f` b here, which
+//! is what bristles below their largest displacement without damping have; [`of_cap`] has the derivatives of that
+//! displacement, for the cells that slip, and [`of_slip`] those of the slip velocity, for damping and creep.
 
 use super::bristle::weights;
 use super::rates::Rates;
@@ -90,6 +91,16 @@ pub(super) fn of_cap(rates: &Rates<'_>, pulley: usize, cell: usize) -> [(usize, 
         (unknowns.density(cell), per_cap * per_density),
         (unknowns.velocity(cell), per_speed),
         (unknowns.velocity(cell + 1), per_speed),
+    ]
+}
+
+/// Derivatives of the slip velocity v − R ω in a cell of the loop, which is one on a pulley: unknowns and values.
+pub(super) fn of_slip(system: &System, pulley: usize, cell: usize) -> [(usize, f64); 3] {
+    let unknowns = Unknowns::new(system);
+    [
+        (unknowns.velocity(cell), 0.5),
+        (unknowns.velocity(cell + 1), 0.5),
+        (unknowns.speed(pulley), -system.wheels[pulley].radius),
     ]
 }
 
@@ -216,9 +227,9 @@ fn axle(
     for (cell, bristle) in arc.clone().zip(own.clone()) {
         let per_force = wheel.radius * per_inertia;
         let stiffness = per_force * system.friction_stiffness() * system.mesh.lengths[cell];
-        let displaced = state[system.parts.bristle.start + bristle];
         let density = state[system.parts.density.start + 1 + cell];
-        entry(row, unknowns.density(cell), stiffness * displaced);
+        let held = per_force * rates.friction[cell + 1];
+        entry(row, unknowns.density(cell), held);
         entry(row, unknowns.bristle(bristle), stiffness * density);
     }
 }

@@ -39,7 +39,7 @@ pub(crate) struct Rates<'s> {
     pub(super) stretch: Vec<f64>,
     pub(super) stretching: Vec<f64>,
     pub(super) pressure: Vec<f64>,
-    friction: Vec<f64>,
+    pub(super) friction: Vec<f64>,
     /// Velocity in the middles of the cells, m/s.
     pub(super) middle: Vec<f64>,
     /// Mass flow over m through the faces, m/s.

@@ -51,19 +51,21 @@ const DAMPED: f64 = 0.2;
 /// many, is found to the root 1.5e-8 of rounding.
 const LEAST: f64 = 1e-7;
 
+/// Whether the belt slips in the cells of all arcs; `None` if friction is to be below its limit everywhere.
+pub(crate) type Slips = Option<Vec<bool>>;
+
 /// The modes of a drive about a state in the order of frequency, at most so many. The states are those on a mesh and on
-/// one with twice the cells, each with the cells of the arcs in which the belt slips; `None` if eigenvalues cannot be
-/// computed in finite arithmetic.
+/// one with twice the cells; `None` if eigenvalues cannot be computed in finite arithmetic.
 pub(crate) fn modes(
-    [coarse, fine]: [(&System, Vec<f64>, Vec<bool>); 2],
+    [coarse, fine]: [(&System, Vec<f64>, Slips); 2],
     count: usize,
 ) -> Option<Vec<VibrationMode>> {
-    let known = at((coarse.0, coarse.1, &coarse.2))
+    let known = at((coarse.0, coarse.1, coarse.2.as_deref()))
         .matrix
         .eigenvalues()
         .ok()?;
     let system = fine.0;
-    let found = at((system, fine.1, &fine.2));
+    let found = at((system, fine.1, fine.2.as_deref()));
     let eigen = found.matrix.eigen().ok()?;
     let values: Vec<c64> = eigen.S().column_vector().iter().copied().collect();
     let least = LEAST * found.matrix.norm_max();
@@ -86,7 +88,7 @@ pub(crate) fn modes(
 }
 
 /// A drive linearised about a state.
-fn at((system, mut state, slips): (&System, Vec<f64>, &[bool])) -> Linearised {
+fn at((system, mut state, slips): (&System, Vec<f64>, Option<&[bool]>)) -> Linearised {
     let mut rates = Rates::new(system);
     rates.begin(0.0);
     let mut changes = vec![0.0; state.len()];

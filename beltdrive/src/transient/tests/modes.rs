@@ -3,6 +3,7 @@
 use super::super::axle::{Axle, Load, Motion};
 use super::super::schedule::Schedule;
 use super::super::system::{Resistance, System};
+use super::super::vibration;
 use super::{STRETCH, follow, held, order, system};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -116,6 +117,29 @@ fn damped_bristles_let_torsion_decay() {
     let decay = (first / second).ln() / (0.5 * DURATION);
     println!("decay {decay} 1/s, known {known}");
     assert!((decay / known - 1.0).abs() < 0.01, "{decay} {known}");
+    // The eigenvalue is the same motion, and halves with the damping.
+    let eigenvalues = [1.0, 0.5].map(|share| {
+        let mut coarse = super::system(30, [1.2, stiffness], [free(0.005), held()]);
+        coarse.resistance = Resistance::Bristles {
+            stiffness,
+            damping: share * time * stiffness,
+        };
+        let fine = coarse.refined(2);
+        let states = [&coarse, &fine].map(|system| {
+            let state = system.parts.uniform(1.0 / STRETCH, 0.0);
+            (system, state, None)
+        });
+        vibration::modes(states, 1).expect("eigenvalues")[0].growth
+    });
+    println!("growth {eigenvalues:?}");
+    assert!(
+        (eigenvalues[0] / -decay - 1.0).abs() < 0.003,
+        "{eigenvalues:?} {decay}"
+    );
+    assert!(
+        (eigenvalues[0] / eigenvalues[1] - 2.0).abs() < 0.01,
+        "{eigenvalues:?}"
+    );
 }
 
 #[test]

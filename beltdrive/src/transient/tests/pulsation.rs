@@ -55,8 +55,7 @@ fn linear(system: &System, angular_frequency: f64) -> f64 {
     rates.begin(0.0);
     let mut changes = vec![0.0; state.len()];
     rates.of(0.0, &mut state, &mut changes);
-    let slips = vec![false; system.parts.bristle.len()];
-    let found = linearised(&rates, &state, &slips);
+    let found = linearised(&rates, &state, None);
     let speed = found.speed[0].expect("the driven pulley turns freely");
     let n = found.matrix.nrows();
     // Real and imaginary part one below the other.

@@ -214,10 +214,9 @@ fn torsion(inertia: f64) -> f64 {
     let systems = [40, 80].map(|cells| System {
         ..system(cells, [12.0, 2.0e8], [loaded(inertia, 0.0), held()])
     });
-    let states = systems.each_ref().map(|system| {
-        let slips = vec![false; system.mesh.bristle_cells()];
-        (system, system.parts.uniform(1.0 / STRETCH, 0.0), slips)
-    });
+    let states = systems
+        .each_ref()
+        .map(|system| (system, system.parts.uniform(1.0 / STRETCH, 0.0), None));
     let modes = vibration::modes(states, 1).expect("eigenvalues");
     modes[0].angular_frequency
 }
