@@ -51,3 +51,4 @@ pub(crate) mod state;
 pub(crate) mod system;
 #[cfg(test)]
 mod tests;
+mod told;
