@@ -15,6 +15,8 @@
 //! Its steps damp what vibrates faster than they are long, so that it leads to the steady state and follows no
 //! vibrations. No load may hold a pulley at rest within a step.
 //!
+//! Damped bristles have the friction `k_f` b + `c_f` (v − R ω) up to its limit μ n λ, where it follows that.
+//!
 //! Creep-rate friction has no bristles: in their place stands the friction q = μ n λ clip((v − R ω)/`v_c`) itself, with its
 //! derivatives.
 //!
@@ -25,7 +27,7 @@
 use super::bordered::Bordered;
 use super::dynamics::{Dynamics, ImplicitSteps, StepLimits};
 use super::explicit::stable_step;
-use super::jacobian::{Unknowns, derivatives, of_cap};
+use super::jacobian::{Unknowns, derivatives, of_cap, of_slip};
 use super::ledger::{BOUND, Ledger};
 use super::rates::Rates;
 use super::system::{Resistance, System};
@@ -391,15 +393,38 @@ impl Implicit {
         } = self;
         entries.clear();
         entries.extend((0..self.order.len()).map(|place| (place, place, 1.0)));
-        let creep = match rates.system.resistance {
-            Resistance::Bristles { .. } => None,
-            Resistance::Creep { velocity } => Some(velocity),
+        // What creep-rate friction is full at, m/s; c_f/k_f, s.
+        let (creep, damping) = match rates.system.resistance {
+            Resistance::Bristles { stiffness, damping } => (None, damping / stiffness),
+            Resistance::Creep { velocity } => (Some(velocity), 0.0),
         };
         derivatives(rates, state, &mut |row, column, value| {
             let is_carried = |bristle: usize| creep.is_none() && !slips[bristle];
             let at_bound = { unknowns.as_bristle(row) }.is_some_and(|bristle| !is_carried(bristle));
-            if let (false, Some(row), Some(column)) = (at_bound, places[row], places[column]) {
-                entries.push((row, column, -ahead * value));
+            let Some(row_place) = places[row].filter(|_| !at_bound) else {
+                return;
+            };
+            let mut add = |unknown: usize, value: f64| {
+                if let Some(column) = places[unknown] {
+                    entries.push((row_place, column, -ahead * value));
+                }
+            };
+            let damped = { unknowns.as_bristle(column) }
+                .filter(|_| damping > 0.0 && unknowns.as_bristle(row).is_none());
+            let Some(bristle) = damped else {
+                return add(column, value);
+            };
+            let (pulley, cell) = arcs[bristle];
+            let pulled = rates.pulled(state, [pulley, cell, bristle]);
+            if pulled.abs() >= rates.caps[bristle] {
+                for (unknown, slope) in of_cap(rates, pulley, cell) {
+                    add(unknown, value * pulled.signum() * slope);
+                }
+            } else {
+                add(column, value);
+                for (unknown, slope) in of_slip(rates.system, pulley, cell) {
+                    add(unknown, value * damping * slope);
+                }
             }
         });
         for (bristle, &(pulley, cell)) in arcs.iter().enumerate() {
@@ -424,11 +449,9 @@ impl Implicit {
             for (unknown, slope) in of_cap(rates, pulley, cell) {
                 add(unknown, share * slope);
             }
-            let radius = rates.system.wheels[pulley].radius;
-            for face in [cell, cell + 1] {
-                add(unknowns.velocity(face), 0.5 * rise);
+            for (unknown, slope) in of_slip(rates.system, pulley, cell) {
+                add(unknown, rise * slope);
             }
-            add(unknowns.speed(pulley), -radius * rise);
         }
         self.work.factorisations += 1;
         self.factorised = ahead;

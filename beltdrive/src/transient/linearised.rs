@@ -146,8 +146,6 @@ impl Contact {
         let system = rates.system;
         let own = Unknowns::new(system).bristle(bristle);
         let cap = rates.caps[bristle];
-        let wheel = &system.wheels[pulley];
-        let slip = rates.middle[cell] - wheel.radius * state[system.parts.speed.start + pulley];
         let scaled = |slopes: [(usize, f64); 3], by: f64| {
             { slopes.into_iter() }.map(move |(unknown, slope)| (unknown, by * slope))
         };
@@ -157,7 +155,7 @@ impl Contact {
             Resistance::Bristles { stiffness, damping } => {
                 let displaced = state[system.parts.bristle.start + bristle];
                 let rise = damping / stiffness;
-                let pulled = displaced + rise * slip;
+                let pulled = rates.pulled(state, [pulley, cell, bristle]);
                 let is_carried = slips != Some(true);
                 let displacement: Vec<_> = match is_carried {
                     true => vec![(own, 1.0)],
@@ -177,6 +175,7 @@ impl Contact {
                 }
             }
             Resistance::Creep { velocity } => {
+                let slip = rates.slip(state, [pulley, cell]);
                 let developed = (slip / velocity).clamp(-1.0, 1.0);
                 let friction = match slips {
                     Some(true) => of_cap(developed.signum()).collect(),

@@ -249,6 +249,24 @@ impl<'s> Rates<'s> {
         damping * parts.iter().sum::<f64>()
     }
 
+    /// Slip velocity v − R ω in a cell of the arc of a pulley, by the number of the cell on the loop, m/s.
+    pub(super) fn slip(&self, state: &[f64], [pulley, cell]: [usize; 2]) -> f64 {
+        let rim = self.system.wheels[pulley].radius;
+        self.middle[cell] - rim * state[self.system.parts.speed.start + pulley]
+    }
+
+    /// The displacement b + `c_f` (v − R ω)/`k_f` that bristles without damping would have with the friction that there would be
+    /// without its limit, m: in a cell, by its numbers on the loop and among those of all arcs.
+    pub(super) fn pulled(&self, state: &[f64], [pulley, cell, bristle]: [usize; 3]) -> f64 {
+        let displaced = state[self.system.parts.bristle.start + bristle];
+        match self.system.resistance {
+            Resistance::Bristles { stiffness, damping } => {
+                displaced + damping / stiffness * self.slip(state, [pulley, cell])
+            }
+            Resistance::Creep { .. } => displaced,
+        }
+    }
+
     /// Displacements of the bristles of a pulley in a state, m.
     fn bristles<'a>(&self, state: &'a [f64], pulley: usize) -> &'a [f64] {
         &state[self.system.parts.bristle.clone()][self.system.mesh.bristles[pulley].clone()]
@@ -396,8 +414,7 @@ impl Dynamics for Rates<'_> {
 
     fn implicit(&self, state: &[f64], limits: StepLimits) -> Option<Implicit> {
         let is_straight = self.system.across.is_none();
-        let has_steps = is_straight && !self.system.resistance.damps_bristles();
-        { has_steps.then(|| Implicit::new(self, state, limits)) }.filter(Implicit::is_worthwhile)
+        { is_straight.then(|| Implicit::new(self, state, limits)) }.filter(Implicit::is_worthwhile)
     }
 
     fn wave_speed(&self) -> f64 {

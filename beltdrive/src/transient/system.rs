@@ -57,11 +57,6 @@ impl Resistance {
             Self::Creep { .. } => 1.0,
         }
     }
-
-    /// Whether it damps bristles: friction then depends on both displacement and velocity.
-    pub(crate) fn damps_bristles(self) -> bool {
-        matches!(self, Self::Bristles { damping, .. } if damping > 0.0)
-    }
 }
 
 /// A pulley.

@@ -125,7 +125,7 @@ fn rates_have_derivatives(resistance: Resistance, slack: std::ops::Range<usize>)
         })
         .collect();
     let (cut, _) = of(state);
-    if system.resistance.damps_bristles() {
+    if matches!(system.resistance, Resistance::Bristles { damping, .. } if damping > 0.0) {
         let limited = (0..12).filter(|&bristle| {
             let friction = rates.friction[cells[bristle].1 + 1].abs();
             let limit = 2.0e8 * rates.caps[bristle] * system.mesh.lengths[0];
