@@ -144,6 +144,18 @@ fn what_has_no_modes_is_refused() {
     let v = example("kim2009").to_owned()
         + "\n[transient]\n[transient.pulley.driven]\ninertia = 0.1\nload = [[\"0 s\", \"1 N*m\"]]\n";
     fails(&command("v", &v, &[]), 2, "only flat belts");
+    let creep = [
+        "--set",
+        "friction.law=creep-rate",
+        "--set",
+        "friction.stiffness=",
+    ];
+    let steep = [&creep[..], &["--set", "friction.velocity=1e-7 m/s"]].concat();
+    fails(
+        &command("steep", text, &steep),
+        1,
+        "Hz are lost in rounding",
+    );
 }
 
 /// The eigenvalue of the response of the driven pulley to a small step of its load, from two histories whose steps

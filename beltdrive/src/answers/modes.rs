@@ -210,8 +210,7 @@ fn about(
         let slips = slips.then(|| slipping(&system.mesh, state));
         Ok((system, running, slips))
     };
-    let found = vibration::modes([on(&coarse)?, on(&fine)?], count);
-    let found = found.ok_or(TransientError::Eigenvalues)?;
+    let found = vibration::modes([on(&coarse)?, on(&fine)?], count)?;
     Ok((found, fine.mesh))
 }
 

@@ -204,6 +204,15 @@ pub enum TransientError {
     /// The eigenvalues of the linearised equations are out of reach of finite arithmetic.
     #[error("the eigenvalues of the linearised drive cannot be computed")]
     Eigenvalues,
+    /// Rates of the linearised equations are so fast that slow modes are lost in rounding beside them.
+    #[error(
+        "modes below {least:.1e} Hz are lost in rounding: friction is too steep beside waves along the belt; take softer or \
+         less damped bristles, or a larger velocity of creep-rate friction"
+    )]
+    Lost {
+        /// The least frequency that would be told, Hz.
+        least: f64,
+    },
     /// Energy was lost or won beside what the ledger accounts for.
     #[error(
         "the energy ledger does not close: {residual:.2e} J of {turnover:.2e} J are not accounted for at {time:.6} s, \
@@ -227,7 +236,10 @@ impl TransientError {
         match self {
             Self::Statement { .. } | Self::Unstable { .. } | Self::TooManySteps { .. } => true,
             Self::Start(error) => error.is_of_statement(),
-            Self::Impossible { .. } | Self::Eigenvalues | Self::Ledger { .. } => false,
+            Self::Impossible { .. }
+            | Self::Eigenvalues
+            | Self::Lost { .. }
+            | Self::Ledger { .. } => false,
         }
     }
 }

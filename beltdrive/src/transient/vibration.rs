@@ -3,8 +3,10 @@
 use super::dynamics::Dynamics;
 use super::linearised::{Linearised, linearised};
 use super::rates::Rates;
+use super::simulation::TransientError;
 use super::system::System;
 use faer::c64;
+use std::f64::consts::TAU;
 
 /// A mode of vibration: every quantity follows Re(y exp(λ t)) with the shape y.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,24 +53,32 @@ const DAMPED: f64 = 0.2;
 /// many, is found to the root 1.5e-8 of rounding.
 const LEAST: f64 = 1e-7;
 
+/// Largest share of the frequency of waves once round the loop that may be lost to [`LEAST`]: heavy pulleys on long belts
+/// vibrate a hundred times slower than those, and a mesh of 960 cells loses a ten-thousandth.
+const LOST: f64 = 1e-2;
+
 /// Whether the belt slips in the cells of all arcs; `None` if friction is to be below its limit everywhere.
 pub(crate) type Slips = Option<Vec<bool>>;
 
 /// The modes of a drive about a state in the order of frequency, at most so many. The states are those on a mesh and on
-/// one with twice the cells; `None` if eigenvalues cannot be computed in finite arithmetic.
+/// one with twice the cells. An error if eigenvalues cannot be computed in finite arithmetic, or if the slow ones are lost.
 pub(crate) fn modes(
     [coarse, fine]: [(&System, Vec<f64>, Slips); 2],
     count: usize,
-) -> Option<Vec<VibrationMode>> {
-    let known = at((coarse.0, coarse.1, coarse.2.as_deref()))
-        .matrix
-        .eigenvalues()
-        .ok()?;
+) -> Result<Vec<VibrationMode>, TransientError> {
+    let known = at((coarse.0, coarse.1, coarse.2.as_deref()));
+    let known = known.matrix.eigenvalues();
+    let known = known.map_err(|_| TransientError::Eigenvalues)?;
     let system = fine.0;
     let found = at((system, fine.1, fine.2.as_deref()));
-    let eigen = found.matrix.eigen().ok()?;
-    let values: Vec<c64> = eigen.S().column_vector().iter().copied().collect();
     let least = LEAST * found.matrix.norm_max();
+    let waves = (system.axial_stiffness / system.mass).sqrt() / system.mesh.length();
+    if least > LOST * TAU * waves {
+        let least = least / TAU;
+        return Err(TransientError::Lost { least });
+    }
+    let eigen = { found.matrix.eigen() }.map_err(|_| TransientError::Eigenvalues)?;
+    let values: Vec<c64> = eigen.S().column_vector().iter().copied().collect();
     let mut agreed: Vec<_> = { values.iter().enumerate() }
         .filter(|(_, value)| value.im > least)
         .filter_map(|(index, value)| {
@@ -84,7 +94,7 @@ pub(crate) fn modes(
         let shape: Vec<c64> = eigen.U().col(index).iter().copied().collect();
         mode(system, &found, &shape, (value, error))
     });
-    Some(modes.collect())
+    Ok(modes.collect())
 }
 
 /// A drive linearised about a state.
