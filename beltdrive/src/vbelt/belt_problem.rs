@@ -321,3 +321,33 @@ pub(super) fn end_angles<T: Real>(
         exit: at.end(zones.end - 1)[INCLINATION],
     }
 }
+
+#[cfg(test)]
+pub(super) mod tests {
+    use bvp::Problem;
+
+    /// Checks that a segment depends on few of these parameters, and that the others change no right-hand side.
+    pub(in crate::vbelt) fn assert_dependences(problem: &impl Problem, p: &[f64]) {
+        for (index, segment) in problem.segments().iter().enumerate() {
+            let y = vec![0.1; segment.states];
+            let rates = |p: &[f64]| {
+                let mut dy = vec![f64::NAN; segment.states];
+                problem.rhs(index, 0.0, &y, p, &mut dy);
+                dy
+            };
+            let here = rates(p);
+            let (on, others): (Vec<usize>, Vec<usize>) =
+                (0..p.len()).partition(|&parameter| problem.depends(index, parameter));
+            assert!((2..=4).contains(&on.len()), "{on:?}");
+            for parameter in others {
+                let mut moved = p.to_vec();
+                moved[parameter] *= 1.25;
+                assert_eq!(
+                    rates(&moved),
+                    here,
+                    "parameter {parameter} of segment {index}"
+                );
+            }
+        }
+    }
+}

@@ -241,6 +241,15 @@ impl Problem for DriveProblem {
         }
     }
 
+    /// On the speed of its pulley, the mass flow and its own length.
+    fn depends(&self, segment: usize, parameter: usize) -> bool {
+        match parameter {
+            Self::DRIVEN_SPEED => self.pulley(segment) == DRIVEN,
+            Self::MASS_FLOW => true,
+            length => length == Self::length_index(segment),
+        }
+    }
+
     fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]) {
         let mut residuals = r.iter_mut();
         let mut zero = |value: T| {

@@ -27,7 +27,7 @@ use crate::result::stats::Stats;
 use crate::shares::{NEGLIGIBLE, UNNOTICED};
 
 impl Collocation<'_> {
-    /// The direction in which the solution `x` with the error of [`global_errors`](Self::global_errors),
+    /// The direction in which the solution `x` with the error of [`correct_defects`](Self::correct_defects),
     /// left in `w`, is not isolated, if so, with the [`amplification`](Self::amplification) a, left in `v`.
     /// Writes `residual`.
     pub(crate) fn direction(

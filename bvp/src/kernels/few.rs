@@ -3,8 +3,8 @@
 use crate::kernels::parallel::Buffers;
 use std::ops::{Deref, DerefMut};
 
-/// The longest vector on the stack: three of the six states for which kernels are compiled.
-const ON_STACK: usize = 18;
+/// The longest vector on the stack: three of the seven states for which kernels are compiled.
+const ON_STACK: usize = 21;
 
 /// Numbers that are kept on the stack where they are few, as the states at one place are: beside what is done
 /// with them an allocation is expensive.

@@ -178,7 +178,7 @@ impl<'a> Collocation<'a> {
                 (&mut stages[..], &mut nodes[n..]),
                 &mut self.buffers[index],
                 &|run, (stages, nodes), buffers| {
-                    specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
+                    specialise!(n in [1, 2, 3, 4, 5, 6, 7] => specialise!(m in [6, 7] =>
                     segment.residuals([m, n], run, stages, nodes, buffers)))
                 },
             )?;
@@ -221,7 +221,7 @@ impl<'a> Collocation<'a> {
                 ),
                 buffers,
                 &|run, ((stages, nodes), jacobians), buffers| {
-                    specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] => specialise!(k in [0] =>
+                    specialise!(n in [1, 2, 3, 4, 5, 6, 7] => specialise!(m in [6, 7] => specialise!(k in [0] =>
                     segment.jacobians([m, n, k], run, stages, nodes, jacobians, buffers))))
                 },
             )?;

@@ -183,7 +183,7 @@ impl<'a> SegmentAt<'a> {
                     component: row % n,
                 });
             }
-            observed.observe(jacobians, n, columns);
+            observed.observe(interval.h, jacobians, [n, columns]);
             interval.continuity(t, jump);
         }
         Ok(())

@@ -7,7 +7,7 @@
 //! for Nonlinear Problems* (Springer 2004), algorithms NLEQ-ERR (section 3.3.3) and QNERR; a damped
 //! step that could have been longer is not repeated.
 
-use crate::discretisation::iterate::{Iterate, Residual};
+use crate::discretisation::iterate::{Iterate, NonFinite, Residual};
 use crate::newton::collocation::Collocation;
 use crate::newton::failure::Failure;
 use crate::newton::largest_correction::most_corrected;
@@ -15,6 +15,7 @@ use crate::newton::norm::{Norm, norm, norm_of_sum};
 use crate::result::quality::{Direction, GlobalErrors, Samples};
 use crate::result::stats::Stats;
 use crate::shares::{NEGLIGIBLE, ONE_SAMPLE, TWO_DIGITS};
+use std::sync::Arc;
 
 /// Simplified corrections that shrink at least this much per step keep the Jacobian: three such
 /// steps gain more than one new linearisation and cost less.
@@ -184,6 +185,18 @@ impl Newton {
         collocation.global_errors(x, known, &mut self.residual, &mut self.delta)
     }
 
+    /// Leaves w, from which the error of the solution `x` follows by the last linearisation, for
+    /// [`direction`](Self::direction); see [`Collocation::correct_defects`].
+    pub(crate) fn correct_defects(
+        &mut self,
+        collocation: &mut Collocation<'_>,
+        x: &Iterate,
+        samples: &Samples,
+    ) -> Result<(), NonFinite> {
+        let to_stage = &Arc::clone(&collocation.tableau).defect_to_stage;
+        collocation.correct_defects(x, samples, to_stage, &mut self.residual, &mut self.delta)
+    }
+
     /// The amplification of forcings by the last linearisation; see [`Collocation::amplification`].
     pub(crate) fn amplification(
         &mut self,
@@ -208,7 +221,8 @@ impl Newton {
     }
 
     /// The direction in which the solution `x` is not isolated, if so, after
-    /// [`amplification`](Self::amplification); see [`Collocation::direction`].
+    /// [`amplification`](Self::amplification) and [`correct_defects`](Self::correct_defects); see
+    /// [`Collocation::direction`].
     pub(crate) fn direction(
         &mut self,
         collocation: &mut Collocation<'_>,

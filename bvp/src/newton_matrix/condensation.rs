@@ -28,7 +28,8 @@
 //! ```
 //!
 //! and det M is the determinant of this part. Quadratures, on which no right-hand side depends, are no free states
-//! either.
+//! either, and nor are followers c, which depend on one free state s only; these add −diag(J_vc) h² A diag(J_cs) A to
+//! `M_vs`.
 //!
 //! There are many intervals with small matrices, so that loops cost more than arithmetic. The functions
 //! are therefore compiled for fixed numbers of stages, of states and for a single free state with the
@@ -161,7 +162,7 @@ impl Condensation {
             written,
             &mut self.buffers,
             &move |run, written, buffers| {
-                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(f in [1] => specialise!(k in [0] =>
+                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6, 7] => specialise!(f in [1] => specialise!(k in [0] =>
                     condense_run(StageSystem::new(t, reduction, [m, n, k, f]), run, mesh, jacobians, written, buffers)
                 ))), else specialise!(m in [1, 2, 3, 4, 5] =>
                     condense_run(StageSystem::new(t, reduction, [m, n, k, f]), run, mesh, jacobians, written, buffers)
@@ -198,7 +199,7 @@ impl Condensation {
             &mut nodes[n..],
             &mut (),
             &move |run, loads, ()| {
-                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => {
+                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6, 7] => {
                     let size = m * n;
                     let intervals = self.adjoint[run.start * n * size..]
                         .chunks_exact(n * size)
@@ -238,7 +239,7 @@ impl Condensation {
             &mut stages[..],
             &mut self.buffers,
             &|run, stages, buffers| {
-                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(f in [1] => specialise!(k in [0] =>
+                specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6, 7] => specialise!(f in [1] => specialise!(k in [0] =>
                     recover_run(StageSystem::new(t, reduction, [m, n, k, f]), run, factored, known, stages, buffers)
                 ))), else specialise!(m in [1, 2, 3, 4, 5] =>
                     recover_run(StageSystem::new(t, reduction, [m, n, k, f]), run, factored, known, stages, buffers)

@@ -1,4 +1,5 @@
-//! The stages of one interval: the system of the free states, and the derivative states and quadratures from them.
+//! The stages of one interval: the system of the free states, and the derivative states, quadratures and followers from
+//! them.
 //!
 //! Notation of [`condensation`](crate::condensation).
 
@@ -101,13 +102,62 @@ impl<'a> StageSystem<'a> {
                 }
             }
         }
+        for &(c, place) in &reduction.followers {
+            let product = self.by_leader(h, jacobians, (c, place));
+            for (v, &state) in reduction.free[..f].iter().enumerate() {
+                let rows = matrix[v * m * f * m..][..m * f * m].chunks_exact_mut(f * m);
+                let slopes = jacobians[..m * n * (n + k)].chunks_exact(n * (n + k));
+                for ((row, product), slopes) in rows.zip(&product).zip(slopes) {
+                    let slope = slopes[state * (n + k) + c];
+                    if slope != 0.0 {
+                        add_scaled(&mut row[place * m..][..m], -slope, &product[..m]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// h² A diag(J_cs) A for a follower c with the leader s: the changes of the follower at the stages by the slopes of its
+    /// leader.
+    #[inline(always)]
+    fn by_leader(
+        self,
+        h: f64,
+        jacobians: &[f64],
+        follower: (usize, usize),
+    ) -> [[f64; MAX_STAGES]; MAX_STAGES] {
+        let (t, m) = (self.t, self.m);
+        let factors = self.factors_of(jacobians, follower);
+        let mut products = [[0.0; MAX_STAGES]; MAX_STAGES];
+        let rows = t.a[..m * m].chunks_exact(m);
+        for (product, weights) in products.iter_mut().zip(rows) {
+            let terms = weights.iter().zip(&factors);
+            for ((weight, factor), a) in terms.zip(t.a[..m * m].chunks_exact(m)) {
+                add_scaled(&mut product[..m], weight * factor * (h * h), a);
+            }
+        }
+        products
+    }
+
+    /// The derivatives of the right-hand side of a follower by its leader at the stages.
+    #[inline(always)]
+    fn factors_of(self, jacobians: &[f64], (c, place): (usize, usize)) -> [f64; MAX_STAGES] {
+        let columns = self.n + self.k;
+        let entry = c * columns + self.reduction.free[place];
+        let mut factors = [0.0; MAX_STAGES];
+        let slopes = jacobians[..self.m * self.n * columns].chunks_exact(self.n * columns);
+        for (factor, slopes) in factors.iter_mut().zip(slopes) {
+            *factor = slopes[entry];
+        }
+        factors
     }
 
     /// The states whose highest derivative is a given free state, with its order and their factors. These are
-    /// all states if there is only one free state and no quadrature.
+    /// all states if there is only one free state, no quadrature and no follower.
     #[inline(always)]
     fn members_of(&self, place: usize) -> &[(usize, usize, f64)] {
-        if self.f == 1 && self.reduction.quadratures.is_empty() {
+        let reduction = self.reduction;
+        if self.f == 1 && reduction.quadratures.is_empty() && reduction.followers.is_empty() {
             &self.reduction.members[..self.n]
         } else {
             &self.reduction.members[self.reduction.groups[place].clone()]
@@ -115,7 +165,8 @@ impl<'a> StageSystem<'a> {
     }
 
     /// h (bᵀ ⊗ I) for the free states, n rows. A derivative state contributes through its highest derivative; in the row of
-    /// a quadrature, whose part of the solution is h b, stands h b times what it takes from the free states.
+    /// a quadrature, whose part of the solution is h b, stands h b times what it takes from the free states. A follower
+    /// contributes through its leader.
     #[inline(always)]
     pub(crate) fn fill_weights(self, h: f64, jacobians: &[f64], rows: &mut [f64]) {
         let Self {
@@ -146,6 +197,43 @@ impl<'a> StageSystem<'a> {
                     }
                 }
             }
+            for &(c, place) in &reduction.followers {
+                let mut of_follower = [0.0; MAX_STAGES];
+                let slopes = jacobians[..m * n * (n + k)].chunks_exact(n * (n + k));
+                let a = t.a[..m * m].chunks_exact(m);
+                for ((b, a), slopes) in t.b[..m].iter().zip(a).zip(slopes) {
+                    let factor = h * h * b * slopes[q * (n + k) + c];
+                    add_scaled(&mut of_follower[..m], factor, a);
+                }
+                let of_leader = &mut row[place * m..][..m];
+                self.add_led(h, jacobians, (c, place), &of_follower, of_leader);
+            }
+        }
+        for &(c, place) in &reduction.followers {
+            let mut of_follower = [0.0; MAX_STAGES];
+            for (of_follower, b) in of_follower.iter_mut().zip(&t.b[..m]) {
+                *of_follower = h * b;
+            }
+            let of_leader = &mut rows[(c * f + place) * m..][..m];
+            self.add_led(h, jacobians, (c, place), &of_follower, of_leader);
+        }
+    }
+
+    /// Adds to the entries of a leader what those of its follower contribute, xᵀ h diag(J_cs) A.
+    #[inline(always)]
+    fn add_led(
+        self,
+        h: f64,
+        jacobians: &[f64],
+        follower: (usize, usize),
+        of_follower: &[f64; MAX_STAGES],
+        of_leader: &mut [f64],
+    ) {
+        let (t, m) = (self.t, self.m);
+        let factors = self.factors_of(jacobians, follower);
+        let terms = of_follower.iter().zip(&factors);
+        for ((x, factor), a) in terms.zip(t.a[..m * m].chunks_exact(m)) {
+            add_scaled(of_leader, x * factor * h, a);
         }
     }
 
@@ -155,7 +243,8 @@ impl<'a> StageSystem<'a> {
     /// x_c = h b + h Aᵀ ( Σ_v diag(J_vc) x_v + Σ_d J_dc x_d )      h b only in the row of c
     /// ```
     ///
-    /// with the quadratures among the v, for which x = h b in their own row and 0 in others.
+    /// with the quadratures among the v, for which x = h b in their own row and 0 in others. For a follower c it is the same;
+    /// it is the source of no state.
     #[inline(always)]
     pub(crate) fn expand(self, h: f64, jacobians: &[f64], rows: &[f64], adjoint: &mut [f64]) {
         let Self {
@@ -181,10 +270,12 @@ impl<'a> StageSystem<'a> {
                     adjoint[q] = own * b;
                 }
             }
-            for &(c, _, _) in reduction.sources.iter().rev() {
+            let derived = reduction.sources.iter().rev().map(|&(c, _, _)| c);
+            for c in derived.chain(reduction.followers.iter().map(|&(c, _)| c)) {
                 let mut sums = [0.0; MAX_STAGES];
                 let sums = &mut sums[..m];
-                for &q in &reduction.quadratures {
+                // In the rows of other states its entries are zero.
+                for &q in reduction.quadratures.iter().filter(|&&q| q == row) {
                     let adjoint = adjoint.chunks_exact(n);
                     for ((sum, adjoint), slopes) in sums.iter_mut().zip(adjoint).zip(slopes()) {
                         *sum += slopes[q * (n + k) + c] * adjoint[q];
@@ -248,7 +339,8 @@ impl<'a> StageSystem<'a> {
     /// K_c = T_c + C h^d A^d K_free,    T_c = ρ_c + J_cs h A T_s      without the last term if its source s is free
     /// ```
     ///
-    /// with the product C of the factors from c on. T is left in the place of ρ. `known` holds h A T.
+    /// with the product C of the factors from c on. T is left in the place of ρ. `known` holds h A T. A follower c has
+    /// `T_c = ρ_c`.
     #[inline(always)]
     pub(crate) fn gather_free(
         self,
@@ -259,12 +351,7 @@ impl<'a> StageSystem<'a> {
         known: &mut [f64],
     ) {
         let Self {
-            t,
-            reduction,
-            m,
-            n,
-            k,
-            f,
+            reduction, m, n, f, ..
         } = self;
         let (stages, free) = (&mut stages[..m * n], &mut free[..f * m]);
         for (free, &v) in free.chunks_exact_mut(m).zip(&reduction.free) {
@@ -286,20 +373,49 @@ impl<'a> StageSystem<'a> {
                 }
             }
             let known = &mut known[c * m..][..m];
-            for (known, product) in known.iter_mut().zip(product(&t.columns, m, &slopes)) {
-                *known = h * product;
+            self.add_known(h, jacobians, c, &slopes, free, known);
+        }
+        for &(c, _) in &reduction.followers {
+            let mut slopes = [0.0; MAX_STAGES];
+            for (slope, stage) in slopes.iter_mut().zip(stages.chunks_exact(n)) {
+                *slope = stage[c];
             }
-            let jacobians = || jacobians[..m * n * (n + k)].chunks_exact(n * (n + k));
-            for (free, &v) in free.chunks_exact_mut(m).zip(&reduction.free) {
-                for ((free, known), slopes) in free.iter_mut().zip(&*known).zip(jacobians()) {
-                    *free += slopes[v * (n + k) + c] * known;
-                }
+            self.add_known(h, jacobians, c, &slopes, free, &mut known[c * m..][..m]);
+        }
+    }
+
+    /// Adds to the right-hand sides of the free states what the known slopes T of state c make; leaves h A T in `known`.
+    #[inline(always)]
+    fn add_known(
+        self,
+        h: f64,
+        jacobians: &[f64],
+        c: usize,
+        slopes: &[f64; MAX_STAGES],
+        free: &mut [f64],
+        known: &mut [f64],
+    ) {
+        let Self {
+            t,
+            reduction,
+            m,
+            n,
+            k,
+            ..
+        } = self;
+        for (known, product) in known.iter_mut().zip(product(&t.columns, m, slopes)) {
+            *known = h * product;
+        }
+        let jacobians = || jacobians[..m * n * (n + k)].chunks_exact(n * (n + k));
+        for (free, &v) in free.chunks_exact_mut(m).zip(&reduction.free) {
+            for ((free, known), slopes) in free.iter_mut().zip(&*known).zip(jacobians()) {
+                *free += slopes[v * (n + k) + c] * known;
             }
         }
     }
 
-    /// The slopes of all states from those of the free ones, T of the derivative states and ρ of the quadratures, for which
-    /// `K_q = ρ_q + Σ_c J_qc h A K_c`.
+    /// The slopes of all states from those of the free ones, T of the derivative states and ρ of the followers and the
+    /// quadratures, for which `K_c = ρ_c + J_cs h A K_s` and `K_q = ρ_q + Σ_c J_qc h A K_c`.
     #[inline(always)]
     pub(crate) fn scatter_free(self, h: f64, jacobians: &[f64], free: &[f64], stages: &mut [f64]) {
         let Self {
@@ -323,6 +439,14 @@ impl<'a> StageSystem<'a> {
             let factor = reduction.factors[c] * powers[order - 1];
             for (stage, product) in stages.chunks_exact_mut(n).zip(products) {
                 stage[c] += factor * product;
+            }
+        }
+        for &(c, place) in &reduction.followers {
+            let products = product(&t.columns, m, &free[place * m..]);
+            let factors = self.factors_of(jacobians, (c, place));
+            let terms = factors.iter().zip(products);
+            for (stage, (factor, product)) in stages.chunks_exact_mut(n).zip(terms) {
+                stage[c] += factor * h * product;
             }
         }
         if reduction.quadratures.is_empty() {

@@ -204,6 +204,15 @@ pub trait Problem: Sync {
     where
         f64: LeftOf<T>;
 
+    /// Whether the right-hand side on a segment depends on a parameter: true for all by default. With many parameters of
+    /// which a segment has few, such as one length for every segment, Jacobians are found faster if the others are
+    /// known. The derivatives by those are taken to be zero; compare with
+    /// [`check_jacobians`](crate::check_jacobians).
+    fn depends(&self, segment: usize, parameter: usize) -> bool {
+        let _ = (segment, parameter);
+        true
+    }
+
     /// The conditions: `r` = g(ends, p), zero at the solution. Every entry must be written.
     fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T])
     where

@@ -125,8 +125,7 @@ impl Acceptance {
                 .map(Confirmed::On);
         }
         if is_amplified(a)
-            && let Some(direction) =
-                problem.direction(&solution.x, &solution.quality.defects.local, a)
+            && let Some(direction) = problem.direction(&solution.x, a)
         {
             return self
                 .doubt(problem, direction, a, solution)
@@ -266,16 +265,13 @@ impl Acceptance {
             mesh = halved(&mesh);
             let OnMesh {
                 x,
-                local,
                 amplification: a,
                 ..
             } = problem.on_mesh(mesh.clone(), solution);
             if is_open(a) {
                 break;
             }
-            if !is_amplified(a)
-                || is_steady(before, a) && problem.direction(&x, &local, a).is_none()
-            {
+            if !is_amplified(a) || is_steady(before, a) && problem.direction(&x, a).is_none() {
                 return Ok(mesh);
             }
             // The amplification is that of the exact problem, as far as meshes tell. The right-hand side may

@@ -32,8 +32,6 @@ struct Violation {
 /// What a solution is on another mesh than its own.
 pub(crate) struct OnMesh {
     pub(crate) x: Iterate,
-    /// The local defects, none where they are not finite.
-    pub(crate) local: Vec<Vec<f64>>,
     /// The size of Newton's correction, infinite where there is none.
     pub(crate) correction: f64,
     /// The amplification of forcings, infinite where nothing can be told of it.
@@ -170,14 +168,9 @@ impl<'a> Discretised<'a> {
             .amplified(&self.collocation, x, self.options.tolerance)
     }
 
-    /// The direction in which a solution with these local defects is not isolated, if so, after its
-    /// amplification a.
-    pub(crate) fn direction(
-        &mut self,
-        x: &Iterate,
-        local: &[Vec<f64>],
-        a: f64,
-    ) -> Option<Direction> {
+    /// The direction in which a solution with the last defects is not isolated, if so, after its
+    /// amplification a. Where the conditions are not finite there is no telling.
+    pub(crate) fn direction(&mut self, x: &Iterate, a: f64) -> Option<Direction> {
         let Self {
             newton,
             collocation,
@@ -185,7 +178,7 @@ impl<'a> Discretised<'a> {
             stats,
             ..
         } = self;
-        newton.global_errors(collocation, x, samples, local);
+        newton.correct_defects(collocation, x, samples).ok()?;
         newton.direction(collocation, x, samples, a, self.options.tolerance, stats)
     }
 
@@ -212,13 +205,9 @@ impl<'a> Discretised<'a> {
         } = self;
         let (t, mesh) = (&collocation.tableau, &collocation.mesh);
         let x = transfer(mesh, t, solution);
-        let local = match defects(self.equations, t, mesh, &x, samples, stats) {
-            Ok(defects) => defects.local,
-            Err(_) => vec![],
-        };
-        let correction = match local.is_empty() {
-            true => f64::INFINITY,
-            false => newton
+        let correction = match defects(self.equations, t, mesh, &x, samples, stats) {
+            Err(_) => f64::INFINITY,
+            Ok(_) => newton
                 .correction(collocation, &x, stats)
                 .unwrap_or(f64::INFINITY),
         };
@@ -228,7 +217,6 @@ impl<'a> Discretised<'a> {
         };
         OnMesh {
             x,
-            local,
             correction,
             amplification,
         }

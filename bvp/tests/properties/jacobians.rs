@@ -125,6 +125,67 @@ fn three_sources_of_derivatives_agree() {
     }
 }
 
+/// Segments of unknown lengths p₁, p₂, … with one parameter p₀ for all of them.
+struct Lengths {
+    segments: usize,
+    states: usize,
+    /// Whether it tells which parameters a segment depends on.
+    tells: bool,
+}
+
+impl Problem for Lengths {
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(self.states); self.segments]
+    }
+
+    fn parameters(&self) -> usize {
+        1 + self.segments
+    }
+
+    fn rhs<T: Real>(&self, segment: usize, s: T, y: &[T], p: &[T], dy: &mut [T]) {
+        for (state, dy) in dy.iter_mut().enumerate() {
+            *dy = p[1 + segment] * (y[(state + 1) % y.len()].sin() + p[0] * y[state] * s);
+        }
+    }
+
+    fn depends(&self, segment: usize, parameter: usize) -> bool {
+        !self.tells || parameter == 0 || parameter == 1 + segment
+    }
+
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]) {
+        for (r, z) in r.iter_mut().zip(at.values().iter().chain(p)) {
+            *r = *z * *z;
+        }
+    }
+}
+
+#[test]
+fn derivatives_by_parameters_of_other_segments_are_zero() {
+    // The widths of one pass of dual numbers, and more parameters than one carries.
+    for (segments, states) in [
+        (1, 2),
+        (3, 1),
+        (2, 2),
+        (3, 2),
+        (8, 2),
+        (8, 6),
+        (20, 4),
+        (30, 2),
+    ] {
+        let [told, untold] = [true, false].map(|tells| Lengths {
+            segments,
+            states,
+            tells,
+        });
+        let guess = Constant {
+            states: vec![vec![0.7; states]; segments],
+            parameters: (0..=segments).map(|i| 1.5 + i as f64).collect(),
+        };
+        let check = check_jacobians(&told, &untold, &guess);
+        assert_eq!(check.difference, 0.0, "{segments} {states}: {check:?}");
+    }
+}
+
 #[test]
 fn three_sources_of_derivatives_give_one_solution() {
     let options = Options {

@@ -306,6 +306,15 @@ impl Problem for LoopProblem {
         }
     }
 
+    /// On the speed of its pulley, the mass flow, its own length and the tension `T_o`.
+    fn depends(&self, segment: usize, parameter: usize) -> bool {
+        let unknowns = &self.unknowns;
+        parameter == FLOW
+            || parameter == unknowns.first_length + segment
+            || unknowns.speeds[self.pulley(segment)] == Some(parameter)
+            || unknowns.reference(self.segments.len()) == Some(parameter)
+    }
+
     fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]) {
         let mut residuals = r.iter_mut();
         let mut zero = |value: T| {

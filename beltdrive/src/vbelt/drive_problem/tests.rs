@@ -1,6 +1,7 @@
 //! The statement is complete, free of units, and differentiated exactly.
 
 use super::*;
+use crate::vbelt::belt_problem::tests::assert_dependences;
 use crate::vbelt::limit_excess;
 use crate::vbelt::scaling::tests::kim;
 use crate::{BeltKind, FrictionLaw, VBelt};
@@ -56,6 +57,7 @@ fn every_condition_is_written_and_none_is_missing() {
         problem.conditions(Ends::new(&segments, &values), &p, &mut r);
         assert!(r[..unknowns].iter().all(|r| r.is_finite()));
         assert!(r[unknowns].is_nan());
+        assert_dependences(&problem, &p);
     }
 }
 

@@ -1,5 +1,6 @@
 //! The statement is complete, with any zones, on the back of the belt and with a tensioner.
 
+use super::super::super::belt_problem::tests::assert_dependences;
 use super::*;
 use crate::drive::layout::{Sense, Side};
 use crate::{Belt, BeltKind, Closure, Guide, Mount, Pulley, TensionerLoad, VBelt};
@@ -91,5 +92,6 @@ fn every_condition_is_written_and_none_is_missing() {
         problem.conditions(Ends::new(&segments, &values), &p, &mut r);
         assert!(r[..unknowns].iter().all(|r| r.is_finite()));
         assert!(r[unknowns].is_nan());
+        assert_dependences(&problem, &p);
     }
 }
