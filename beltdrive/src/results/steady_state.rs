@@ -58,10 +58,10 @@ impl SteadyState {
         self.drive.as_loop(torque, self.slack_tractive_tension)
     }
 
-    /// The state of a V-belt once more: with a quarter of the smoothing of friction, or with bristles to a tenth of the
-    /// estimated error. The error of any number that is computed from a state is estimated by its difference from that of
-    /// the sharper state, whatever cancels in it, and the relative error of that. At most a third of the difference is
-    /// left behind it, since both errors vanish at least in proportion.
+    /// The state of a V-belt once more: corrected to first order for a quarter of the smoothing of friction, or with
+    /// bristles solved to a tenth of the estimated error. The error of any number that is computed from a state is estimated
+    /// by its difference from that of the sharper state, whatever cancels in it, and the relative error of that. At most a
+    /// third of the difference is left behind it, since both errors vanish at least in proportion.
     ///
     /// `None` of a flat belt, which is solved in closed form, and where no sharper state is found, as near rounding.
     #[must_use]

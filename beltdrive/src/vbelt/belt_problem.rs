@@ -159,13 +159,18 @@ pub(crate) trait BeltProblem: Problem + Clone {
         self.has_zones() && !grooves.any(|pulley| self.zones(pulley).any(blurred))
     }
 
+    /// Whether the belt sticks on a pulley.
+    fn sticks(&self) -> bool {
+        self.zoning().regimes.contains(&Regime::Stick)
+    }
+
     /// Whether the belt sticks on a pulley or breaks away there, so that it hardly slips in front of a place.
     fn is_locked(&self) -> bool {
-        (0..self.pulleys()).any(|pulley| {
-            let sticks = |segment| self.regime(segment) == Regime::Stick;
+        let breaks_away = |pulley| {
             let cuts = self.zones(pulley).filter(|&segment| self.is_cut(segment));
-            self.zones(pulley).any(sticks) || cuts.count() > 1
-        })
+            cuts.count() > 1
+        };
+        self.sticks() || (0..self.pulleys()).any(breaks_away)
     }
 
     /// Whether its segments meet where something happens to friction that a solution shows.

@@ -222,6 +222,17 @@ impl<'a> Path<'a> {
         outcome.map(|solution| Solved { problem, solution })
     }
 
+    /// A solution corrected once, for another problem near by: to first order the solution of that.
+    pub(super) fn corrected<P: BeltProblem>(
+        &mut self,
+        solved: &Solved<P>,
+        problem: &P,
+    ) -> Result<Solution, bvp::Error> {
+        let outcome = solved.solution.corrected(problem);
+        self.count(&outcome);
+        outcome
+    }
+
     /// Follows the family `member(t)` from its solved member at the beginning of a range of t to the one
     /// at its end.
     pub(super) fn follow<P: BeltProblem>(

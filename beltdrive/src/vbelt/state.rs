@@ -21,8 +21,8 @@ pub(super) fn steady_state(path: &Path<'_>, solved: Solved, start: Instant) -> S
 
 /// A sharper state with bristles aims at this share of the estimated error.
 const OF_ERROR: f64 = 0.1;
-/// Where friction is smoothed, that has more effect than the mesh: a sharper state has this share of ℓ or ε. Meshes for a
-/// tenth of the error besides were not found from 100 to 400 N on the drive of Kim (2009), after up to a second.
+/// Where friction is smoothed, that has more effect than the mesh: a sharper state has this share of ℓ or ε, and is
+/// corrected to first order only.
 const OF_SMOOTHING: f64 = 0.25;
 /// Rounding hides what a smaller tolerance would tell.
 const SMALLEST_TOLERANCE: f64 = 1e-12;
@@ -35,16 +35,20 @@ pub(crate) fn sharper(state: &SteadyState, solved: &Solved) -> Option<SteadyStat
         ..
     } = state.convergence;
     let smoothing = OF_SMOOTHING * solved.problem.smoothing();
-    let tolerance = match smoothing > 0.0 {
-        true => tolerance,
-        false => (OF_ERROR * error_estimate.min(tolerance)).max(SMALLEST_TOLERANCE),
-    };
-    let mut path = Path::new(&state.drive, tolerance);
     let problem = solved.problem.clone().with_smoothing(smoothing);
+    if smoothing > 0.0 {
+        let mut path = Path::new(&state.drive, tolerance);
+        let solution = path.corrected(solved, &problem).ok()?;
+        let mut sharper = describe(&path, &Solved { problem, solution });
+        // That of a correction has the change of the direction by ℓ in it, which is large where the belt hardly slips.
+        sharper.convergence.error_estimate = error_estimate;
+        return Some(sharper);
+    }
+    let tolerance = (OF_ERROR * error_estimate.min(tolerance)).max(SMALLEST_TOLERANCE);
+    let mut path = Path::new(&state.drive, tolerance);
     let sharper = path
         .attempt(problem, &Carried(solved), Effort::Final)
         .ok()?;
-    let sharper = path.keep_zones(sharper, Effort::Final).ok()?;
     Some(describe(&path, &sharper))
 }
 

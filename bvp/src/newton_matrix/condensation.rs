@@ -28,8 +28,8 @@
 //! ```
 //!
 //! and det M is the determinant of this part. Quadratures, on which no right-hand side depends, are no free states
-//! either, and nor are followers c, which depend on one free state s only; these add −diag(J_vc) h² A diag(J_cs) A to
-//! `M_vs`.
+//! either, and nor are followers c, which depend on one free state s only; these add `−diag(J_vc) h² A diag(J_cs) A`
+//! to `M_vs`.
 //!
 //! There are many intervals with small matrices, so that loops cost more than arithmetic. The functions
 //! are therefore compiled for fixed numbers of stages, of states and for a single free state with the

@@ -17,7 +17,7 @@
 //!
 //! A *follower* c is a state whose right-hand side depends on a single state, its *leader* s, by factors that are not one
 //! constant, such as a depth with x' = −sin θ. If the leader is a free state, `K_c = known + J_cs h A K_s`, and M has the
-//! product of the two dependences in the place of the follower. That is so only where h |J_cs| is at most one at all stages:
+//! product of the two dependences in the place of the follower. That is so only where `h |J_cs|` is at most one at all stages:
 //! the multipliers of this elimination are then no larger than those of one with pivots. On an infinite interval mapped to
 //! a finite one, where factors reach 1e14, Newton's method failed without this.
 

@@ -117,7 +117,7 @@ impl<'a> StageSystem<'a> {
         }
     }
 
-    /// h² A diag(J_cs) A for a follower c with the leader s: the changes of the follower at the stages by the slopes of its
+    /// `h² A diag(J_cs) A` for a follower c with the leader s: the changes of the follower at the stages by the slopes of its
     /// leader.
     #[inline(always)]
     fn by_leader(
@@ -219,7 +219,7 @@ impl<'a> StageSystem<'a> {
         }
     }
 
-    /// Adds to the entries of a leader what those of its follower contribute, xᵀ h diag(J_cs) A.
+    /// Adds to the entries of a leader what those of its follower contribute, `xᵀ h diag(J_cs) A`.
     #[inline(always)]
     fn add_led(
         self,

@@ -21,6 +21,8 @@ pub(crate) struct AtSolution<'a> {
     /// The solution in these pieces and units.
     pub(crate) x: Iterate,
     pub(crate) residual: Residual,
+    /// What the linearisation has cost.
+    pub(crate) stats: Stats,
 }
 
 /// Linearises a problem at a solution. The errors are those of [`Solution::conditioning`].
@@ -41,11 +43,13 @@ pub(crate) fn at_solution<'a>(
     let tableau = Arc::clone(&solution.tableau);
     let mut collocation = Collocation::new(equations, tableau, mesh);
     let mut residual = collocation.residual_buffer();
-    match collocation.linearise(&x, &mut residual, &mut Stats::default()) {
+    let mut stats = Stats::default();
+    match collocation.linearise(&x, &mut residual, &mut stats) {
         Ok(()) => Ok(AtSolution {
             collocation,
             x,
             residual,
+            stats,
         }),
         Err(failure) => Err(failed(&collocation, &x, solution, Failure::from(failure))),
     }

@@ -7,7 +7,6 @@ use crate::result::error::Error;
 use crate::result::quality::Quality;
 use crate::result::restored::restored;
 use crate::result::solution::Solution;
-use crate::result::stats::Stats;
 use crate::solver::at_solution::{AtSolution, at_solution, failed};
 use std::sync::Arc;
 
@@ -19,7 +18,11 @@ impl Solution {
     /// The error of any number J that is computed from a solution is then estimated by the difference of J of the
     /// corrected solution and J of this one, whatever cancels in it. [`error_estimate`](Self::error_estimate) of the
     /// corrected solution is that of this one, also where this one has none, after
-    /// [`Control::Defect`](crate::Control::Defect). Rounding is in neither.
+    /// [`Control::Defect`](crate::Control::Defect). Rounding is in neither. Its [`stats`](Self::stats) are those of the
+    /// correction alone.
+    ///
+    /// The equations may be others near by, such as those with another value of a coefficient: the difference then is the
+    /// effect of that as well, to first order.
     ///
     /// H. J. Stetter, "The defect correction principle and discretization methods", Numer. Math. 29 (1978) 425-443.
     ///
@@ -31,8 +34,9 @@ impl Solution {
             mut collocation,
             mut x,
             mut residual,
+            mut stats,
         } = at_solution(equations, self)?;
-        let (mut samples, mut stats) = (vec![], Stats::default());
+        let mut samples = vec![];
         let tableau = &collocation.tableau;
         let (held, mesh) = (&collocation.equations, &collocation.mesh);
         let found = defects(held, tableau, mesh, &x, &mut samples, &mut stats);
@@ -57,6 +61,7 @@ impl Solution {
                 conditions: vec![],
                 errors,
             },
+            stats,
             ..self.clone()
         };
         let corrected = restored(&collocation.equations, of_pieces);

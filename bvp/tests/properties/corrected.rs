@@ -147,3 +147,44 @@ fn a_solution_of_other_equations_is_not_corrected() {
         Error::GuessStates { .. } | Error::GuessMesh { .. }
     ));
 }
+
+/// y' = −rate y², y(0) = 1.
+struct Decay {
+    rate: f64,
+}
+
+impl Problem for Decay {
+    fn segments(&self) -> Vec<Segment> {
+        vec![Segment::new(1)]
+    }
+
+    fn rhs<T: Real>(&self, _: usize, _s: T, y: &[T], _p: &[T], dy: &mut [T]) {
+        dy[0] = -(y[0] * y[0] * self.rate);
+    }
+
+    fn conditions<T: Real>(&self, at: Ends<'_, T>, _p: &[T], r: &mut [T]) {
+        r[0] = at.start(0)[0] - 1.0;
+    }
+}
+
+#[test]
+fn the_effect_of_a_coefficient_is_found_to_first_order() {
+    let one = bvp::Constant {
+        states: vec![vec![1.0]],
+        parameters: vec![],
+    };
+    let solution = solve(&Decay { rate: 2.0 }, &one, &Options::to(1e-9)).unwrap();
+    let errors = [1e-1, 1e-2].map(|change: f64| {
+        let corrected = solution.corrected(&Decay { rate: 2.0 + change }).unwrap();
+        assert_eq!(corrected.stats().factorisations, 1);
+        // δ' = −2 (2 + change) y δ − change y² with y = 1/(1 + 2 s), by variation of constants.
+        let q = 2.0 + change;
+        let delta = -change * (3_f64.powf(q - 1.0) - 1.0) / (2.0 * (q - 1.0)) / 3_f64.powf(q);
+        assert!((corrected.end(0)[0] - (1.0 / 3.0 + delta)).abs() < 1e-9);
+        corrected.end(0)[0] - 1.0 / (3.0 + change)
+    });
+    assert!(
+        (0.9..1.1).contains(&(errors[0] / errors[1] / 100.0)),
+        "{errors:?}"
+    );
+}

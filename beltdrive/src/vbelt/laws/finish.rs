@@ -5,7 +5,7 @@ use crate::vbelt::path::{Effort, Path, Solved, Stuck};
 use crate::vbelt::zones::Cut;
 use crate::vbelt::{BeltProblem, Law};
 
-/// ℓ/R or ε at which the profile is first resolved to the tolerance.
+/// ε at which the profile is first resolved to the tolerance.
 pub(super) const RESOLVED: f64 = 1e-7;
 /// ε below which slip velocities drown in the rounding of the speeds they are differences of; no effect of ℓ
 /// was seen to need one as short.
@@ -78,37 +78,61 @@ impl Path<'_> {
             let solved = self.again(rough, Effort::Final)?;
             return self.keep_zones(solved, Effort::Final);
         }
+        if let Law::Sliding { .. } = rough.problem.law() {
+            return self.resolve_sliding(rough);
+        }
         let solved = self.again(rough, Effort::Full)?;
         let here = self.keep_zones(solved, Effort::Final)?;
         let mut here = self.slip_at_exits(here);
-        let (share, factor) = match here.problem.law() {
-            Law::Sliding { .. } => (LAG_SHARE, SHORTER),
-            Law::Normalised { .. } => (EFFECT_SHARE, SMALLER),
-            _ => (EFFECT_SHARE, SHORTER),
+        let factor = match here.problem.law() {
+            Law::Normalised { .. } => SMALLER,
+            _ => SHORTER,
         };
         // Places where zones end are printed, and move by more than the constants.
         let coarse = match here.problem.law() {
             Law::Vector { .. } => 0.0,
-            _ => share,
+            _ => EFFECT_SHARE,
         };
         loop {
             let smoothing = here.problem.smoothing();
             let finer = self.smooth_less(here.clone(), factor * smoothing, Effort::Full)?;
-            let constants = here.constants().into_iter().zip(finer.constants());
-            let change = constants
-                .map(|(a, b)| (a - b).abs() / (1.0 + b.abs()))
-                .fold(0.0, f64::max);
-            // The effect vanishes at least as fast as ℓ or ε: what is left of it behind the change is at most this.
-            let largest = change / (1.0 - factor);
+            // The effect vanishes at least as fast as ε or τ: what is left of it behind the change is at most this.
+            let largest = change(&here, &finer.constants()) / (1.0 - factor);
             self.smoothing_effect = largest;
             if self.smoothing_effect <= coarse * self.tolerance {
                 return Ok(here);
             }
             self.smoothing_effect = factor * largest;
-            if self.smoothing_effect <= share * self.tolerance || smoothing <= SMALLEST {
+            if self.smoothing_effect <= EFFECT_SHARE * self.tolerance || smoothing <= SMALLEST {
                 return Ok(finer);
             }
             here = finer;
+        }
+    }
+
+    /// The same where the direction follows the slip. The effect of ℓ is told to first order, which on the drive of Kim
+    /// (2009) is right to 1 % from 105 to 5000 N and takes a fifth of the time of a solution with a shorter one.
+    fn resolve_sliding<P: BeltProblem>(&mut self, rough: Solved<P>) -> Result<Solved<P>, Stuck<P>> {
+        // Where the belt sticks ℓ is longer at first, and the estimate would be one of a solution on the way.
+        let effort = match rough.problem.sticks() {
+            true => Effort::Full,
+            false => Effort::Final,
+        };
+        let solved = self.again(rough, effort)?;
+        let here = self.keep_zones(solved, Effort::Final)?;
+        let mut here = self.slip_at_exits(here);
+        loop {
+            let lag = here.problem.smoothing();
+            let shorter = here.problem.clone().with_smoothing(SHORTER * lag);
+            let corrected = match self.corrected(&here, &shorter) {
+                Ok(corrected) => shorter.constants(&corrected),
+                Err(cause) => return Err(Stuck::after(here, cause)),
+            };
+            self.smoothing_effect = change(&here, &corrected) / (1.0 - SHORTER);
+            if self.smoothing_effect <= LAG_SHARE * self.tolerance || lag <= SMALLEST {
+                return Ok(here);
+            }
+            here = self.smooth_less(here, SHORTER * lag, Effort::Full)?;
         }
     }
 
@@ -154,6 +178,14 @@ impl Path<'_> {
         let range = [from.ln(), smoothing.ln()];
         self.follow(start, range, GREAT_STEP, effort, with_smoothing)
     }
+}
+
+/// The largest change from the constants of a solution to others, as a share of 1 + |constant|.
+fn change<P: BeltProblem>(from: &Solved<P>, to: &[f64]) -> f64 {
+    let constants = from.constants().into_iter().zip(to);
+    constants
+        .map(|(a, b)| (a - b).abs() / (1.0 + b.abs()))
+        .fold(0.0, f64::max)
 }
 
 /// The same problem with ℓ/R or ε of eᵗ.
