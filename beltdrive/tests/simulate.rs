@@ -288,6 +288,34 @@ fn an_interrupted_run_keeps_what_it_has() {
 }
 
 #[test]
+fn a_run_that_fails_keeps_what_it_has() {
+    let text = example("parametric-resonance");
+    for (amplitude, words) in [
+        (100, "the belt has no possible state after"),
+        (400, "the energy ledger does not close"),
+    ] {
+        let name = format!("failed-{amplitude}");
+        let load = format!("transient.pulley.driven.load_amplitude={amplitude} N*m");
+        let options =
+            "--csv history.csv --json history.json --plot figures --animate run.svg --set";
+        let options: Vec<_> = options.split(' ').chain([load.as_str()]).collect();
+        let output = simulate(&name, text, &options);
+        fails(&output, 1, words);
+        let table = String::from_utf8(output.stdout).unwrap();
+        assert!(table.contains("s, with an error in the end"), "{table}");
+        let read = |file: &str| fs::read_to_string(directory(&name).join(file)).unwrap();
+        let json: serde_json::Value = serde_json::from_str(&read("history.json")).unwrap();
+        assert_eq!(json["run"]["ending"], "failed");
+        let samples = json["samples"].as_array().unwrap();
+        assert_eq!(read("history.csv").lines().count(), 1 + samples.len());
+        let reached = samples.last().unwrap()["time_s"].as_f64().unwrap();
+        assert!((0.005..0.1).contains(&reached), "{reached}");
+        assert!(read("figures/history.svg").contains("speed of the pulleys"));
+        assert!(read("run.svg").contains("<animate"));
+    }
+}
+
+#[test]
 fn a_soft_motor_brings_a_fan_up_to_the_speed_where_its_line_meets_the_load() {
     let text = example("soft-start").replace("cells = 80", "cells = 40");
     let options = ["--csv", "-", "--set", "transient.interval=50 ms"];

@@ -2,8 +2,8 @@
 
 use super::{common::Common, failure::Failure, interrupt::Interrupt, origin::Origin};
 use beltdrive::input::{Argument, DriveFile};
-use beltdrive::transient::{Ending, Simulation, TransientError, Until};
-use beltdrive::{plot, quantity, simulate};
+use beltdrive::transient::{Ending, History, Simulation, TransientError, Until};
+use beltdrive::{Drive, plot, quantity, simulate};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,8 @@ write one row per sample.
 
 Exit status:
   0  success
-  1  there is no state to start from, the energy ledger does not close, or no steady state was reached
+  1  there is no state to start from, no steady state was reached, or the run failed on the way, as where its energy
+     ledger does not close: everything is written up to there
   2  an input, an output or the command line is at fault
   130  an interrupt (Ctrl-C) ended the run: everything is written up to there";
 
@@ -71,18 +72,16 @@ impl Simulate {
                 !interrupt.came()
             })
         });
-        let history = history.map_err(|error| Failure::of_simulation(file, &simulation, error))?;
-        let answer = &quantity::transient::answer(&simulation.drive, &history);
-        let draw = |directory: &Path, metadata: &str| {
-            plot::write_history(&simulation.drive, &history, directory, Some(metadata))
+        let history = match history {
+            Ok(history) => history,
+            Err(error) => {
+                if let Some(history) = error.history() {
+                    self.write(&simulation.drive, history, origin)?;
+                }
+                return Err(Failure::of_simulation(file, &simulation, error));
+            }
         };
-        self.common.output.write(answer, &draw, origin)?;
-        if let Some(path) = &self.animate {
-            let metadata = origin.json();
-            plot::write_animation(&simulation.drive, &history, path, Some(&metadata))
-                .map_err(|error| Failure::usage(format!("error: {error}")))?;
-            self.common.output.name(std::slice::from_ref(path));
-        }
+        self.write(&simulation.drive, &history, origin)?;
         match (history.ending, simulation.until) {
             (Ending::NotSteady, Until::Steady { latest }) => Err(Failure::Unsolved(format!(
                 "error: the drive is not steady at {latest} s\nhelp: transient.end is the latest time of the search; \
@@ -96,6 +95,23 @@ impl Simulate {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Writes all that was asked for.
+    fn write(&self, drive: &Drive, history: &History, origin: &Origin) -> Result<(), Failure> {
+        let answer = &quantity::transient::answer(drive, history);
+        let draw = |directory: &Path, metadata: &str| {
+            plot::write_history(drive, history, directory, Some(metadata))
+        };
+        self.common.output.write(answer, &draw, origin)?;
+        let Some(path) = &self.animate else {
+            return Ok(());
+        };
+        let metadata = origin.json();
+        plot::write_animation(drive, history, path, Some(&metadata))
+            .map_err(|error| Failure::usage(format!("error: {error}")))?;
+        self.common.output.name(std::slice::from_ref(path));
+        Ok(())
     }
 }
 

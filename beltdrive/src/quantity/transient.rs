@@ -49,6 +49,7 @@ fn heading_of(history: &History) -> String {
         Ending::Event => "to the event asked for",
         Ending::NotSteady => "not steady in the end",
         Ending::Interrupted => "interrupted",
+        Ending::Failed => "with an error in the end",
     };
     format!("Simulation from 0 to {end} s, {how}")
 }
@@ -236,6 +237,7 @@ fn run(history: &History) -> Vec<Quantity> {
         Ending::Event => "event",
         Ending::NotSteady => "not steady",
         Ending::Interrupted => "interrupted",
+        Ending::Failed => "failed",
     };
     let [shortest, longest] = effort.step;
     let implicit = effort.implicit;

@@ -53,6 +53,8 @@ pub enum Ending {
     Event,
     /// Whoever watched the run ended it.
     Interrupted,
+    /// By the error that has it.
+    Failed,
 }
 
 /// How a run was computed.

@@ -30,6 +30,21 @@ pub(crate) fn run<R: Dynamics>(
     explicit.rates(&mut rates, 0.0, &mut state);
     possible(&rates, &state, 0.0)?;
     let mut run = Run::new(simulation, (rates, entries, layout), &state);
+    let outcome = follow(simulation, &mut run, (explicit, state), progress);
+    run.history.effort.seconds = begun.elapsed().as_secs_f64();
+    match outcome {
+        Ok(()) => Ok(run.told()),
+        Err(error) => Err(error.after(run.told())),
+    }
+}
+
+/// Takes the first state of a run to its end.
+fn follow<R: Dynamics>(
+    simulation: &Simulation,
+    run: &mut Run<R>,
+    (mut explicit, mut state): (Explicit, Vec<f64>),
+    progress: &mut dyn FnMut(f64, f64) -> bool,
+) -> Result<(), TransientError> {
     let mut stillness = Stillness::new(&run.rates);
     let mut implicit: Option<R::Implicit> = None;
     let mut between = state.clone();
@@ -148,11 +163,7 @@ pub(crate) fn run<R: Dynamics>(
             false => time + taken as f64 * step,
         };
     }
-    run.history.frames = run.frames.into_kept();
-    run.history.slack_spans = run.watch.slack_spans.clone();
-    run.history.events = run.watch.into_events();
-    run.history.effort.seconds = begun.elapsed().as_secs_f64();
-    Ok(run.history)
+    Ok(())
 }
 
 /// Explicit steps of a run from which on it is followed by implicit ones: ten seconds on 240 cells.
@@ -223,6 +234,14 @@ impl<R: Dynamics> Run<R> {
             interval: simulation.interval,
             until: simulation.until,
         }
+    }
+
+    /// The history up to where the run has come.
+    fn told(mut self) -> History {
+        self.history.frames = self.frames.into_kept();
+        self.history.slack_spans = self.watch.slack_spans.clone();
+        self.history.events = self.watch.into_events();
+        self.history
     }
 
     /// Whether the run is to end in a steady state.
@@ -312,6 +331,7 @@ impl<R: Dynamics> Run<R> {
                 residual: ledger.residual(),
                 turnover: ledger.turnover,
                 time,
+                history: None,
             }),
         }
     }
@@ -374,7 +394,11 @@ fn possible(rates: &impl Dynamics, state: &[f64], time: f64) -> Result<(), Trans
         problem => problem,
     };
     match problem {
-        Some(problem) => Err(TransientError::Impossible { time, problem }),
+        Some(problem) => Err(TransientError::Impossible {
+            time,
+            problem,
+            history: None,
+        }),
         None => Ok(()),
     }
 }

@@ -1,6 +1,7 @@
 //! What is simulated, and why it cannot be.
 
 use super::axle::Axle;
+use super::history::{Ending, History};
 use super::transverse::Transverse;
 use crate::{Drive, SolveError};
 
@@ -200,6 +201,8 @@ pub enum TransientError {
         time: f64,
         /// What became impossible.
         problem: &'static str,
+        /// What was followed up to there; none at time 0.
+        history: Option<Box<History>>,
     },
     /// The eigenvalues of the linearised equations are out of reach of finite arithmetic.
     #[error("the eigenvalues of the linearised drive cannot be computed")]
@@ -226,10 +229,32 @@ pub enum TransientError {
         turnover: f64,
         /// When it was found, s.
         time: f64,
+        /// What was followed up to there.
+        history: Option<Box<History>>,
     },
 }
 
 impl TransientError {
+    /// What a run that failed had followed up to there, with [`Ending::Failed`]; none if none had begun.
+    #[must_use]
+    pub fn history(&self) -> Option<&History> {
+        match self {
+            Self::Impossible { history, .. } | Self::Ledger { history, .. } => history.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// The error of a run that had come as far as this.
+    pub(super) fn after(mut self, told: History) -> Self {
+        if let Self::Impossible { history, .. } | Self::Ledger { history, .. } = &mut self {
+            *history = Some(Box::new(History {
+                ending: Ending::Failed,
+                ..told
+            }));
+        }
+        self
+    }
+
     /// Whether what was asked makes no sense, whatever the drive does.
     #[must_use]
     pub fn is_of_statement(&self) -> bool {

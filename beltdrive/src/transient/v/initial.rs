@@ -91,6 +91,7 @@ fn seated(is_seated: bool) -> Result<(), TransientError> {
         false => Err(TransientError::Impossible {
             time: 0.0,
             problem: "the belt has no depth in a groove that balances its tension",
+            history: None,
         }),
     }
 }
