@@ -74,10 +74,11 @@ fn smoothing(problem: &DriveProblem) -> f64 {
 
 /// How the members of the family of a problem are discretised.
 pub(super) fn discretisation(tolerance: f64, problem: &DriveProblem) -> bvp::Options {
-    // Bristles make smooth profiles. The turn of sliding friction asks for a higher order, and on meshes for the error
-    // speeds of a drive with EPP friction whose belt sticks at rest were off by 9e-6 at a tolerance of 1e-6.
+    // Bristles make smooth profiles; the turn of sliding friction asks for a higher order. With EPP friction whose belt sticks
+    // at rest speeds were off by 9e-6 at a tolerance of 1e-6 on meshes for the error, which do for Coulomb friction.
     let (stages, control) = match problem.law() {
         Law::Bristle { .. } => (5, Control::Error),
+        Law::Sliding { elastic: None, .. } => (6, Control::Error),
         _ => (6, Control::Defect),
     };
     bvp::Options {
