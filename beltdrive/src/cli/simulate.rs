@@ -72,16 +72,11 @@ impl Simulate {
                 !interrupt.came()
             })
         });
-        let history = match history {
-            Ok(history) => history,
-            Err(error) => {
-                if let Some(history) = error.history() {
-                    self.write(&simulation.drive, history, origin)?;
-                }
-                return Err(Failure::of_simulation(file, &simulation, error));
-            }
-        };
-        self.write(&simulation.drive, &history, origin)?;
+        let told = history.as_ref().map_or_else(TransientError::history, Some);
+        if let Some(told) = told {
+            self.write(&simulation.drive, told, origin)?;
+        }
+        let history = history.map_err(|error| Failure::of_simulation(file, &simulation, error))?;
         match (history.ending, simulation.until) {
             (Ending::NotSteady, Until::Steady { latest }) => Err(Failure::Unsolved(format!(
                 "error: the drive is not steady at {latest} s\nhelp: transient.end is the latest time of the search; \

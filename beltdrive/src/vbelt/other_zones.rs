@@ -17,10 +17,6 @@ impl Path<'_> {
     /// The state of the drive from nothing, if it is `here` but for the zones.
     fn anew(&mut self, here: &Solved) -> Option<Solved> {
         let solved = self.with_direction()?;
-        let pairs = solved.constants().into_iter().zip(here.constants());
-        let change = pairs
-            .map(|(one, other)| (one - other).abs() / (1.0 + other.abs()))
-            .fold(0.0, f64::max);
-        (change <= SAME).then_some(solved)
+        (solved.change_to(&here.constants()) <= SAME).then_some(solved)
     }
 }

@@ -132,6 +132,14 @@ impl<P: BeltProblem> Solved<P> {
     pub(super) fn constants(&self) -> Vec<f64> {
         self.problem.constants(&self.solution)
     }
+
+    /// The largest change from these constants to others, as a share of 1 + |value|.
+    pub(super) fn change_to(&self, others: &[f64]) -> f64 {
+        let pairs = self.constants().into_iter().zip(others);
+        pairs
+            .map(|(one, other)| (one - other).abs() / (1.0 + other.abs()))
+            .fold(0.0, f64::max)
+    }
 }
 
 /// The way was not found to its end.

@@ -78,26 +78,36 @@ impl Path<'_> {
             let solved = self.again(rough, Effort::Final)?;
             return self.keep_zones(solved, Effort::Final);
         }
-        if let Law::Sliding { .. } = rough.problem.law() {
-            return self.resolve_sliding(rough);
-        }
-        let solved = self.again(rough, Effort::Full)?;
+        // Where the belt sticks ℓ is longer at first, and an estimate would be one of a solution on the way, as with ε and τ.
+        let effort = match rough.problem.law() {
+            Law::Sliding { .. } if !rough.problem.sticks() => Effort::Final,
+            _ => Effort::Full,
+        };
+        let solved = self.again(rough, effort)?;
         let here = self.keep_zones(solved, Effort::Final)?;
-        let mut here = self.slip_at_exits(here);
-        let factor = match here.problem.law() {
-            Law::Normalised { .. } => SMALLER,
-            _ => SHORTER,
-        };
-        // Places where zones end are printed, and move by more than the constants.
-        let coarse = match here.problem.law() {
-            Law::Vector { .. } => 0.0,
-            _ => EFFECT_SHARE,
-        };
+        let here = self.slip_at_exits(here);
+        match here.problem.law() {
+            Law::Sliding { .. } => self.shorten_lag(here),
+            // Places where zones end are printed, and move by more than the constants.
+            Law::Vector { .. } => self.lower_effect(here, SHORTER, 0.0),
+            _ => self.lower_effect(here, SMALLER, EFFECT_SHARE),
+        }
+    }
+
+    /// Smooths less by a factor until the effect of ε or τ, told from the change by that, is below the tolerance. A solution
+    /// is taken before that change if its effect is below the share `coarse` of the tolerance.
+    fn lower_effect<P: BeltProblem>(
+        &mut self,
+        solved: Solved<P>,
+        factor: f64,
+        coarse: f64,
+    ) -> Result<Solved<P>, Stuck<P>> {
+        let mut here = solved;
         loop {
             let smoothing = here.problem.smoothing();
             let finer = self.smooth_less(here.clone(), factor * smoothing, Effort::Full)?;
             // The effect vanishes at least as fast as ε or τ: what is left of it behind the change is at most this.
-            let largest = change(&here, &finer.constants()) / (1.0 - factor);
+            let largest = here.change_to(&finer.constants()) / (1.0 - factor);
             self.smoothing_effect = largest;
             if self.smoothing_effect <= coarse * self.tolerance {
                 return Ok(here);
@@ -110,17 +120,10 @@ impl Path<'_> {
         }
     }
 
-    /// The same where the direction follows the slip. The effect of ℓ is told to first order, which on the drive of Kim
-    /// (2009) is right to 1 % from 105 to 5000 N and takes a fifth of the time of a solution with a shorter one.
-    fn resolve_sliding<P: BeltProblem>(&mut self, rough: Solved<P>) -> Result<Solved<P>, Stuck<P>> {
-        // Where the belt sticks ℓ is longer at first, and the estimate would be one of a solution on the way.
-        let effort = match rough.problem.sticks() {
-            true => Effort::Full,
-            false => Effort::Final,
-        };
-        let solved = self.again(rough, effort)?;
-        let here = self.keep_zones(solved, Effort::Final)?;
-        let mut here = self.slip_at_exits(here);
+    /// Shortens ℓ until its effect is below the tolerance. That is told to first order, which on the drive of Kim (2009) is
+    /// right to 1 % from 105 to 5000 N and takes a fifth of the time of a solution with a shorter one.
+    fn shorten_lag<P: BeltProblem>(&mut self, solved: Solved<P>) -> Result<Solved<P>, Stuck<P>> {
+        let mut here = solved;
         loop {
             let lag = here.problem.smoothing();
             let shorter = here.problem.clone().with_smoothing(SHORTER * lag);
@@ -128,7 +131,7 @@ impl Path<'_> {
                 Ok(corrected) => shorter.constants(&corrected),
                 Err(cause) => return Err(Stuck::after(here, cause)),
             };
-            self.smoothing_effect = change(&here, &corrected) / (1.0 - SHORTER);
+            self.smoothing_effect = here.change_to(&corrected) / (1.0 - SHORTER);
             if self.smoothing_effect <= LAG_SHARE * self.tolerance || lag <= SMALLEST {
                 return Ok(here);
             }
@@ -178,14 +181,6 @@ impl Path<'_> {
         let range = [from.ln(), smoothing.ln()];
         self.follow(start, range, GREAT_STEP, effort, with_smoothing)
     }
-}
-
-/// The largest change from the constants of a solution to others, as a share of 1 + |constant|.
-fn change<P: BeltProblem>(from: &Solved<P>, to: &[f64]) -> f64 {
-    let constants = from.constants().into_iter().zip(to);
-    constants
-        .map(|(a, b)| (a - b).abs() / (1.0 + b.abs()))
-        .fold(0.0, f64::max)
 }
 
 /// The same problem with ℓ/R or ε of eᵗ.

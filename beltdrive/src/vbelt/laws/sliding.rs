@@ -19,10 +19,10 @@ const FIRST_LAGS: [f64; 2] = [1e-3, 1e-2];
 const LED_LAGS: [f64; 3] = [1e-5, 1e-6, 1e-7];
 /// ℓ/R at which the profile is first resolved to the tolerance: with 1e-7 the effect on the drive of Kim (2009) is 2e-7 to
 /// 6e-7 from 105 to 5000 N, more than a tenth of the usual tolerance.
-const RESOLVED: f64 = 1e-8;
+const RESOLVED_LAG: f64 = 1e-8;
 /// The same where the belt sticks somewhere: on that drive with elastic friction of 1.2e6 N/m² a rough solution with 1e-8
 /// takes up to 100 Newton steps more, from one with 1e-7 that is resolved it does not.
-const RESOLVED_WITH_STICK: f64 = 1e-7;
+const RESOLVED_LAG_WITH_STICK: f64 = 1e-7;
 /// Share of the power of friction that the belt may gain from a traction on the way that is not against its
 /// slip. Where the traction turns the wrong way round it is 0.03 and more, elsewhere less than 1e-6.
 const WRONG_WAY: f64 = 1e-4;
@@ -93,8 +93,8 @@ impl Path<'_> {
             .attempt(led.clone(), &Carried(following), Effort::Rough)
             .map_err(|cause| Unled::Failed(Astray::of(&led, &cause)))?;
         let resolved = match led.problem.sticks() {
-            true => RESOLVED_WITH_STICK,
-            false => RESOLVED,
+            true => RESOLVED_LAG_WITH_STICK,
+            false => RESOLVED_LAG,
         };
         let sharp = self
             .smooth_less(led, resolved, Effort::Rough)
