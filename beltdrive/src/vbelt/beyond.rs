@@ -2,12 +2,16 @@
 //!
 //! Where an elastic arc is born or vanishes its end is a double root, and near it no tangent is found. A state
 //! beyond it is sought from nothing, and taken if it is where the branch leads.
+//!
+//! Scalar elastic friction may hold the belt on one arc or on another under the same load. The states with one of them
+//! end in a limit point at which no pulley slips as a whole, and the drive goes over to states with the other, under which
+//! it carries more. The limit of its load is that of the last of them.
 
 use super::path::{Path, Solved};
 use super::piece::PieceEnd;
 use super::state::describe;
 use super::tracer::Tracer;
-use crate::EventKind;
+use crate::{BranchEnd, BranchEvent, EventKind, FrictionLaw};
 use continuation::Direction;
 
 /// How far beyond the last state the next one is sought, as shares of the way behind. The largest is that of a usual
@@ -18,6 +22,12 @@ const BEYOND: [f64; 4] = [1e-3, 1e-2, 0.03, 0.1];
 const OFF: f64 = 0.5;
 /// ... or by this share of 1 + |value|, within which constants that hardly change stay.
 const SAME: f64 = 1e-3;
+/// How far beyond the end of a branch a state of another one is sought, as shares of the value there. Of a drive whose
+/// states go on from 1.003 to 1.5 times that the first two were not found.
+const FARTHER: [f64; 5] = [3e-3, 0.01, 0.03, 0.1, 0.3];
+/// A pulley slips grossly where the smallest slip on it is this share of the belt speed, as in a loop. At limits of the load it
+/// was 0.013 and more, at ends of states with one arc at rest up to 0.003.
+const GROSS: f64 = 0.05;
 
 impl Tracer<'_> {
     /// The next piece, from a state beyond the last one in the direction in which the branch was followed.
@@ -40,13 +50,8 @@ impl Tracer<'_> {
             if value == last || !(low < value && value < high) {
                 return None;
             }
-            let drive = self.drive_at(value);
-            let mut path = Path::new(&drive, self.tolerance);
-            let found = path.with_direction();
-            self.convergence.count(&path.stats);
-            if let Some(solved) = found
+            if let Some(solved) = self.from_nothing(value)
                 && self.leads_to(value, &solved)
-                && describe(&path, &solved).verified().is_ok()
             {
                 self.refused = None;
                 self.refinements = 0;
@@ -58,6 +63,53 @@ impl Tracer<'_> {
             }
         }
         None
+    }
+
+    /// A state of another branch at a larger value than that at which this one has ended, and the value, if the end may
+    /// not be that of all states.
+    pub(super) fn elsewhere(&mut self, end: &BranchEnd) -> Option<(f64, Solved)> {
+        let last = self.points.last()?;
+        let slips = [&last.state.driver, &last.state.driven].map(|pulley| pulley.least_slip);
+        let slips_grossly = slips.iter().flatten().any(|least| least.slip > GROSS);
+        let may_go_on = match (self.drive.law, end) {
+            (
+                FrictionLaw::Epp { .. } | FrictionLaw::VectorEpp { .. },
+                BranchEnd::NotConverged { .. },
+            ) => true,
+            (FrictionLaw::Epp { .. }, BranchEnd::Target) => {
+                let turns = |event: &BranchEvent| event.kind == EventKind::LimitPoint;
+                self.events.last().is_some_and(turns)
+            }
+            _ => false,
+        };
+        if !may_go_on || slips_grossly {
+            return None;
+        }
+        let (value, before) = (last.value, last.arclength);
+        let farther = FARTHER.map(|share| (value * (1.0 + share)).min(self.range[1]));
+        let found = farther
+            .into_iter()
+            .find_map(|value| Some((value, self.from_nothing(value)?)))?;
+        let ends = |event: &mut BranchEvent| {
+            matches!(event.kind, EventKind::LimitPoint | EventKind::End)
+        };
+        self.events.pop_if(ends);
+        self.passed.clear();
+        self.before = before;
+        self.refused = None;
+        self.refinements = 0;
+        Some(found)
+    }
+
+    /// The state at a value of the entry, from nothing, if it is found below the limit of the load.
+    fn from_nothing(&mut self, value: f64) -> Option<Solved> {
+        let drive = self.drive_at(value);
+        let mut path = Path::new(&drive, self.tolerance);
+        let found = path.with_direction().filter(|solved| {
+            path.is_below_limit(solved) && describe(&path, solved).verified().is_ok()
+        });
+        self.convergence.count(&path.stats);
+        found
     }
 
     /// Whether the states behind lead to one at a value of the entry.

@@ -22,6 +22,8 @@ const LIGHT: f64 = 3.0;
 const STRETCH: f64 = 64.0;
 /// The most such stretches.
 const STRETCHES: usize = 3;
+/// The most branches that are followed one beyond the other.
+const BRANCHES: usize = 6;
 /// A lower end is sought down to this share of the value.
 const SMALLEST_SHARE: f64 = 1e-3;
 
@@ -137,15 +139,25 @@ pub(super) fn upwards<'d>(
         tracer.no_load = Some(high);
     }
     let (mut from, mut solved) = (value, solved);
-    for _ in 1..STRETCHES {
+    let (mut stretches, mut branches) = (1, 1);
+    loop {
         let end = tracer.run(solved, from, Direction::Increasing, progress);
-        match tracer.with_upper_end((tracer.range[1] * STRETCH).min(high)) {
-            Some(next) => (from, solved) = next,
-            None => return Traced { tracer, end },
-        }
+        let stretched = match stretches < STRETCHES {
+            true => tracer.with_upper_end((tracer.range[1] * STRETCH).min(high)),
+            false => None,
+        };
+        (from, solved) = if let Some(next) = stretched {
+            stretches += 1;
+            next
+        } else if branches < BRANCHES
+            && let Some(next) = tracer.elsewhere(&end)
+        {
+            branches += 1;
+            next
+        } else {
+            return Traced { tracer, end };
+        };
     }
-    let end = tracer.run(solved, from, Direction::Increasing, progress);
-    Traced { tracer, end }
 }
 
 impl Traced<'_> {
