@@ -244,7 +244,8 @@ pub(crate) trait BeltProblem: Problem + Clone {
 ///   every state continuous, and the junction     at each junction of zones    (z − 1)(n + 1)
 /// ```
 ///
-/// A junction is where `k_f` |u| = μ p if elastic and slipping friction meet there. Where the belt begins to
+/// A junction is where `k_f` |u| = μ p if elastic and slipping friction meet there, and where u = 0 if it changes its sign
+/// there. Where the belt begins to
 /// stick it has no slip, and friction straight up the groove just holds it; it breaks loose in a direction of its
 /// own. Else the last junction lies in the middle of the turn of the traction that lifts the belt (see
 /// `Contact::turn_excess`), and one in front of that where the belt breaks away (see `breakaway_excess`).
@@ -304,6 +305,12 @@ pub(super) fn in_groove<T: Real>(
                     false => contact(next, y).turn_excess(groove),
                 },
             ),
+            // The scaled friction: the displacement itself is small where friction is stiff.
+            (before, behind) if before.is_elastic() && behind.is_elastic() => {
+                if let Some(elastic) = groove.elastic() {
+                    zero(y[groove.displacement()] * elastic.stiffness);
+                }
+            }
             // An elastic zone without length would meet it, too, and twice.
             (Regime::Elastic, _) if matches!(groove.law, Law::Vector { .. }) => {
                 let length = problem.length(next - 1, p);

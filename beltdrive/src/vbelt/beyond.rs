@@ -90,9 +90,8 @@ impl Tracer<'_> {
         let found = farther
             .into_iter()
             .find_map(|value| Some((value, self.from_nothing(value)?)))?;
-        let ends = |event: &mut BranchEvent| {
-            matches!(event.kind, EventKind::LimitPoint | EventKind::End)
-        };
+        let ends =
+            |event: &mut BranchEvent| matches!(event.kind, EventKind::LimitPoint | EventKind::End);
         self.events.pop_if(ends);
         self.passed.clear();
         self.before = before;

@@ -26,6 +26,7 @@
 
 use super::{Strand, Units};
 use crate::FrictionLaw;
+use crate::results::steady_state::ZoneKind;
 use bvp::Real;
 
 /// Index of the tractive tension F among the states.
@@ -184,6 +185,8 @@ pub(crate) struct Elastic {
 pub(crate) enum Regime {
     /// Below its limit: f = `k_f` |u|, or as the slip changes it.
     Elastic,
+    /// The same with a negative displacement u. Where u changes its sign friction has a kink.
+    Reversed,
     /// At its limit, f = μ p.
     Slip,
     /// The belt does not slip, and friction below `k_f` |u| and μ p holds it where it is.
@@ -198,6 +201,20 @@ impl Regime {
         match law {
             FrictionLaw::Epp { .. } | FrictionLaw::VectorEpp { .. } => Self::Either,
             _ => Self::Slip,
+        }
+    }
+
+    /// Whether friction is below its limit and the belt is not held.
+    pub(super) fn is_elastic(self) -> bool {
+        matches!(self, Self::Elastic | Self::Reversed)
+    }
+
+    /// What an engineer calls the zone.
+    pub(super) fn kind(self) -> ZoneKind {
+        match self {
+            Self::Elastic | Self::Reversed => ZoneKind::Elastic,
+            Self::Slip | Self::Either => ZoneKind::Slip,
+            Self::Stick => ZoneKind::Adhesion,
         }
     }
 }
@@ -271,7 +288,7 @@ impl Groove {
         };
         let friction = self.elastic_friction(elastic, state);
         match regime {
-            Regime::Elastic => friction,
+            Regime::Elastic | Regime::Reversed => friction,
             Regime::Slip | Regime::Stick => limit,
             Regime::Either => limit.min(limit + (friction - limit) * elastic.weight),
         }

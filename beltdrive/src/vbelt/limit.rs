@@ -50,7 +50,7 @@ pub(super) struct Limit {
 
 /// What is prescribed in place of the tension, and rises along the branch.
 #[derive(Clone, Copy, Debug)]
-enum Coordinate {
+pub(super) enum Coordinate {
     /// The contact length of the driver.
     DriverLength,
     /// The speed of the driven pulley with the sign turned round.
@@ -59,7 +59,7 @@ enum Coordinate {
 
 impl Coordinate {
     /// Its value in a state.
-    fn of(self, solved: &Solved) -> f64 {
+    pub(super) fn of(self, solved: &Solved) -> f64 {
         match self {
             Self::DriverLength => solved.driver_length(),
             Self::DrivenSpeed => -solved.driven_speed(),
@@ -246,7 +246,7 @@ impl Path<'_> {
     }
 
     /// The state with another value of a coordinate, from a neighbour.
-    fn at(
+    pub(super) fn at(
         &mut self,
         coordinate: Coordinate,
         value: f64,

@@ -290,7 +290,7 @@ impl OnPulley<'_> {
                 let limit = SLIPPING_BRISTLES * self.groove.friction_coefficient;
                 y[LAW].hypot(y[LAW + 1]) < limit
             }
-            (_, Regime::Elastic) => true,
+            (_, Regime::Elastic | Regime::Reversed) => true,
             (_, Regime::Slip) => false,
             (_, Regime::Either) => {
                 limit_excess(self.groove, regime, y, self.omega, self.flow) < 0.0
@@ -308,19 +308,14 @@ impl OnPulley<'_> {
             let is_sampled = match (self.groove.law, stretch.regime) {
                 (_, Regime::Stick) => false,
                 (Law::Bristle { .. }, _) | (_, Regime::Either) => true,
-                (_, Regime::Elastic | Regime::Slip) => false,
+                (_, Regime::Elastic | Regime::Reversed | Regime::Slip) => false,
             };
             let is_elastic = |y: &[f64]| self.is_elastic(stretch.regime, y);
             if is_sampled {
                 self.sampled_zones(segment, is_elastic, &mut zones);
                 continue;
             }
-            let kind = match stretch.regime {
-                Regime::Stick => ZoneKind::Adhesion,
-                Regime::Elastic => ZoneKind::Elastic,
-                Regime::Slip | Regime::Either => ZoneKind::Slip,
-            };
-            extend(&mut zones, kind, ends[0], ends[1]);
+            extend(&mut zones, stretch.regime.kind(), ends[0], ends[1]);
         }
         // The entry is where the angle begins; its solved value is rounding.
         if let Some(first) = zones.first_mut() {

@@ -1,5 +1,7 @@
 //! How a branch goes on where its friction zones change.
 
+use super::carried::Carried;
+use super::limit::Coordinate;
 use super::path::{Effort, Path, Solved, Stuck};
 
 /// The constants of a drive differ by less than this share of 1 + |value| between a state with zones that it has
@@ -12,6 +14,21 @@ impl Path<'_> {
     pub(super) fn with_other_zones(&mut self, here: &Solved) -> Result<Solved, Stuck> {
         self.keep_zones(here.clone(), Effort::Full)
             .or_else(|stuck| self.anew(here).ok_or(stuck))
+    }
+
+    /// As [`Path::with_other_zones`], at another tight tension. With the zone that has appeared the tension may have its
+    /// limit point below that of `here`, so that another quantity is held instead.
+    pub(super) fn with_other_zones_beside_limit(&mut self, here: &Solved) -> Option<Solved> {
+        [Coordinate::DriverLength, Coordinate::DrivenSpeed]
+            .into_iter()
+            .find_map(|coordinate| {
+                let value = coordinate.of(here);
+                let held = self.at(coordinate, value, here, Effort::Full).ok()?;
+                let other = self.keep_zones(held, Effort::Full).ok()?;
+                let problem = other.problem.clone();
+                let problem = problem.with_tight_tension(other.tight_tension());
+                self.attempt(problem, &Carried(&other), Effort::Full).ok()
+            })
     }
 
     /// The state of the drive from nothing, if it is `here` but for the zones.

@@ -10,6 +10,7 @@ use super::tracer::{Tracer, Until};
 use super::watched::FIRST_ZONE;
 use super::zones::Cut;
 use super::{BeltProblem, DriveProblem, Law};
+use crate::input::Key;
 use crate::results::difficulty;
 use crate::{BranchEnd, Drive, EventKind, Role};
 use bvp::{Control, Family, Scheme};
@@ -212,6 +213,16 @@ impl Tracer<'_> {
             let precise = || precise(&family, branch.system(), &point, (&options, &steps));
             let outcome = self.take(&point, &here, &precise, effect, ahead);
             progress(self.share(self.value(point.lambda())), "tracing");
+            if let (Some((passed, solved)), Some(PieceEnd::Branch(BranchEnd::NotConverged { .. }))) =
+                (&before, &outcome)
+                && point.kind == Kind::Regular
+                && self.refinements < MAX_REFINEMENTS
+            {
+                // A zone that has just appeared is found more easily.
+                self.convergence.count(&last);
+                self.refinements += 1;
+                return self.goes_on(passed, solved.clone());
+            }
             if let Some(end) = outcome {
                 self.convergence.count(&last);
                 return end;
@@ -320,15 +331,26 @@ impl Tracer<'_> {
         drive: &Drive,
         direction: Direction,
     ) -> PieceEnd {
-        match Path::new(drive, self.tolerance).with_other_zones(here) {
-            Ok(next) => {
+        let mut path = Path::new(drive, self.tolerance);
+        let value = self.value(point.lambda());
+        let found = path.with_other_zones(here).map(|next| (value, next));
+        let found = found.or_else(|stuck| {
+            let beside = match self.key == Key::load(self.drive) {
+                true => path.with_other_zones_beside_limit(here),
+                false => None,
+            };
+            let load = |next: &Solved| next.tight_tension() * next.problem.scales().units.force;
+            beside.map(|next| (load(&next), next)).ok_or(stuck)
+        });
+        match found {
+            Ok((value, next)) => {
                 let cut = Cut::of(&next);
                 self.refused = (!cut.is_kept()).then(|| cut.regimes());
                 self.refinements = 0;
                 self.before += point.arclength;
                 PieceEnd::Next {
                     solved: Box::new(next),
-                    value: self.value(point.lambda()),
+                    value,
                     direction,
                 }
             }

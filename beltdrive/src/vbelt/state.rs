@@ -4,9 +4,9 @@ use super::carried::Carried;
 use super::laws::{ALLOWED, GAINED, power_gained, wrong_friction};
 use super::on_pulley::{Integrals, OnPulley, extend};
 use super::path::{Effort, Path, Solved};
-use super::{BeltProblem, DRIVEN, DRIVER, EndAngles, Regime};
+use super::{BeltProblem, DRIVEN, DRIVER, EndAngles};
 use crate::results::possible;
-use crate::results::steady_state::{Check, Convergence, PulleyState, SteadyState, Zone, ZoneKind};
+use crate::results::steady_state::{Check, Convergence, PulleyState, SteadyState, Zone};
 use crate::results::v_warnings;
 use std::sync::Arc;
 use web_time::Instant;
@@ -210,12 +210,7 @@ fn friction_zones(solved: &Solved, pulley: usize) -> Vec<Zone> {
     }
     let mut zones = Vec::new();
     for (regime, [from, to]) in super::zones::angles(solved, pulley) {
-        let kind = match regime {
-            Regime::Elastic => ZoneKind::Elastic,
-            Regime::Slip | Regime::Either => ZoneKind::Slip,
-            Regime::Stick => ZoneKind::Adhesion,
-        };
-        extend(&mut zones, kind, from, to);
+        extend(&mut zones, regime.kind(), from, to);
     }
     zones
 }

@@ -103,7 +103,7 @@ impl<'c, T: Real> Yielding<'c, T> {
     pub(super) fn rates(&self, turning: impl FnOnce() -> [T; 2]) -> [T; 2] {
         let (contact, mu) = (self.contact, self.friction_coefficient);
         let length = contact.pressure / self.stiffness;
-        if matches!(contact.regime, Regime::Elastic | Regime::Stick) {
+        if contact.regime.is_elastic() || contact.regime == Regime::Stick {
             return self.growth().map(|growth| growth / length);
         }
         let least = (contact.slip_norm * (self.stiffness * self.lead / mu)).powi(2);
@@ -138,7 +138,7 @@ impl<'c, T: Real> Yielding<'c, T> {
             self.deflection[0].hypot(self.deflection[1]) - self.friction_coefficient * share
         };
         match self.contact.regime {
-            Regime::Elastic | Regime::Stick => over(1.0),
+            Regime::Elastic | Regime::Reversed | Regime::Stick => over(1.0),
             Regime::Slip => self.plastic_rate() / strain,
             Regime::Either => over(SLIPPING).min(self.plastic_rate() / strain),
         }

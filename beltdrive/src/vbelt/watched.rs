@@ -3,8 +3,8 @@
 use super::curve::Curve;
 use super::path::Solved;
 use super::tracer::Tracer;
-use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, INCLINATION, PENETRATION, Regime};
-use crate::{EventKind, Role, ZoneKind};
+use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, INCLINATION, PENETRATION};
+use crate::{EventKind, Role};
 use continuation::{Branch, Kind, Point, System};
 use std::f64::consts::FRAC_PI_2;
 
@@ -81,17 +81,14 @@ impl Tracer<'_> {
             Kind::Event(index) if index >= FIRST_ZONE => {
                 let segment = index - FIRST_ZONE;
                 let pulley = here.problem.pulley(segment);
-                let last = here.problem.zones(pulley).end - 1;
                 // A cut of a zone of one kind is no event.
-                let is_part = here.problem.is_cut(segment)
-                    || (segment < last && here.problem.is_cut(segment + 1));
+                let kind = |segment| here.problem.regime(segment).kind();
+                let zones = here.problem.zones(pulley);
+                let is_part = (segment > zones.start && kind(segment - 1) == kind(segment))
+                    || (segment + 1 < zones.end && kind(segment + 1) == kind(segment));
                 (!is_part).then(|| EventKind::ZoneVanishes {
                     pulley: pulleys[pulley],
-                    kind: match here.problem.regime(segment) {
-                        Regime::Elastic => ZoneKind::Elastic,
-                        Regime::Slip | Regime::Either => ZoneKind::Slip,
-                        Regime::Stick => ZoneKind::Adhesion,
-                    },
+                    kind: here.problem.regime(segment).kind(),
                 })
             }
             _ => None,

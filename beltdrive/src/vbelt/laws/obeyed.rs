@@ -97,7 +97,7 @@ fn wrong_on(on: &OnPulley<'_>) -> [f64; 2] {
         wrong = wrong.max(-pressure);
         let excess = limit_excess(on.groove, stretch.regime, y, on.omega, on.flow);
         wrong = wrong.max(match stretch.regime {
-            Regime::Elastic => excess,
+            Regime::Elastic | Regime::Reversed => excess,
             Regime::Slip => match on.groove.law {
                 Law::Vector { stiffness, .. } => {
                     let strain = on.groove.strand.compliance;

@@ -146,6 +146,7 @@ pub(super) fn friction_zones(samples: &[Sample], length: f64) -> Vec<Zone> {
         let regime = match limit > 0.0 {
             _ if sample.sticks => Regime::Stick,
             true => Regime::Slip,
+            false if sample.displacement < 0.0 => Regime::Reversed,
             false => Regime::Elastic,
         };
         match zones.last_mut() {
@@ -154,6 +155,10 @@ pub(super) fn friction_zones(samples: &[Sample], length: f64) -> Vec<Zone> {
                 let before = last.unwrap_or(sample);
                 let from = match before.sticks || sample.sticks {
                     true => 0.5 * (before.place + place),
+                    false if zone.regime.is_elastic() && regime.is_elastic() => {
+                        let [from, to] = [before, sample].map(|sample| sample.displacement);
+                        crossing(before.place, from, place, to)
+                    }
                     false => crossing(before.place, before.limit, place, limit),
                 };
                 zone.to = from;

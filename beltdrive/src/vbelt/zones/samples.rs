@@ -34,6 +34,8 @@ pub(super) struct Sample {
     pub(super) place: f64,
     /// Excess of elastic friction over its limit.
     pub(super) limit: f64,
+    /// The displacement of scalar EPP friction; zero with other laws.
+    pub(super) displacement: f64,
     /// Excess of the traction over that in the middle of the turn, as a share of friction.
     pub(super) turn: f64,
     /// Direction of the traction, continuous along the pulley.
@@ -83,6 +85,7 @@ pub(super) fn samples<P: BeltProblem>(
             samples.push(Sample {
                 place: before + s * length,
                 limit: excess(groove, regime, y, omega, flow),
+                displacement: groove.elastic().map_or(0.0, |_| y[groove.displacement()]),
                 turn: contact.turn_excess(groove) / contact.friction().max(f64::MIN_POSITIVE),
                 direction: samples.last().map_or(direction, |last| {
                     let turns = (last.direction - direction) / TAU;
