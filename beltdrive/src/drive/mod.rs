@@ -3,12 +3,14 @@
 pub(crate) mod check;
 mod closure;
 pub(crate) mod layout;
+mod number;
 mod pulley;
 mod service;
 mod tensioner;
 mod two_pulleys;
 
 pub use closure::{Closure, Load, SpanTension};
+pub(crate) use number::Number;
 pub use pulley::{Duty, Mount, Pulley};
 pub use service::{BendingLoss, GivenLosses, LoadCase, Requirements, Service};
 pub use tensioner::{Guide, Tensioner, TensionerLoad};

@@ -4,8 +4,9 @@ use super::{
     schema,
     traceable::{ENTRIES, Traceable},
 };
-use crate::Drive;
+use crate::drive::Number;
 use crate::quantity::{Measure, UnitSystem};
+use crate::{Drive, TwoPulleys};
 
 /// A numeric entry of the drive file on which the steady state depends.
 #[derive(Clone, Copy, Debug)]
@@ -91,6 +92,14 @@ impl Key {
     /// As [`Key::get`].
     pub fn set(&self, drive: &mut Drive, value: f64) {
         self.entry.set(drive, value).expect(OF_THIS_DRIVE);
+    }
+
+    /// Which number of a drive it is.
+    ///
+    /// # Panics
+    /// As [`Key::get`].
+    pub(crate) fn number(&self, drive: &TwoPulleys) -> Number {
+        self.entry.number(drive).expect(OF_THIS_DRIVE)
     }
 
     /// Whether a drive has the entry.

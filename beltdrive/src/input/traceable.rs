@@ -1,8 +1,9 @@
 //! The entries that a branch can be traced over, and where their values stand in a drive with two pulleys.
 
 use super::schema;
+use crate::drive::Number;
 use crate::friction::{ROWS, Row};
-use crate::{BeltKind, Drive, Load, SpanTension, TwoPulleys, VBelt};
+use crate::{Drive, SpanTension, TwoPulleys};
 use std::sync::LazyLock;
 
 /// An entry with the place of its value in a drive.
@@ -15,11 +16,13 @@ pub(super) struct Traceable {
     slot: Slot,
 }
 
-/// Where the value of an entry stands.
+/// Which number of a drive the value of an entry is.
 #[derive(Clone, Copy, Debug)]
 enum Slot {
-    /// At a place of the numbers of the drive, if the entry applies.
-    Of(fn(&mut TwoPulleys) -> Option<&mut f64>),
+    /// The same one of every drive that has it.
+    Number(Number),
+    /// One that depends on the load, if the entry applies.
+    OfLoad(fn(&TwoPulleys) -> Option<Number>),
     /// It is the parameter of a friction law.
     Parameter(&'static Row),
 }
@@ -38,15 +41,22 @@ impl Traceable {
         Some(())
     }
 
+    /// Which number of a drive it is; `None` where the entry does not apply.
+    pub(super) fn number(&self, drive: &TwoPulleys) -> Option<Number> {
+        let number = match self.slot {
+            Slot::Number(number) => number,
+            Slot::OfLoad(number) => number(drive)?,
+            Slot::Parameter(wanted) if drive.law.row().name == wanted.name => {
+                Number::FrictionParameter
+            }
+            Slot::Parameter(_) => return None,
+        };
+        number.place(&mut { *drive }).map(|_| number)
+    }
+
     /// Where its value stands; `None` where the entry does not apply.
     fn slot<'d>(&self, drive: &'d mut TwoPulleys) -> Option<&'d mut f64> {
-        match self.slot {
-            Slot::Of(place) => place(drive),
-            Slot::Parameter(wanted) => {
-                let (row, value) = drive.law.parts();
-                value.filter(|_| row.name == wanted.name)
-            }
-        }
+        self.number(drive)?.place(drive)
     }
 }
 
@@ -72,27 +82,27 @@ const UP_TO_FRICTION: [Traceable; 5] = [
     Traceable {
         path: "belt.mass_per_length",
         name: "mass per length",
-        slot: Slot::Of(|drive| Some(&mut drive.belt.mass_per_length)),
+        slot: Slot::Number(Number::MassPerLength),
     },
     Traceable {
         path: "belt.axial_stiffness",
         name: "axial stiffness",
-        slot: Slot::Of(|drive| Some(&mut drive.belt.axial_stiffness)),
+        slot: Slot::Number(Number::AxialStiffness),
     },
     Traceable {
         path: "belt.radial_stiffness",
         name: "radial stiffness",
-        slot: Slot::Of(|drive| v_belt(drive).map(|belt| &mut belt.radial_stiffness)),
+        slot: Slot::Number(Number::RadialStiffness),
     },
     Traceable {
         path: "groove.half_angle",
         name: "half groove angle",
-        slot: Slot::Of(|drive| v_belt(drive).map(|belt| &mut belt.half_angle)),
+        slot: Slot::Number(Number::HalfAngle),
     },
     Traceable {
         path: "friction.coefficient",
         name: "coefficient of friction",
-        slot: Slot::Of(|drive| Some(&mut drive.friction_coefficient)),
+        slot: Slot::Number(Number::FrictionCoefficient),
     },
 ];
 
@@ -101,77 +111,67 @@ const FROM_PULLEYS: [Traceable; 9] = [
     Traceable {
         path: "pulleys.driver.radius",
         name: "driver radius",
-        slot: Slot::Of(|drive| Some(&mut drive.driver_radius)),
+        slot: Slot::Number(Number::DriverRadius),
     },
     Traceable {
         path: "pulleys.driver.speed",
         name: "driver speed",
-        slot: Slot::Of(|drive| Some(&mut drive.driver_speed)),
+        slot: Slot::Number(Number::DriverSpeed),
     },
     Traceable {
         path: "pulleys.driven.radius",
         name: "driven radius",
-        slot: Slot::Of(|drive| Some(&mut drive.driven_radius)),
+        slot: Slot::Number(Number::DrivenRadius),
     },
     Traceable {
         path: "layout.centre_distance",
         name: "centre distance",
-        slot: Slot::Of(|drive| Some(&mut drive.centre_distance)),
+        slot: Slot::Number(Number::CentreDistance),
     },
     Traceable {
         path: schema::SLACK[0],
         name: "slack tractive tension",
-        slot: Slot::Of(|drive| tractive(&mut drive.load.slack)),
+        slot: Slot::OfLoad(|drive| tractive(drive.load.slack, Number::Slack)),
     },
     Traceable {
         path: schema::SLACK[1],
         name: "slack tension",
-        slot: Slot::Of(|drive| belt(&mut drive.load.slack)),
+        slot: Slot::OfLoad(|drive| belt(drive.load.slack, Number::Slack)),
     },
     Traceable {
         path: schema::TIGHT[0],
         name: "tight tractive tension",
-        slot: Slot::Of(|drive| tractive(&mut drive.load.tight)),
+        slot: Slot::OfLoad(|drive| tractive(drive.load.tight, Number::Tight)),
     },
     Traceable {
         path: schema::TIGHT[1],
         name: "tight tension",
-        slot: Slot::Of(|drive| belt(&mut drive.load.tight)),
+        slot: Slot::OfLoad(|drive| belt(drive.load.tight, Number::Tight)),
     },
     Traceable {
         path: schema::TORQUE,
         name: "driven torque",
-        slot: Slot::Of(|drive| torque(&mut drive.load)),
+        slot: Slot::OfLoad(torque),
     },
 ];
 
-fn v_belt(drive: &mut TwoPulleys) -> Option<&mut VBelt> {
-    match &mut drive.belt.kind {
-        BeltKind::V(belt) => Some(belt),
-        BeltKind::Flat { .. } => None,
-    }
+/// The number of a span whose tractive tension is prescribed.
+fn tractive(span: SpanTension, number: Number) -> Option<Number> {
+    matches!(span, SpanTension::Tractive(_)).then_some(number)
 }
 
-fn tractive(tension: &mut SpanTension) -> Option<&mut f64> {
-    match tension {
-        SpanTension::Tractive(value) => Some(value),
-        _ => None,
-    }
-}
-
-fn belt(tension: &mut SpanTension) -> Option<&mut f64> {
-    match tension {
-        SpanTension::Belt(value) => Some(value),
-        _ => None,
-    }
+/// The number of a span whose belt tension is prescribed.
+fn belt(span: SpanTension, number: Number) -> Option<Number> {
+    matches!(span, SpanTension::Belt(_)).then_some(number)
 }
 
 /// The driven torque, whichever span follows from it.
-fn torque(load: &mut Load) -> Option<&mut f64> {
-    [&mut load.slack, &mut load.tight]
-        .into_iter()
-        .find_map(|tension| match tension {
-            SpanTension::DrivenTorque(value) => Some(value),
-            _ => None,
-        })
+fn torque(drive: &TwoPulleys) -> Option<Number> {
+    let spans = [
+        (drive.load.slack, Number::Slack),
+        (drive.load.tight, Number::Tight),
+    ];
+    let by_torque = |span| matches!(span, SpanTension::DrivenTorque(_));
+    let found = spans.into_iter().find(|&(span, _)| by_torque(span));
+    found.map(|(_, number)| number)
 }

@@ -2,7 +2,9 @@
 
 use super::groove::{ANGLE, INCLINATION, LAW, LEAD, PENETRATION};
 use super::vector::Yielding;
-use super::{Contact, Groove, Law, Regime, Units, breakaway_excess, hold_excess, limit_excess};
+use super::{
+    Contact, Groove, Law, Over, Regime, Units, breakaway_excess, hold_excess, limit_excess,
+};
 use bvp::{Ends, Problem, Real, Solution};
 use std::ops::Range;
 
@@ -186,13 +188,7 @@ pub(crate) trait BeltProblem: Problem + Clone {
     /// The same belt with friction whose direction is a state, or that of the slip normalised by ε. Other laws
     /// stay as they are.
     fn with_direction(self, is_state: bool) -> Self {
-        self.with_laws(|law, _| match law {
-            Law::Sliding { lag, elastic, .. } if !is_state => Law::Normalised {
-                epsilon: lag,
-                elastic,
-            },
-            law => law,
-        })
+        self.with_laws(|law, _| law.with_direction(is_state))
     }
 
     /// The same belt with EPP friction blended into Coulomb friction by `share` in \[0, 1\]. Coulomb and bristle
@@ -249,9 +245,9 @@ pub(crate) trait BeltProblem: Problem + Clone {
 /// stick it has no slip, and friction straight up the groove just holds it; it breaks loose in a direction of its
 /// own. Else the last junction lies in the middle of the turn of the traction that lifts the belt (see
 /// `Contact::turn_excess`), and one in front of that where the belt breaks away (see `breakaway_excess`).
-pub(super) fn in_groove<T: Real>(
+pub(super) fn in_groove<S: Real, T: Over<S>>(
     problem: &impl BeltProblem,
-    (pulley, groove): (usize, &Groove),
+    (pulley, groove): (usize, &Groove<S>),
     at: &Ends<'_, T>,
     p: &[T],
     mut zero: impl FnMut(T),

@@ -19,7 +19,7 @@
 //!
 //! These two conditions close the drive; the span lengths follow and need not be unknowns.
 
-use super::{DRIVEN, DRIVER};
+use super::{DRIVEN, DRIVER, Over};
 use bvp::Real;
 use nalgebra::{Rotation2, Vector2};
 use std::f64::consts::PI;
@@ -35,16 +35,16 @@ pub(crate) struct EndAngles<T> {
 
 /// Where the pulleys are, in any unit of length.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Layout {
+pub(crate) struct Layout<S = f64> {
     /// Pitch radii of the driven pulley and of the driver.
-    pub(crate) radius: [f64; 2],
+    pub(crate) radius: [S; 2],
     /// Distance of the centres; greater than the sum of the radii.
-    pub(crate) centre_distance: f64,
+    pub(crate) centre_distance: S,
 }
 
-impl Layout {
+impl<S: Real> Layout<S> {
     /// Angles that the belt must sweep on both pulleys for the drive to close, rad.
-    pub(crate) fn wraps<T: Real>(&self, ends: [EndAngles<T>; 2]) -> [T; 2] {
+    pub(crate) fn wraps<T: Over<S>>(&self, ends: [EndAngles<T>; 2]) -> [T; 2] {
         let [tight, slack] = [DRIVEN, DRIVER].map(|from| self.tilt_sine(from, ends).asin());
         let turned = ends.map(|ends| ends.exit - ends.entry);
         [
@@ -55,7 +55,7 @@ impl Layout {
 
     /// Length of the free span that leaves pulley `from`: the tight span from the driven pulley,
     /// the slack span from the driver.
-    pub(crate) fn span<T: Real>(&self, from: usize, ends: [EndAngles<T>; 2]) -> T {
+    pub(crate) fn span<T: Over<S>>(&self, from: usize, ends: [EndAngles<T>; 2]) -> T {
         let to = 1 - from;
         let sine = self.tilt_sine(from, ends);
         let along = ((T::from_f64(1.0) - sine) * (sine + 1.0)).sqrt() * self.centre_distance;
@@ -63,13 +63,15 @@ impl Layout {
     }
 
     /// Sine of the angle δ from the span that leaves pulley `from` to the line of centres.
-    fn tilt_sine<T: Real>(&self, from: usize, ends: [EndAngles<T>; 2]) -> T {
+    fn tilt_sine<T: Over<S>>(&self, from: usize, ends: [EndAngles<T>; 2]) -> T {
         let to = 1 - from;
         let across =
             ends[to].entry.cos() * self.radius[to] - ends[from].exit.cos() * self.radius[from];
         across / self.centre_distance
     }
+}
 
+impl Layout {
     /// Lays the drive out in the plane from the inclinations and the angles swept, span after
     /// span: the driven pulley at the origin, the tight span along the first axis.
     pub(crate) fn plan(&self, ends: [EndAngles<f64>; 2], swept: [f64; 2]) -> Plan {

@@ -29,7 +29,7 @@
 
 use super::groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 use super::vector::Yielding;
-use super::{Groove, Law, Regime, Strand};
+use super::{Groove, Law, Over, Regime, Strand};
 use bvp::Real;
 use std::f64::consts::PI;
 
@@ -68,7 +68,16 @@ pub(crate) struct Contact<T> {
 
 impl<T: Real> Contact<T> {
     /// The contact in `state`, on a pulley of speed `omega`, with the mass flow `flow`.
-    pub(crate) fn new(groove: &Groove, regime: Regime, state: &[T], omega: T, flow: T) -> Self {
+    pub(crate) fn new<S: Real>(
+        groove: &Groove<S>,
+        regime: Regime,
+        state: &[T],
+        omega: T,
+        flow: T,
+    ) -> Self
+    where
+        T: Over<S>,
+    {
         let one = T::from_f64(1.0);
         let [tractive, theta, penetration] =
             [state[TENSION], state[INCLINATION], state[PENETRATION]];
@@ -104,7 +113,7 @@ impl<T: Real> Contact<T> {
                 // The outward load n is F/r, which keeps the inclination.
                 let tan_beta = groove.sin_beta / groove.cos_beta;
                 let held = tractive / (one - penetration);
-                let up = (transverse * tan_beta - held) * (0.5 * groove.cos_beta);
+                let up = (transverse * tan_beta - held) * (groove.cos_beta * 0.5);
                 [T::from_f64(0.0), up]
             }
             Law::Normalised { .. } | Law::Sliding { .. } => {
@@ -138,7 +147,10 @@ impl<T: Real> Contact<T> {
     }
 
     /// Derivatives of the states with respect to the arc length.
-    pub(crate) fn rates(&self, groove: &Groove, state: &[T], rates: &mut [T]) {
+    pub(crate) fn rates<S: Real>(&self, groove: &Groove<S>, state: &[T], rates: &mut [T])
+    where
+        T: Over<S>,
+    {
         let turning =
             (self.outward * self.cos_theta + self.retarding * self.sin_theta) / self.tractive;
         let sweep = self.cos_theta / self.radius;
@@ -174,7 +186,10 @@ impl<T: Real> Contact<T> {
     }
 
     /// Derivatives of the slip with respect to the arc length, from those of F and θ.
-    fn slip_rates(&self, groove: &Groove, rates: &[T]) -> [T; 2] {
+    fn slip_rates<S: Real>(&self, groove: &Groove<S>, rates: &[T]) -> [T; 2]
+    where
+        T: Over<S>,
+    {
         let [slip_t, _] = self.slip;
         let strand = &groove.strand;
         // V'/V, and (ω r/V)'/(ω r/V) with r' = sin θ.
@@ -206,14 +221,20 @@ impl<T: Real> Contact<T> {
 
     /// Excess of the traction up the groove face over half of what lies between that which lets the
     /// inclination stay zero and the whole friction: it rises through zero where the belt turns to be lifted.
-    pub(super) fn turn_excess(&self, groove: &Groove) -> T {
+    pub(super) fn turn_excess<S: Real>(&self, groove: &Groove<S>) -> T
+    where
+        T: Over<S>,
+    {
         let unbalanced = self.tractive / self.radius - self.outward;
-        self.traction[1] - self.friction() + unbalanced * (0.5 * groove.cos_beta)
+        self.traction[1] - self.friction() + unbalanced * (groove.cos_beta * 0.5)
     }
 
     /// du/ds = (T − `T_o`)/EA, the displacement of the belt against the pulley; for laws that do
     /// not have it as a state, to be integrated over a solution.
-    pub(crate) fn displacement_rate(&self, unstretched: f64) -> T {
+    pub(crate) fn displacement_rate<S>(&self, unstretched: S) -> T
+    where
+        T: Over<S>,
+    {
         self.tension - unstretched
     }
 
@@ -271,8 +292,8 @@ pub(crate) fn breakaway_excess<T: Real>(direction: T, sense: f64) -> T {
 
 /// Excess of the traction that would hold the belt over that of friction straight up the groove, at a place
 /// where it stops to sink: zero where it begins to stick.
-pub(crate) fn hold_excess<T: Real>(
-    groove: &Groove,
+pub(crate) fn hold_excess<S: Real, T: Over<S>>(
+    groove: &Groove<S>,
     before: Regime,
     state: &[T],
     omega: T,
@@ -290,8 +311,8 @@ pub(crate) fn hold_excess<T: Real>(
 /// Excess of the elastic friction over its limit: zero at the end of a zone of EPP friction, negative where
 /// friction is elastic and positive where the belt slips. It is `k_f` |u| − μ p, and with vector EPP friction that of
 /// [`Yielding::excess`]. Other laws have no limit to exceed; they give zero.
-pub(crate) fn limit_excess<T: Real>(
-    groove: &Groove,
+pub(crate) fn limit_excess<S: Real, T: Over<S>>(
+    groove: &Groove<S>,
     regime: Regime,
     state: &[T],
     omega: T,

@@ -16,8 +16,9 @@
 
 use super::belt_problem::{BeltProblem, Zoning, end_angles, in_groove};
 use super::groove::{ANGLE, TENSION};
-use super::{Contact, DRIVEN, DRIVER, Groove, Law, Layout, Regime, Scales, Units};
-use crate::{SpanTension, TwoPulleys};
+use super::numbers::{Numbers, Scaled};
+use super::{Contact, DRIVEN, DRIVER, Groove, Law, Layout, Over, Regime, Scales, Units};
+use crate::{Load, SpanTension, TwoPulleys};
 use bvp::{Ends, Problem, Real, Segment, Solution};
 
 /// Index of the length of segment 0 among the parameters.
@@ -27,11 +28,9 @@ const LENGTHS: usize = 2;
 #[derive(Clone, Debug)]
 pub(crate) struct DriveProblem {
     scales: Scales,
-    layout: Layout,
-    grooves: [Groove; 2],
-    /// Prescribed tensions of the slack and the tight span, scaled.
-    slack: SpanTension,
-    tight: SpanTension,
+    scaled: Scaled,
+    /// What the tensions of the spans are prescribed by.
+    load: Load,
     /// What is prescribed instead of the tight tension, if anything.
     instead: Option<Instead>,
     zoning: Zoning,
@@ -56,26 +55,10 @@ impl DriveProblem {
     /// The problem of `drive` in the units `scales`, with one segment on each pulley and the direction of Coulomb
     /// and EPP friction smoothed over the length ℓ/R `lag`. EPP friction is not blended.
     pub(crate) fn new(drive: &TwoPulleys, scales: Scales, lag: f64) -> Self {
-        let (sin_beta, cos_beta) = drive.belt.v().half_angle.sin_cos();
-        let units = scales.units;
-        let slack = drive.load.slack.value() / units.force;
-        let grooves = scales.radius.map(|radius| Groove {
-            strand: units.strand(),
-            sin_beta,
-            cos_beta,
-            friction_coefficient: drive.friction_coefficient,
-            radial_stiffness: units.radial_stiffness(drive.belt.v().radial_stiffness, radius),
-            law: Law::new(drive.law, &units, radius, slack, lag),
-        });
         let problem = Self {
             scales,
-            layout: Layout {
-                radius: scales.radius,
-                centre_distance: drive.centre_distance,
-            },
-            grooves,
-            slack: scaled(drive.load.slack, units.force),
-            tight: scaled(drive.load.tight, units.force),
+            scaled: Numbers::new(drive).scaled(&scales.units, lag),
+            load: drive.load,
             instead: None,
             zoning: Zoning::default(),
             segments: Vec::new(),
@@ -94,7 +77,7 @@ impl DriveProblem {
     /// The same drive with another prescribed tight tension, scaled.
     pub(crate) fn with_tight_tension(mut self, value: f64) -> Self {
         self.instead = None;
-        self.tight = self.tight.with_value(value);
+        self.scaled.tensions[DRIVEN] = value;
         self
     }
 
@@ -105,17 +88,21 @@ impl DriveProblem {
 
     /// Where the pulleys are, m.
     pub(crate) fn layout(&self) -> &Layout {
-        &self.layout
+        &self.scaled.layout
     }
 
     /// The prescribed tensions of the slack and the tight span, scaled.
     pub(crate) fn load(&self) -> [SpanTension; 2] {
-        [self.slack, self.tight]
+        let [tight, slack] = self.scaled.tensions;
+        [
+            self.load.slack.with_value(slack),
+            self.load.tight.with_value(tight),
+        ]
     }
 
     /// The constants of the belt on a pulley.
     pub(crate) fn groove(&self, pulley: usize) -> &Groove {
-        &self.grooves[pulley]
+        &self.scaled.grooves[pulley]
     }
 
     /// Index of the length of a segment among the parameters.
@@ -125,24 +112,88 @@ impl DriveProblem {
 
     /// Scaled tight tension (of the kind that the load prescribes): prescribed or unknown.
     pub(crate) fn tight_tension<T: Real>(&self, p: &[T]) -> T {
+        self.span_tension(&self.scaled, DRIVEN, p)
+    }
+
+    /// The scaled number that the tension of the span that leaves a pulley is prescribed by, or unknown.
+    fn span_tension<S: Copy, T: Over<S>>(&self, drive: &Scaled<S>, from: usize, p: &[T]) -> T {
         match self.instead {
-            Some(_) => p[LENGTHS + self.segments.len()],
-            None => T::from_f64(self.tight.value()),
+            Some(_) if from == DRIVEN => p[LENGTHS + self.segments.len()],
+            _ => T::from(drive.tensions[from]),
         }
     }
 
-    /// Excess of the tension at an end of a contact over that of the span next to it.
-    fn tension_excess<T: Real>(&self, pulley: usize, tight: bool, y: &[T], p: &[T]) -> T {
-        let (kind, value) = if tight {
-            (self.tight, self.tight_tension(p))
-        } else {
-            (self.slack, T::from_f64(self.slack.value()))
+    /// Excess of the tension at an end of the contact with a pulley over that of the span that lies there, which
+    /// leaves the pulley `from`.
+    fn tension_excess<S: Real, T: Over<S>>(
+        &self,
+        drive: &Scaled<S>,
+        (pulley, from): (usize, usize),
+        y: &[T],
+        p: &[T],
+    ) -> T {
+        let value = self.span_tension(drive, from, p);
+        let prescribed = match from {
+            DRIVEN => self.load.tight,
+            _ => self.load.slack,
         };
-        if let SpanTension::Tractive(_) = kind {
+        if let SpanTension::Tractive(_) = prescribed {
             return y[TENSION] - value;
         }
-        let strand = self.grooves[pulley].strand;
+        let strand = drive.grooves[pulley].strand;
         strand.tension(y[TENSION], self.flow(p)) - value
+    }
+
+    /// The right-hand side on a segment for a belt with these constants on its pulley.
+    pub(super) fn rates<S: Real, T: Over<S>>(
+        &self,
+        groove: &Groove<S>,
+        segment: usize,
+        y: &[T],
+        p: &[T],
+        dy: &mut [T],
+    ) {
+        let (omega, flow) = (self.omega(self.pulley(segment), p), self.flow(p));
+        Contact::new(groove, self.regime(segment), y, omega, flow).rates(groove, y, dy);
+        let length = self.length(segment, p);
+        for rate in dy {
+            *rate *= length;
+        }
+    }
+
+    /// The conditions for a drive with these numbers.
+    pub(super) fn residuals<S: Real, T: Over<S>>(
+        &self,
+        drive: &Scaled<S>,
+        at: Ends<'_, T>,
+        p: &[T],
+        r: &mut [T],
+    ) {
+        let mut residuals = r.iter_mut();
+        let mut zero = |value: T| {
+            if let Some(residual) = residuals.next() {
+                *residual = value;
+            }
+        };
+        let exits = [DRIVEN, DRIVER].map(|pulley| at.end(self.zones(pulley).end - 1));
+        for pulley in [DRIVEN, DRIVER] {
+            let entry = at.start(self.zones(pulley).start);
+            zero(self.tension_excess(drive, (pulley, 1 - pulley), entry, p));
+            zero(self.tension_excess(drive, (pulley, pulley), exits[pulley], p));
+            in_groove(self, (pulley, &drive.grooves[pulley]), &at, p, &mut zero);
+        }
+        let ends = [DRIVEN, DRIVER].map(|pulley| end_angles(self, pulley, &at));
+        let wraps = drive.layout.wraps(ends);
+        for pulley in [DRIVEN, DRIVER] {
+            zero(exits[pulley][ANGLE] - wraps[pulley]);
+        }
+        match self.instead {
+            None => {}
+            Some(Instead::DrivenSpeed(prescribed)) => zero(p[Self::DRIVEN_SPEED] - prescribed),
+            Some(Instead::DriverLength(prescribed)) => {
+                zero(self.contact_length(DRIVER, p) - prescribed);
+            }
+        }
     }
 }
 
@@ -152,7 +203,7 @@ impl BeltProblem for DriveProblem {
     }
 
     fn in_groove(&self, pulley: usize) -> Option<&Groove> {
-        Some(&self.grooves[pulley])
+        Some(&self.scaled.grooves[pulley])
     }
 
     fn omega<T: Real>(&self, pulley: usize, p: &[T]) -> T {
@@ -202,23 +253,19 @@ impl BeltProblem for DriveProblem {
 
     fn with_zones(mut self, zones: &[Vec<Regime>]) -> Self {
         self.zoning = Zoning::new(zones);
-        self.segments = vec![Segment::new(self.grooves[DRIVEN].states()); self.zoning.count()];
+        self.segments = vec![Segment::new(self.groove(DRIVEN).states()); self.zoning.count()];
         self
     }
 
     fn with_laws(mut self, change: impl Fn(Law, f64) -> Law) -> Self {
-        for (groove, radius) in self.grooves.iter_mut().zip(self.scales.radius) {
+        let grooves = self.scaled.grooves.iter_mut();
+        for (groove, radius) in grooves.zip(self.scales.radius) {
             groove.law = change(groove.law, radius);
         }
         self.segments
-            .fill(Segment::new(self.grooves[DRIVEN].states()));
+            .fill(Segment::new(self.scaled.grooves[DRIVEN].states()));
         self
     }
-}
-
-/// A prescribed tension in units of `force`.
-fn scaled(tension: SpanTension, force: f64) -> SpanTension {
-    tension.with_value(tension.value() / force)
 }
 
 impl Problem for DriveProblem {
@@ -231,14 +278,7 @@ impl Problem for DriveProblem {
     }
 
     fn rhs<T: Real>(&self, segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
-        let pulley = self.pulley(segment);
-        let (groove, regime) = (&self.grooves[pulley], self.regime(segment));
-        let (omega, flow) = (self.omega(pulley, p), self.flow(p));
-        Contact::new(groove, regime, y, omega, flow).rates(groove, y, dy);
-        let length = self.length(segment, p);
-        for rate in dy {
-            *rate *= length;
-        }
+        self.rates(self.groove(self.pulley(segment)), segment, y, p, dy);
     }
 
     /// On the speed of its pulley, the mass flow and its own length.
@@ -251,31 +291,7 @@ impl Problem for DriveProblem {
     }
 
     fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]) {
-        let mut residuals = r.iter_mut();
-        let mut zero = |value: T| {
-            if let Some(residual) = residuals.next() {
-                *residual = value;
-            }
-        };
-        let exits = [DRIVEN, DRIVER].map(|pulley| at.end(self.zones(pulley).end - 1));
-        for pulley in [DRIVEN, DRIVER] {
-            let entry = at.start(self.zones(pulley).start);
-            zero(self.tension_excess(pulley, pulley == DRIVER, entry, p));
-            zero(self.tension_excess(pulley, pulley == DRIVEN, exits[pulley], p));
-            in_groove(self, (pulley, &self.grooves[pulley]), &at, p, &mut zero);
-        }
-        let ends = [DRIVEN, DRIVER].map(|pulley| end_angles(self, pulley, &at));
-        let wraps = self.layout.wraps(ends);
-        for pulley in [DRIVEN, DRIVER] {
-            zero(exits[pulley][ANGLE] - wraps[pulley]);
-        }
-        match self.instead {
-            None => {}
-            Some(Instead::DrivenSpeed(prescribed)) => zero(p[Self::DRIVEN_SPEED] - prescribed),
-            Some(Instead::DriverLength(prescribed)) => {
-                zero(self.contact_length(DRIVER, p) - prescribed);
-            }
-        }
+        self.residuals(&self.scaled, at, p, r);
     }
 }
 

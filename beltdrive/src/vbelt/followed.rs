@@ -113,8 +113,8 @@ impl Chart<'_> {
         let (value, solved) = &from.near;
         let entries = [(self.key, from.point.value), (self.second, self.unit())];
         let entries = entries.map(|(key, unit)| Entry { key, unit });
-        let family = DriveFamily::new(self.drive, solved, entries.to_vec());
-        let finer = DriveFamily::new(self.drive, solved, entries.to_vec());
+        let family = DriveFamily::new(self.drive, &solved.problem, entries.to_vec());
+        let finer = DriveFamily::new(self.drive, &solved.problem, entries.to_vec());
         let finer = finer.with_smoothing(FINER * solved.problem.smoothing());
         let mut walk = Walk {
             family: &family,

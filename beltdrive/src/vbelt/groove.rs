@@ -24,7 +24,7 @@
 //! until it breaks loose in a direction of its own, at a place that the other end of the contact decides: every
 //! solution behind a place at rest leaves it, and none comes to it but where `q_w` = −f.
 
-use super::{Strand, Units};
+use super::{Over, Strand, Units};
 use crate::FrictionLaw;
 use crate::results::steady_state::ZoneKind;
 use bvp::Real;
@@ -49,13 +49,13 @@ pub(super) const LEAD: f64 = 0.02;
 /// How the direction of friction follows from the slip, scaled. EPP friction has an [`Elastic`] part and its
 /// displacement u as the last state; without it friction is Coulomb's, or that of bristles.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Law {
+pub(crate) enum Law<S = f64> {
     /// Along the slip, which is normalised by ε: states F, θ, x, φ (and u).
     Normalised {
         /// Normalisation ε of the slip, per unit of belt speed.
         epsilon: f64,
         /// What EPP friction has more than Coulomb friction.
-        elastic: Option<Elastic>,
+        elastic: Option<Elastic<S>>,
     },
     /// Along a direction γ that follows the slip: F, θ, x, φ, γ (and u).
     Sliding {
@@ -64,19 +64,19 @@ pub(crate) enum Law {
         /// Length τ/R over which it is made to, by the rate of the slip.
         lead: f64,
         /// What EPP friction has more than Coulomb friction.
-        elastic: Option<Elastic>,
+        elastic: Option<Elastic<S>>,
     },
     /// Along the deflection of bristles: F, θ, x, φ, `B_t`, `B_w` (and u).
     Bristle {
         /// Stiffness κ R.
-        stiffness: f64,
+        stiffness: S,
         /// The limit of EPP friction in place of μ p.
-        elastic: Option<Elastic>,
+        elastic: Option<Elastic<S>>,
     },
     /// EPP friction as a vector: F, θ, x, φ, `B_t`, `B_w`.
     Vector {
         /// Stiffness `k_f` R²/`F_ref`.
-        stiffness: f64,
+        stiffness: S,
         /// Half of the exponent of |B|/μ with which the plastic rate sets in where the regime is
         /// [`Either`](Regime::Either).
         sharpness: i32,
@@ -85,34 +85,34 @@ pub(crate) enum Law {
     },
 }
 
-impl Law {
-    /// A friction law on a pulley of a radius in m, with the direction of Coulomb and EPP friction as a state that
-    /// follows the slip over the length ℓ/R `lag`. EPP friction is not blended; `unstretched` is the scaled tension
-    /// at which its displacement does not grow.
+impl<S: Real> Law<S> {
+    /// A friction law with a value of its parameter, SI, on a pulley of a radius in m, with the direction of Coulomb and
+    /// EPP friction as a state that follows the slip over the length ℓ/R `lag`. EPP friction is not blended;
+    /// `unstretched` is the scaled tension at which its displacement does not grow.
     pub(super) fn new(
-        law: FrictionLaw,
-        units: &Units,
-        radius: f64,
-        unstretched: f64,
+        (law, parameter): (FrictionLaw, S),
+        units: &Units<S>,
+        radius: S,
+        unstretched: S,
         lag: f64,
     ) -> Self {
         let elastic = match law {
             FrictionLaw::Coulomb => None,
-            FrictionLaw::Epp { stiffness } => Some(Elastic {
-                stiffness: units.friction_stiffness(stiffness, radius),
+            FrictionLaw::Epp { .. } => Some(Elastic {
+                stiffness: units.friction_stiffness(parameter, radius),
                 unstretched,
                 weight: 1.0,
             }),
-            FrictionLaw::VectorEpp { stiffness } => {
+            FrictionLaw::VectorEpp { .. } => {
                 return Self::Vector {
-                    stiffness: units.radial_stiffness(stiffness, radius),
+                    stiffness: units.radial_stiffness(parameter, radius),
                     sharpness: 1,
                     lead: lag,
                 };
             }
-            FrictionLaw::Bristle { stiffness } => {
+            FrictionLaw::Bristle { .. } => {
                 return Self::Bristle {
-                    stiffness: stiffness * radius,
+                    stiffness: parameter * radius,
                     elastic: None,
                 };
             }
@@ -126,7 +126,7 @@ impl Law {
     }
 
     /// What EPP friction has more.
-    pub(super) fn elastic(&self) -> Option<Elastic> {
+    pub(super) fn elastic(&self) -> Option<Elastic<S>> {
         match self {
             Self::Normalised { elastic, .. }
             | Self::Sliding { elastic, .. }
@@ -136,7 +136,7 @@ impl Law {
     }
 
     /// What EPP friction has more.
-    pub(super) fn elastic_mut(&mut self) -> Option<&mut Elastic> {
+    pub(super) fn elastic_mut(&mut self) -> Option<&mut Elastic<S>> {
         match self {
             Self::Normalised { elastic, .. }
             | Self::Sliding { elastic, .. }
@@ -166,15 +166,27 @@ impl Law {
         }
         self
     }
+
+    /// The same law with friction whose direction is a state, or that of the slip normalised by ε. Other laws stay as
+    /// they are.
+    pub(super) fn with_direction(self, is_state: bool) -> Self {
+        match self {
+            Self::Sliding { lag, elastic, .. } if !is_state => Self::Normalised {
+                epsilon: lag,
+                elastic,
+            },
+            law => law,
+        }
+    }
 }
 
 /// Elastic friction below the limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Elastic {
+pub(crate) struct Elastic<S = f64> {
     /// Stiffness `k_f` R²/EA.
-    pub(super) stiffness: f64,
+    pub(super) stiffness: S,
     /// Tension `T_o` at which the displacement does not grow.
-    pub(super) unstretched: f64,
+    pub(super) unstretched: S,
     /// Share of EPP friction in a blend with Coulomb's, 0 to 1, where the regime is
     /// [`Either`](Regime::Either).
     pub(super) weight: f64,
@@ -221,29 +233,29 @@ impl Regime {
 
 /// The belt on one pulley: constants of the local mechanics, scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Groove {
+pub(crate) struct Groove<S = f64> {
     /// The belt as a moving string.
-    pub(crate) strand: Strand,
+    pub(crate) strand: Strand<S>,
     /// Sine of the half groove angle β.
-    pub(crate) sin_beta: f64,
+    pub(crate) sin_beta: S,
     /// Cosine of the half groove angle β.
-    pub(crate) cos_beta: f64,
+    pub(crate) cos_beta: S,
     /// Coefficient of friction μ.
-    pub(crate) friction_coefficient: f64,
+    pub(crate) friction_coefficient: S,
     /// Radial stiffness k R²/`F_ref`.
-    pub(crate) radial_stiffness: f64,
+    pub(crate) radial_stiffness: S,
     /// Friction law.
-    pub(crate) law: Law,
+    pub(crate) law: Law<S>,
 }
 
-impl Groove {
+impl<S: Real> Groove<S> {
     /// Number of states of the contact.
     pub(crate) fn states(&self) -> usize {
         self.displacement() + usize::from(self.elastic().is_some())
     }
 
     /// What EPP friction has more than Coulomb friction.
-    pub(super) fn elastic(&self) -> Option<Elastic> {
+    pub(super) fn elastic(&self) -> Option<Elastic<S>> {
         self.law.elastic()
     }
 
@@ -257,14 +269,8 @@ impl Groove {
     }
 
     /// Elastic friction `k_f` |u|.
-    pub(super) fn elastic_friction<T: Real>(&self, elastic: Elastic, state: &[T]) -> T {
+    pub(super) fn elastic_friction<T: Over<S>>(&self, elastic: Elastic<S>, state: &[T]) -> T {
         state[self.displacement()].abs() * elastic.stiffness
-    }
-
-    /// Penetration that carries the tension F on the pitch circle without friction, to first order
-    /// in x/R: there 2 p cos β = k x and F = 2 p sin β r, so k r x tan β = F.
-    pub(crate) fn frictionless_penetration(&self, tractive: f64) -> f64 {
-        tractive * self.cos_beta / (self.radial_stiffness * self.sin_beta)
     }
 
     /// Normalisation of the slip. Bristles have no 0/0 to be regularised; theirs only keeps the
@@ -277,12 +283,12 @@ impl Groove {
     }
 
     /// Normal load of a face when its traction is p B.
-    pub(super) fn pressure<T: Real>(&self, half_load: T, bristle_w: T) -> T {
+    pub(super) fn pressure<T: Over<S>>(&self, half_load: T, bristle_w: T) -> T {
         half_load / (bristle_w * self.sin_beta + self.cos_beta)
     }
 
     /// The friction force f per length of Coulomb's law and of EPP, whose `limit` is μ p in slip.
-    pub(super) fn friction<T: Real>(&self, regime: Regime, state: &[T], limit: T) -> T {
+    pub(super) fn friction<T: Over<S>>(&self, regime: Regime, state: &[T], limit: T) -> T {
         let Some(elastic) = self.elastic() else {
             return limit;
         };
@@ -292,5 +298,13 @@ impl Groove {
             Regime::Slip | Regime::Stick => limit,
             Regime::Either => limit.min(limit + (friction - limit) * elastic.weight),
         }
+    }
+}
+
+impl Groove {
+    /// Penetration that carries the tension F on the pitch circle without friction, to first order
+    /// in x/R: there 2 p cos β = k x and F = 2 p sin β r, so k r x tan β = F.
+    pub(crate) fn frictionless_penetration(&self, tractive: f64) -> f64 {
+        tractive * self.cos_beta / (self.radial_stiffness * self.sin_beta)
     }
 }

@@ -31,10 +31,13 @@ mod limit;
 mod limit_curve;
 mod limits;
 mod model;
+mod numbers;
 mod on_pulley;
 mod other_zones;
+mod over;
 mod path;
 mod piece;
+mod scales;
 mod scaling;
 mod solve;
 mod starts;
@@ -52,8 +55,10 @@ pub(crate) use contact::{BREAKAWAY, Contact, breakaway_excess, hold_excess, limi
 pub(crate) use drive_problem::{DriveProblem, Instead};
 pub(crate) use groove::{Groove, Law, Regime};
 pub(crate) use guess::Guess;
+pub(crate) use over::Over;
 pub(crate) use path::Solved;
-pub(crate) use scaling::{Scales, Strand, Units};
+pub(crate) use scales::Scales;
+pub(crate) use scaling::{Strand, Units};
 pub(crate) use state::sharper;
 
 use groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};

@@ -133,8 +133,8 @@ impl Tracer<'_> {
             key: self.key,
             unit,
         };
-        let family = DriveFamily::new(self.drive, &solved, vec![entry]);
-        let finer = DriveFamily::new(self.drive, &solved, vec![entry]);
+        let family = DriveFamily::new(self.drive, &solved.problem, vec![entry]);
+        let finer = DriveFamily::new(self.drive, &solved.problem, vec![entry]);
         let finer = finer.with_smoothing(FINER * smoothing);
         let options = discretisation(self.tolerance, &solved.problem);
         let first = family.first_entry();

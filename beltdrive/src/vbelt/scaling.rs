@@ -1,6 +1,7 @@
 //! The units in which the equations of a drive are pure numbers of order one.
 
-use crate::{Belt, TwoPulleys};
+use super::Over;
+use crate::Belt;
 use bvp::Real;
 
 /// The units of a drive or a loop. A scaled quantity times its unit is the quantity in SI.
@@ -14,15 +15,15 @@ use bvp::Real;
 ///
 /// The driver d turns at 1, and every other pulley at 1 where nothing slips or stretches.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Units {
+pub(crate) struct Units<S = f64> {
     /// Reference force `F_ref`, N; positive.
     pub(crate) force: f64,
     /// Circumferential speed `ω_d R_d` of the driver, m/s.
-    pub(crate) speed: f64,
+    pub(crate) speed: S,
     /// Mass per unstretched length, kg/m.
-    mass_per_length: f64,
+    pub(super) mass_per_length: S,
     /// Axial stiffness EA, N.
-    axial_stiffness: f64,
+    pub(super) axial_stiffness: S,
 }
 
 impl Units {
@@ -34,16 +35,6 @@ impl Units {
             mass_per_length: belt.mass_per_length,
             axial_stiffness: belt.axial_stiffness,
         }
-    }
-
-    /// Unit of line loads on a pulley of a radius in m, N/m.
-    pub(crate) fn line_load(&self, radius: f64) -> f64 {
-        self.force / radius
-    }
-
-    /// Unit of the displacement on a pulley, m: the stretch of a length R under `F_ref`.
-    pub(crate) fn displacement(&self, radius: f64) -> f64 {
-        self.force * radius / self.axial_stiffness
     }
 
     /// Unit of torque on a pulley, N·m.
@@ -65,49 +56,35 @@ impl Units {
     pub(crate) fn angular_speed(&self, radius: f64) -> f64 {
         self.speed / radius
     }
+}
+
+impl<S: Real> Units<S> {
+    /// Unit of line loads on a pulley of a radius in m, N/m.
+    pub(crate) fn line_load(&self, radius: S) -> S {
+        S::from_f64(self.force) / radius
+    }
+
+    /// Unit of the displacement on a pulley, m: the stretch of a length R under `F_ref`.
+    pub(crate) fn displacement(&self, radius: S) -> S {
+        radius * self.force / self.axial_stiffness
+    }
 
     /// The belt as a moving string, in these units.
-    pub(crate) fn strand(&self) -> Strand {
+    pub(crate) fn strand(&self) -> Strand<S> {
         Strand {
             inertia: self.mass_per_length * self.speed.powi(2) / self.force,
-            compliance: self.force / self.axial_stiffness,
+            compliance: S::from_f64(self.force) / self.axial_stiffness,
         }
     }
 
     /// Scaled radial stiffness k R²/`F_ref` on a pulley, from k in N/m².
-    pub(crate) fn radial_stiffness(&self, stiffness: f64, radius: f64) -> f64 {
+    pub(crate) fn radial_stiffness(&self, stiffness: S, radius: S) -> S {
         stiffness * radius / self.line_load(radius)
     }
 
     /// Scaled friction stiffness `k_f` R²/EA on a pulley, from `k_f` in N/m².
-    pub(crate) fn friction_stiffness(&self, stiffness: f64, radius: f64) -> f64 {
+    pub(crate) fn friction_stiffness(&self, stiffness: S, radius: S) -> S {
         stiffness * self.displacement(radius) / self.line_load(radius)
-    }
-}
-
-/// The units of a drive with two pulleys.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Scales {
-    /// Those that both pulleys share.
-    pub(crate) units: Units,
-    /// Pitch radii of the driven pulley and of the driver, m.
-    pub(crate) radius: [f64; 2],
-}
-
-impl Scales {
-    /// Units by the largest prescribed tension: tensions are then of order one at every load.
-    pub(crate) fn new(drive: &TwoPulleys) -> Self {
-        let force = drive.load.tight.value().max(drive.load.slack.value());
-        Self::with_force(drive, force)
-    }
-
-    /// Units with a given reference force in N, to compare states of different loads.
-    pub(crate) fn with_force(drive: &TwoPulleys, force: f64) -> Self {
-        let speed = drive.driver_speed * drive.driver_radius;
-        Self {
-            units: Units::new(&drive.belt, speed, force),
-            radius: [drive.driven_radius, drive.driver_radius],
-        }
     }
 }
 
@@ -118,48 +95,49 @@ impl Scales {
 /// c = m (ω_d R_d)²/F_ref,  e = F_ref/EA
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Strand {
+pub(crate) struct Strand<S = f64> {
     /// Centrifugal tension c of the reference speed.
-    pub(crate) inertia: f64,
+    pub(crate) inertia: S,
     /// Strain e of the reference force.
-    pub(crate) compliance: f64,
+    pub(crate) compliance: S,
 }
 
-impl Strand {
+impl<S: Real> Strand<S> {
     /// Belt tension T from the tractive tension F and the mass flow G.
-    pub(crate) fn tension<T: Real>(&self, tractive: T, flow: T) -> T {
+    pub(crate) fn tension<T: Over<S>>(&self, tractive: T, flow: T) -> T {
         let momentum = flow * flow * self.inertia;
         (tractive + momentum) / (T::from_f64(1.0) - momentum * self.compliance)
     }
 
     /// Tractive tension F from the belt tension T and the mass flow G.
-    pub(crate) fn tractive<T: Real>(&self, tension: T, flow: T) -> T {
+    pub(crate) fn tractive<T: Over<S>>(&self, tension: T, flow: T) -> T {
         tension - flow * self.speed(tension, flow) * self.inertia
     }
 
     /// Belt speed V.
-    pub(crate) fn speed<T: Real>(&self, tension: T, flow: T) -> T {
+    pub(crate) fn speed<T: Over<S>>(&self, tension: T, flow: T) -> T {
         flow * (self.strain(tension) + 1.0)
     }
 
     /// Relative change of the belt speed V per tractive tension F, (dV/dF)/V, where they are T and V.
-    pub(crate) fn stretching<T: Real>(&self, tension: T, speed: T) -> T {
+    pub(crate) fn stretching<T: Over<S>>(&self, tension: T, speed: T) -> T {
         let stretch = self.strain(tension) + 1.0;
         let flow = speed / stretch;
         let stiffening = T::from_f64(1.0) - flow * flow * (self.inertia * self.compliance);
-        T::from_f64(self.compliance) / (stretch * stiffening)
+        T::from(self.compliance) / (stretch * stiffening)
     }
 
     /// Strain T/EA.
-    pub(crate) fn strain<T: Real>(&self, tension: T) -> T {
+    pub(crate) fn strain<T: Over<S>>(&self, tension: T) -> T {
         tension * self.compliance
     }
 }
 
 #[cfg(test)]
 pub(super) mod tests {
+    use super::super::Scales;
     use super::*;
-    use crate::{BeltKind, FrictionLaw, Load, SpanTension, VBelt};
+    use crate::{BeltKind, FrictionLaw, Load, SpanTension, TwoPulleys, VBelt};
 
     /// The drive of Kim (2009), table 3, with unequal radii if asked for.
     pub(in crate::vbelt) fn kim(law: FrictionLaw, driven_radius: f64) -> TwoPulleys {

@@ -25,28 +25,28 @@
 //! of the order τ₀².
 
 use super::groove::{LAW, Law};
-use super::{Contact, Groove, Regime};
+use super::{Contact, Groove, Over, Regime};
 use bvp::Real;
 
 /// Vector EPP friction of a contact.
-pub(super) struct Yielding<'c, T> {
+pub(super) struct Yielding<'c, T, S = f64> {
     contact: &'c Contact<T>,
     /// Scaled stiffness `k_f`.
-    stiffness: f64,
+    stiffness: S,
     /// Half of the exponent of the gradual onset.
     sharpness: i32,
     /// The length τ₀.
     lead: f64,
-    friction_coefficient: f64,
+    friction_coefficient: S,
     /// B.
     deflection: [T; 2],
     /// The derivative p' as long as friction is elastic.
     pressure_rate: T,
 }
 
-impl<'c, T: Real> Yielding<'c, T> {
+impl<'c, S: Real, T: Over<S>> Yielding<'c, T, S> {
     /// That of a contact in a state; `None` with another law.
-    pub(super) fn new(contact: &'c Contact<T>, groove: &Groove, state: &[T]) -> Option<Self> {
+    pub(super) fn new(contact: &'c Contact<T>, groove: &Groove<S>, state: &[T]) -> Option<Self> {
         let Law::Vector {
             stiffness,
             sharpness,
@@ -56,7 +56,7 @@ impl<'c, T: Real> Yielding<'c, T> {
             return None;
         };
         let [_, up] = contact.slip;
-        let deeper = contact.sin_theta * (-0.5 * groove.radial_stiffness);
+        let deeper = contact.sin_theta * (groove.radial_stiffness * -0.5);
         Some(Self {
             contact,
             stiffness,
@@ -108,7 +108,7 @@ impl<'c, T: Real> Yielding<'c, T> {
         }
         let least = (contact.slip_norm * (self.stiffness * self.lead / mu)).powi(2);
         let lead = least / (least + contact.pressure * contact.pressure) * self.lead;
-        let weight = (self.along(contact.slip) / mu + contact.slip_norm) * (0.5 / mu);
+        let weight = (self.along(contact.slip) / mu + contact.slip_norm) * (S::from_f64(0.5) / mu);
         let inertia = length + lead * weight;
         if contact.regime == Regime::Either {
             return self.growth().map(|growth| growth / inertia);
@@ -133,7 +133,7 @@ impl<'c, T: Real> Yielding<'c, T> {
     /// What is zero at the end of a zone, negative where friction is elastic and positive where it is plastic: |B| − μ
     /// in an elastic zone, and in slip the plastic rate over the strain of the reference force. In a gradual onset the
     /// smaller one, with a share of μ that a belt that slips reaches.
-    pub(super) fn excess(&self, strain: f64) -> T {
+    pub(super) fn excess(&self, strain: S) -> T {
         let over = |share: f64| {
             self.deflection[0].hypot(self.deflection[1]) - self.friction_coefficient * share
         };

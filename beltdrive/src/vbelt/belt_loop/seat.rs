@@ -27,7 +27,13 @@ impl Seat {
         lag: f64,
     ) -> Self {
         let friction_coefficient = pulley.friction_coefficient;
-        let law = Law::new(law, &units, pulley.radius, 0.0, lag);
+        let law = Law::new(
+            (law, law.parameter().unwrap_or_default()),
+            &units,
+            pulley.radius,
+            0.0,
+            lag,
+        );
         match (pulley.side, pulley.duty) {
             (Side::Inside, _) => Self::Groove(Groove {
                 strand: units.strand(),
