@@ -177,6 +177,49 @@ fn limits_with_coulomb_friction_agree_with_states() {
     assert_eq!(survey(0, 2, SEED, None), 0);
 }
 
+#[test]
+fn an_elastic_arc_that_appears_where_the_load_turns_back_does_not_hide_the_limit() {
+    // Behind 2416 N there are no more states without an arc, with one there are up to 2486 N.
+    assert_eq!(survey(2, 29, 424_242 + 2, Some(28)), 0);
+}
+
+#[test]
+fn stiff_scalar_elastic_friction_has_the_limit_of_coulomb_friction() {
+    // The states with the belt at rest from 67° of the driven pulley on end at 112.1 N, others do not.
+    let largest = |law: FrictionLaw, tight: f64| {
+        let drive = TwoPulleys {
+            belt: Belt {
+                ribs: 1,
+                mass_per_length: 0.1,
+                axial_stiffness: 63_660.0,
+                kind: BeltKind::V(VBelt {
+                    radial_stiffness: 1.111e6,
+                    half_angle: 11.87_f64.to_radians(),
+                    height: None,
+                }),
+            },
+            friction_coefficient: 0.4878,
+            law,
+            driver_radius: 0.04283,
+            driver_speed: 11.519,
+            driven_radius: 0.05595,
+            centre_distance: 0.3165,
+            load: Load {
+                slack: SpanTension::Tractive(31.13),
+                tight: SpanTension::Tractive(tight),
+            },
+        };
+        let drive = Drive::from(drive);
+        let options = SolveOptions::default();
+        let found = limits(&drive, &Key::load(&drive), &options, &mut |_, _| {}).unwrap();
+        assert!(matches!(found.largest.reason, RangeEnd::Limit(_)));
+        found.largest.value
+    };
+    let coulomb = largest(FrictionLaw::Coulomb, 116.0);
+    let elastic = largest(FrictionLaw::Epp { stiffness: 6.349e8 }, 110.0);
+    assert!((elastic / coulomb - 1.0).abs() < 1e-6, "{elastic} {coulomb}");
+}
+
 /// Prints the score of as many drives as `DRIVES` says, 60 by default, with the law of the number `LAW`, or all; or of
 /// that of the index `ONLY`.
 #[test]

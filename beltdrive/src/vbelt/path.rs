@@ -29,6 +29,9 @@ pub(super) enum Effort {
     Careful,
     /// To the tolerance asked for.
     Full,
+    /// The same on a mesh for the error: where the belt hardly slips its slip has no digit left by which a defect of its
+    /// direction could be told, and none that matters.
+    Close,
     /// To the tolerance asked for, with an estimate of the global error.
     Final,
     /// As `Final`, where that costs little.
@@ -47,7 +50,7 @@ impl Effort {
             Self::Start => (tolerance.max(1e-2), 4, 40),
             Self::Rough => (tolerance.max(1e-2), 4, 16),
             Self::Careful => (tolerance.max(1e-4), 5, 16),
-            Self::Full | Self::Final | Self::Light => (tolerance, 6, 30),
+            Self::Full | Self::Close | Self::Final | Self::Light => (tolerance, 6, 30),
         };
         Options {
             tolerance,
@@ -60,7 +63,7 @@ impl Effort {
             max_intervals: match self {
                 Self::Rough | Self::Careful => ROUGH_INTERVALS,
                 Self::Start | Self::Full => Options::default().max_intervals,
-                Self::Final => FINAL_INTERVALS,
+                Self::Close | Self::Final => FINAL_INTERVALS,
                 Self::Light => LIGHT_INTERVALS,
             },
             // A shorter step of the homotopy is a better answer to a failure than a finer mesh.
@@ -68,6 +71,7 @@ impl Effort {
             control: match self {
                 // Integrals of friction need a small defect.
                 Self::Final | Self::Light => Control::Both,
+                Self::Close => Control::Error,
                 _ => Control::Defect,
             },
             ..Options::default()
