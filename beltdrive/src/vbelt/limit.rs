@@ -59,7 +59,7 @@ pub(super) enum Coordinate {
 
 impl Coordinate {
     /// Its value in a state.
-    pub(super) fn of(self, solved: &Solved) -> f64 {
+    fn of(self, solved: &Solved) -> f64 {
         match self {
             Self::DriverLength => solved.driver_length(),
             Self::DrivenSpeed => -solved.driven_speed(),
@@ -67,7 +67,7 @@ impl Coordinate {
     }
 
     /// The value farther along by a step in its logarithm.
-    fn beyond(self, solved: &Solved, step: f64) -> f64 {
+    pub(super) fn beyond(self, solved: &Solved, step: f64) -> f64 {
         let value = self.of(solved);
         match self {
             Self::DriverLength => value * step.exp(),

@@ -8,6 +8,10 @@ use super::path::{Effort, Path, Solved, Stuck};
 /// no longer and the one that has others there. Most differ by less than 1e-6.
 const SAME: f64 = 1e-3;
 
+/// Steps in the logarithm of the wrap of the driver, or of the driven speed, after which a zone that has appeared is sought.
+/// On one drive an arc of 0.02 rad was not found at the first, where it has a limit point, and one of 0.1 rad at the second.
+const ALONG: [f64; 3] = [0.0, 1e-3, 1e-2];
+
 impl Path<'_> {
     /// A solution with its zones found anew. Where Newton's method does not come from the old ones to the new, as
     /// where the belt that sticks begins to slip elastically behind, the state is sought from nothing.
@@ -17,18 +21,22 @@ impl Path<'_> {
     }
 
     /// As [`Path::with_other_zones`], at another tight tension. With the zone that has appeared the tension may have its
-    /// limit point below that of `here`, so that another quantity is held instead.
+    /// limit point below that of `here`, so that another quantity is held instead, and a little farther along where the
+    /// zone is too short to be found. The states with it may begin at a smaller tension, and lead to larger ones.
     pub(super) fn with_other_zones_beside_limit(&mut self, here: &Solved) -> Option<Solved> {
-        [Coordinate::DriverLength, Coordinate::DrivenSpeed]
-            .into_iter()
-            .find_map(|coordinate| {
-                let value = coordinate.of(here);
-                let held = self.at(coordinate, value, here, Effort::Full).ok()?;
-                let other = self.keep_zones(held, Effort::Full).ok()?;
-                let problem = other.problem.clone();
-                let problem = problem.with_tight_tension(other.tight_tension());
-                self.attempt(problem, &Carried(&other), Effort::Full).ok()
-            })
+        let coordinates = [Coordinate::DriverLength, Coordinate::DrivenSpeed];
+        let mut ways = coordinates.into_iter().flat_map(|coordinate| {
+            ALONG
+                .into_iter()
+                .map(move |step| (coordinate, coordinate.beyond(here, step)))
+        });
+        ways.find_map(|(coordinate, value)| {
+            let held = self.at(coordinate, value, here, Effort::Full).ok()?;
+            let other = self.keep_zones(held, Effort::Full).ok()?;
+            let problem = other.problem.clone();
+            let problem = problem.with_tight_tension(other.tight_tension());
+            self.attempt(problem, &Carried(&other), Effort::Full).ok()
+        })
     }
 
     /// The state of the drive from nothing, if it is `here` but for the zones.
