@@ -22,8 +22,13 @@ impl Path<'_> {
 
     /// As [`Path::with_other_zones`], at another tight tension. With the zone that has appeared the tension may have its
     /// limit point below that of `here`, so that another quantity is held instead, and a little farther along where the
-    /// zone is too short to be found. The states with it may begin at a smaller tension, and lead to larger ones.
-    pub(super) fn with_other_zones_beside_limit(&mut self, here: &Solved) -> Option<Solved> {
+    /// zone is too short to be found, but at no more than `largest`. The states with it may begin at a smaller tension, and
+    /// lead to larger ones.
+    pub(super) fn with_other_zones_beside_limit(
+        &mut self,
+        here: &Solved,
+        largest: f64,
+    ) -> Option<Solved> {
         let coordinates = [Coordinate::DriverLength, Coordinate::DrivenSpeed];
         let mut ways = coordinates.into_iter().flat_map(|coordinate| {
             ALONG
@@ -34,7 +39,7 @@ impl Path<'_> {
             let held = self.at(coordinate, value, here, Effort::Full).ok()?;
             let other = self.keep_zones(held, Effort::Full).ok()?;
             let problem = other.problem.clone();
-            let problem = problem.with_tight_tension(other.tight_tension());
+            let problem = problem.with_tight_tension(other.tight_tension().min(largest));
             self.attempt(problem, &Carried(&other), Effort::Full).ok()
         })
     }

@@ -335,11 +335,16 @@ impl Tracer<'_> {
         let value = self.value(point.lambda());
         let found = path.with_other_zones(here).map(|next| (value, next));
         let found = found.or_else(|stuck| {
+            let force = here.problem.scales().units.force;
+            let largest = self.range[1] / force;
             let beside = match self.key == Key::load(self.drive) {
-                true => path.with_other_zones_beside_limit(here),
+                true => path.with_other_zones_beside_limit(here, largest),
                 false => None,
             };
-            let load = |next: &Solved| next.tight_tension() * next.problem.scales().units.force;
+            let load = |next: &Solved| match next.tight_tension() {
+                tension if tension == largest => self.range[1],
+                tension => tension * force,
+            };
             beside.map(|next| (load(&next), next)).ok_or(stuck)
         });
         match found {
