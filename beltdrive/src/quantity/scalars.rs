@@ -206,8 +206,9 @@ impl<'a> Scalars<'a> {
         if let Some(least) = pulley.least_slip {
             // Of a small slip its order is what matters.
             let slip = least.slip.max(ROUNDED_SLIP);
-            let error = 0.005 * slip;
-            let locked = least.locked.map_or(0.0, |[from, to]| to - from);
+            let error = (0.005 * slip).max(least.normalised);
+            let arc = || least.locked.map_or(0.0, |[from, to]| to - from);
+            let locked = least.tells_locked().then(arc);
             quantities.extend([
                 number(
                     "smallest_slip",

@@ -135,6 +135,9 @@ pub struct LeastSlip {
     /// Smallest slip velocity against the pulley, in the plane of a groove face, as a share of the belt speed. What is
     /// below 1e-14 is rounding.
     pub slip: f64,
+    /// By how much the slip may be off where the direction of friction is that of a slip normalised by ε: 100 ε, otherwise
+    /// zero.
+    pub normalised: f64,
     /// The longest arc of friction at its limit on which the slip is below [`LeastSlip::LOCKED`]: angles from the
     /// entry, rad.
     pub locked: Option<[f64; 2]>,
@@ -144,6 +147,11 @@ impl LeastSlip {
     /// The slip, as a share of the belt speed, below which a belt at full friction counts as locked: a micrometre in
     /// ten metres of belt.
     pub const LOCKED: f64 = 1e-7;
+
+    /// Whether the slip is so accurate that the arc on which the belt is locked can be told.
+    pub(crate) fn tells_locked(&self) -> bool {
+        self.normalised < Self::LOCKED
+    }
 }
 
 /// What the belt does over a part of the wrap.
