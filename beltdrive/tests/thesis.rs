@@ -142,10 +142,7 @@ fn locked_belts_are_found_to_small_tolerances() {
             130,
         ),
     ] {
-        let options = SolveOptions {
-            tolerance,
-            ..SolveOptions::default()
-        };
+        let options = SolveOptions { tolerance };
         let state = solve(&kim(FrictionLaw::Coulomb, tight), &options).unwrap();
         let c = &state.convergence;
         assert!(c.error_estimate <= tolerance && c.slip_normalisation_effect <= 0.1 * tolerance);

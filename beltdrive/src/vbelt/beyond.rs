@@ -50,7 +50,7 @@ impl Tracer<'_> {
             if value == last || !(low < value && value < high) {
                 return None;
             }
-            if let Some(solved) = self.from_nothing(value)
+            if let Some(solved) = self.anew_at(value)
                 && self.leads_to(value, &solved)
             {
                 self.refused = None;
@@ -89,7 +89,7 @@ impl Tracer<'_> {
         let farther = FARTHER.map(|share| (value * (1.0 + share)).min(self.range[1]));
         let found = farther
             .into_iter()
-            .find_map(|value| Some((value, self.from_nothing(value)?)))?;
+            .find_map(|value| Some((value, self.anew_at(value)?)))?;
         let ends =
             |event: &mut BranchEvent| matches!(event.kind, EventKind::LimitPoint | EventKind::End);
         self.events.pop_if(ends);
@@ -101,7 +101,7 @@ impl Tracer<'_> {
     }
 
     /// The state at a value of the entry, from nothing, if it is found below the limit of the load.
-    fn from_nothing(&mut self, value: f64) -> Option<Solved> {
+    fn anew_at(&mut self, value: f64) -> Option<Solved> {
         let drive = self.drive_at(value);
         let mut path = Path::new(&drive, self.tolerance);
         let found = path.with_direction().filter(|solved| {
