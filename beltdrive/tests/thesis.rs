@@ -61,49 +61,49 @@ fn coulomb_friction_at_the_loads_of_table_4() {
     }
 }
 
+/// Tight tensions, with limits of a direction that follows the slip exactly, from a formulation of its own that cuts out
+/// the lock zones: the constants of the drive, and the arcs on which nothing can be seen to slip.
+const LOCKED: [(f64, [f64; 4], [f64; 2]); 3] = [
+    (
+        700.0,
+        [102.69936199, 2.7680087763, 194.68884321, 198.28940019],
+        [0.0; 2],
+    ),
+    (
+        200.0,
+        [104.41121658, 2.8090632895, 188.79350426, 189.37885055],
+        [23.428, 54.302],
+    ),
+    (
+        105.0,
+        [104.70429302, 2.8169385366, 186.63429703, 186.63516580],
+        [117.003, 128.777],
+    ),
+];
+
+/// The arcs, in degrees, by which those of a state are longer.
+fn longer_arcs(state: &SteadyState, arcs: [f64; 2]) -> [f64; 2] {
+    let found = [&state.driven, &state.driver].map(|on| {
+        let locked = on.least_slip.unwrap().locked;
+        locked.map_or(0.0, |[from, to]| (to - from).to_degrees())
+    });
+    [0, 1].map(|pulley| found[pulley] - arcs[pulley])
+}
+
 #[test]
 fn locked_belts_are_found_within_the_error_that_is_stated() {
-    // Limits of a direction that follows the slip exactly, from a formulation of its own that cuts out the
-    // lock zones. The Newton steps are those of the whole way from nothing.
-    for (tight, expected, steps) in [
-        (
-            700.0,
-            [102.69936199, 2.7680087763, 194.68884321, 198.28940019],
-            70,
-        ),
-        (
-            200.0,
-            [104.41121658, 2.8090632895, 188.79350426, 189.37885055],
-            85,
-        ),
-        (
-            105.0,
-            [104.70429302, 2.8169385366, 186.63429703, 186.63516580],
-            130,
-        ),
-    ] {
+    // The Newton steps are those of the whole way from nothing.
+    for ((tight, expected, arcs), steps) in LOCKED.into_iter().zip([70, 85, 130]) {
         let state = state(FrictionLaw::Coulomb, tight);
         let c = &state.convergence;
         assert!(c.slip_normalisation_effect <= 1e-7);
         let stated = c.slip_normalisation_effect + c.error_estimate;
         assert_constants(&state, expected, 2.0 * stated);
-        assert!(
-            c.newton_iterations <= steps,
-            "{} at {tight} N",
-            c.newton_iterations
-        );
-    }
-    // Arcs on which nothing can be seen to slip. At the usual tolerance the direction lags by a length that shows in them.
-    for (tight, arcs) in [
-        (700.0, [0.0; 2]),
-        (200.0, [23.428, 54.302]),
-        (105.0, [117.003, 128.777]),
-    ] {
-        let state = state(FrictionLaw::Coulomb, tight);
-        for (on, arc) in [&state.driven, &state.driver].into_iter().zip(arcs) {
-            let locked = on.least_slip.unwrap().locked;
-            let found = locked.map_or(0.0, |[from, to]| (to - from).to_degrees());
-            assert!((0.0..0.16).contains(&(found - arc)), "{found} {arc}");
+        let found = c.newton_iterations;
+        assert!(found <= steps, "{found} at {tight} N");
+        // At the usual tolerance the direction lags by a length that shows in the arcs.
+        for longer in longer_arcs(&state, arcs) {
+            assert!((0.0..0.16).contains(&longer), "{longer} at {tight} N");
         }
     }
     let least = state(FrictionLaw::Coulomb, 700.0)
@@ -119,39 +119,16 @@ fn locked_belts_are_found_within_the_error_that_is_stated() {
 
 #[test]
 fn locked_belts_are_found_to_small_tolerances() {
-    for (tight, tolerance, expected, arcs, steps) in [
-        (
-            700.0,
-            1e-12,
-            [102.69936199, 2.7680087763, 194.68884321, 198.28940019],
-            [0.0; 2],
-            75,
-        ),
-        (
-            200.0,
-            1e-9,
-            [104.41121658, 2.8090632895, 188.79350426, 189.37885055],
-            [23.428, 54.302],
-            85,
-        ),
-        (
-            105.0,
-            1e-9,
-            [104.70429302, 2.8169385366, 186.63429703, 186.63516580],
-            [117.003, 128.777],
-            130,
-        ),
-    ] {
+    let asked = [(1e-12, 75), (1e-9, 85), (1e-9, 130)];
+    for ((tight, expected, arcs), (tolerance, steps)) in LOCKED.into_iter().zip(asked) {
         let options = SolveOptions { tolerance };
         let state = solve(&kim(FrictionLaw::Coulomb, tight), &options).unwrap();
         let c = &state.convergence;
         assert!(c.error_estimate <= tolerance && c.slip_normalisation_effect <= 0.1 * tolerance);
         // The digits of the limits that are known.
         assert_constants(&state, expected, 1e-10 + tolerance);
-        for (on, arc) in [&state.driven, &state.driver].into_iter().zip(arcs) {
-            let locked = on.least_slip.unwrap().locked;
-            let found = locked.map_or(0.0, |[from, to]| (to - from).to_degrees());
-            assert!((found - arc).abs() < 6e-4, "{found} {arc}");
+        for longer in longer_arcs(&state, arcs) {
+            assert!(longer.abs() < 6e-4, "{longer} at {tight} N");
         }
         let found = c.newton_iterations;
         assert!(found <= steps, "{found} at {tight} N");

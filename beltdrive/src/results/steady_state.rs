@@ -148,6 +148,10 @@ impl LeastSlip {
     /// ten metres of belt.
     pub const LOCKED: f64 = 1e-7;
 
+    /// The smallest slip, as a share of the belt speed, from which on a pulley is said to slip grossly: on the example
+    /// `v-power` it is 0.005 at nine tenths of the limit of the load, beyond which it rises to 1 within a few percent of that.
+    pub(crate) const GROSS: f64 = 0.05;
+
     /// Whether the slip is so accurate that the arc on which the belt is locked can be told.
     pub(crate) fn tells_locked(&self) -> bool {
         self.normalised < Self::LOCKED

@@ -241,9 +241,8 @@ pub(crate) trait BeltProblem: Problem + Clone {
 /// ```
 ///
 /// A junction is where `k_f` |u| = μ p if elastic and slipping friction meet there, and where u = 0 if it changes its sign
-/// there. Where the belt begins to
-/// stick it has no slip, and friction straight up the groove just holds it; it breaks loose in a direction of its
-/// own. Else the last junction lies in the middle of the turn of the traction that lifts the belt (see
+/// there. Where the belt begins to stick it has no slip, and friction straight up the groove just holds it; it breaks
+/// loose in a direction of its own. Else the last junction lies in the middle of the turn of the traction that lifts the belt (see
 /// `Contact::turn_excess`), and one in front of that where the belt breaks away (see `breakaway_excess`).
 pub(super) fn in_groove<S: Real, T: Over<S>>(
     problem: &impl BeltProblem,

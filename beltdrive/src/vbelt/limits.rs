@@ -142,11 +142,10 @@ pub(super) fn upwards<'d>(
     let (mut stretches, mut branches) = (1, 1);
     loop {
         let end = tracer.run(solved, from, Direction::Increasing, progress);
-        let stretched = match stretches < STRETCHES {
-            true => tracer.with_upper_end((tracer.range[1] * STRETCH).min(high)),
-            false => None,
-        };
-        (from, solved) = if let Some(next) = stretched {
+        let farther = (tracer.range[1] * STRETCH).min(high);
+        (from, solved) = if stretches < STRETCHES
+            && let Some(next) = tracer.with_upper_end(farther)
+        {
             stretches += 1;
             next
         } else if branches < BRANCHES

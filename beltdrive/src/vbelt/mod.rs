@@ -37,7 +37,6 @@ mod other_zones;
 mod over;
 mod path;
 mod piece;
-mod scales;
 mod scaling;
 mod solve;
 mod starts;
@@ -57,8 +56,7 @@ pub(crate) use groove::{Groove, Law, Regime};
 pub(crate) use guess::Guess;
 pub(crate) use over::Over;
 pub(crate) use path::Solved;
-pub(crate) use scales::Scales;
-pub(crate) use scaling::{Strand, Units};
+pub(crate) use scaling::{Scales, Strand, Units};
 pub(crate) use state::sharper;
 
 use groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};

@@ -9,7 +9,7 @@ use super::path::{Effort, Path, Solved, Stuck};
 const SAME: f64 = 1e-3;
 
 /// Steps in the logarithm of the wrap of the driver, or of the driven speed, after which a zone that has appeared is sought.
-/// On one drive an arc of 0.02 rad was not found at the first, where it has a limit point, and one of 0.1 rad at the second.
+/// On one drive an arc of 0.02 rad, beside whose birth the load has its limit point, was not found without such a step.
 const ALONG: [f64; 3] = [0.0, 1e-3, 1e-2];
 
 impl Path<'_> {

@@ -1,7 +1,8 @@
 //! The units in which the equations of a drive are pure numbers of order one.
 
 use super::Over;
-use crate::Belt;
+use super::numbers::Numbers;
+use crate::{Belt, TwoPulleys};
 use bvp::Real;
 
 /// The units of a drive or a loop. A scaled quantity times its unit is the quantity in SI.
@@ -88,6 +89,32 @@ impl<S: Real> Units<S> {
     }
 }
 
+/// The units of a drive with two pulleys.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Scales {
+    /// Those that both pulleys share.
+    pub(crate) units: Units,
+    /// Pitch radii of the driven pulley and of the driver, m.
+    pub(crate) radius: [f64; 2],
+}
+
+impl Scales {
+    /// Units by the largest prescribed tension: tensions are then of order one at every load.
+    pub(crate) fn new(drive: &TwoPulleys) -> Self {
+        let force = drive.load.tight.value().max(drive.load.slack.value());
+        Self::with_force(drive, force)
+    }
+
+    /// Units with a given reference force in N, to compare states of different loads.
+    pub(crate) fn with_force(drive: &TwoPulleys, force: f64) -> Self {
+        let numbers = Numbers::new(drive);
+        Self {
+            units: numbers.units(force),
+            radius: numbers.radius,
+        }
+    }
+}
+
 /// The belt as a string in steady motion, scaled: everything that follows from F and G alone.
 ///
 /// ```text
@@ -135,9 +162,8 @@ impl<S: Real> Strand<S> {
 
 #[cfg(test)]
 pub(super) mod tests {
-    use super::super::Scales;
     use super::*;
-    use crate::{BeltKind, FrictionLaw, Load, SpanTension, TwoPulleys, VBelt};
+    use crate::{BeltKind, FrictionLaw, Load, SpanTension, VBelt};
 
     /// The drive of Kim (2009), table 3, with unequal radii if asked for.
     pub(in crate::vbelt) fn kim(law: FrictionLaw, driven_radius: f64) -> TwoPulleys {

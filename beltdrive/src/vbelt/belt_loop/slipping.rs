@@ -12,11 +12,11 @@ use super::climb::{Limit, Top, limit_accuracy};
 use super::problem::LoopProblem;
 use super::solve::Search;
 use super::unknowns::FLOW;
+use crate::LeastSlip;
 use crate::mechanics::root::bracketed;
 
-/// The slip all along a contact, as a share of the speed of the belt, at which a pulley is said to slip grossly: on
-/// `v-power` it is 0.005 at nine tenths of the limit, beyond which it rises to 1 within a few percent of the load.
-const GROSS: f64 = 0.05;
+/// The slip all along a contact at which a pulley is said to slip grossly.
+const GROSS: f64 = LeastSlip::GROSS;
 
 /// The slip of the driver at which the load has no limit point to come: the belt has lost a fifth of
 /// its speed and a third of its centrifugal force.
