@@ -3,13 +3,14 @@
 
 #[path = "support/random.rs"]
 mod random;
+#[path = "support/wide_family.rs"]
+mod wide_family;
 
 use beltdrive::{
     Belt, BeltKind, Drive, FrictionLaw, Load, RangeEnd, SolveError, SolveOptions, SpanTension,
     TwoPulleys, VBelt, input::Key, limits, solve,
 };
 use random::Random;
-use std::f64::consts::PI;
 use std::time::Instant;
 
 /// Shares of the range of the tight tension, from no load to the limit, that are solved for themselves ...
@@ -17,69 +18,11 @@ const BELOW: [f64; 3] = [0.5, 0.9, 0.99];
 /// ... and beyond it.
 const BEYOND: [f64; 3] = [1.003, 1.05, 1.5];
 
+/// Tension ratios from which limits are sought.
+const RATIOS: [f64; 2] = [1.01, 6.0];
+
 /// Of the drives.
 const SEED: u64 = 20_261_123;
-
-/// Uniform in the logarithm.
-fn scale(random: &mut Random, low: f64, high: f64) -> f64 {
-    random.between(low.ln(), high.ln()).exp()
-}
-
-/// A law by its number: Coulomb, scalar and vector EPP friction, bristles.
-fn law(number: usize, random: &mut Random) -> FrictionLaw {
-    let stiffness = scale(random, 1e6, 1e9);
-    let bristles = scale(random, 300.0, 2e4);
-    match number {
-        0 => FrictionLaw::Coulomb,
-        1 => FrictionLaw::Epp { stiffness },
-        2 => FrictionLaw::VectorEpp { stiffness },
-        _ => FrictionLaw::Bristle {
-            stiffness: bristles,
-        },
-    }
-}
-
-/// A drive of a wide family: soft and stiff belts and grooves, ratios from 1:4 to 4:1, near and far pulleys.
-fn drive(random: &mut Random, number: usize) -> TwoPulleys {
-    loop {
-        let driver_radius = scale(random, 0.02, 0.4);
-        let driven_radius = driver_radius * scale(random, 0.25, 4.0);
-        let slack = scale(random, 20.0, 800.0);
-        let ratio = scale(random, 1.01, 6.0);
-        let radial_stiffness = scale(random, 3e5, 3e7);
-        let half_angle = random.between(11.0, 21.0).to_radians();
-        let smallest = driver_radius.min(driven_radius);
-        // A belt that sinks through a tenth of the smaller pulley is of no use.
-        let depth = slack * ratio / (radial_stiffness * smallest * half_angle.tan());
-        let drive = TwoPulleys {
-            belt: Belt {
-                ribs: 1,
-                mass_per_length: scale(random, 0.03, 0.6),
-                axial_stiffness: scale(random, 1e4, 5e5),
-                kind: BeltKind::V(VBelt {
-                    radial_stiffness,
-                    half_angle,
-                    height: None,
-                }),
-            },
-            friction_coefficient: random.between(0.15, 0.8),
-            law: law(number, random),
-            driver_radius,
-            driver_speed: scale(random, 100.0, 6000.0) * PI / 30.0,
-            driven_radius,
-            centre_distance: (driver_radius + driven_radius) * random.between(1.05, 4.0),
-            load: Load {
-                slack: SpanTension::Tractive(slack),
-                tight: SpanTension::Tractive(slack * ratio),
-            },
-        };
-        let speed = drive.driver_speed * driver_radius;
-        let waves = drive.belt.axial_stiffness / drive.belt.mass_per_length;
-        if speed < 60.0 && speed * speed < 0.1 * waves && depth < 0.1 * smallest {
-            return drive;
-        }
-    }
-}
 
 /// What is wrong with a drive: its limit is not found, or no state below it, or one beyond it.
 fn faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
@@ -142,7 +85,7 @@ fn survey(number: usize, count: usize, seed: u64, only: Option<usize>) -> usize 
     let mut random = Random(seed);
     let (mut wrong, mut times) = (0, Vec::new());
     for index in 0..count {
-        let drive = drive(&mut random, number);
+        let drive = wide_family::drive(&mut random, number, RATIOS);
         if only.is_some_and(|only| only != index) {
             continue;
         }

@@ -1,11 +1,17 @@
 //! Many random drives within the range of ordinary V-belt drives: every one is solved, or refused
 //! with the reason why no steady state carries its load.
 
+#[path = "support/random.rs"]
+mod random;
+#[path = "support/wide_family.rs"]
+mod wide_family;
+
 use beltdrive::{
     Belt, BeltKind, Drive, FrictionLaw, Load, SolveError, SolveOptions, SpanTension, SteadyState,
     TwoPulleys, VBelt, ZoneKind, solve,
 };
 use std::f64::consts::PI;
+use std::time::Instant;
 
 /// A reproducible sequence of numbers in \[0, 1): the minimal standard generator of Park & Miller.
 struct Random(u64);
@@ -88,6 +94,84 @@ fn assert_possible(state: &SteadyState) {
         }
         let tensions = profile.tension.iter().chain(&profile.tractive_tension);
         assert!(tensions.into_iter().all(|tension| *tension > 0.0));
+    }
+}
+
+/// Tension ratios of the wide family, from hardly any load to beyond most limits.
+const RATIOS: [f64; 2] = [1.0001, 20.0];
+/// Drives that take longer, s, are told.
+const SLOW: f64 = 3.0;
+
+/// Solves drives of the wide family with the law of a number, all or that of one index, prints the score and returns how
+/// many failed.
+fn wide_survey(number: usize, count: usize, seed: u64, only: Option<usize>) -> usize {
+    let mut random = random::Random(seed);
+    let [mut solved, mut refused, mut failed] = [0; 3];
+    let mut seconds = Vec::new();
+    for index in 0..count {
+        let drive = wide_family::drive(&mut random, number, RATIOS);
+        if only.is_some_and(|only| only != index) {
+            continue;
+        }
+        let start = Instant::now();
+        let found = solve(&drive.into(), &SolveOptions::default());
+        let took = start.elapsed().as_secs_f64();
+        seconds.push(took);
+        if took > SLOW {
+            println!("{index}: {took:.1} s");
+        }
+        match found {
+            Ok(state) => {
+                solved += 1;
+                assert_possible(&state);
+            }
+            Err(SolveError::NoSteadyState { asked, limit, .. }) => {
+                refused += 1;
+                assert!(limit < asked * (1.0 + 1e-6));
+            }
+            Err(error) => {
+                failed += 1;
+                println!("{index}: {error}\n  {drive:?}");
+            }
+        }
+    }
+    seconds.sort_by(f64::total_cmp);
+    let time = |share: usize| 1e3 * seconds[(seconds.len() - 1) * share / 100];
+    println!(
+        "law {number}: {solved} solved, {refused} refused with a reason, {failed} failed; \
+         median {:.1} ms, 90 % {:.1} ms, slowest {:.0} ms",
+        time(50),
+        time(90),
+        time(100)
+    );
+    failed
+}
+
+#[test]
+fn coulomb_friction_of_every_kind_of_drive() {
+    assert_eq!(wide_survey(0, 100, 777, None), 0);
+}
+
+#[test]
+fn vector_friction_of_every_kind_of_drive() {
+    assert_eq!(wide_survey(2, 60, 777 + 2, None), 0);
+}
+
+#[test]
+fn bristle_friction_of_every_kind_of_drive() {
+    assert_eq!(wide_survey(3, 200, 777 + 3, None), 0);
+}
+
+/// Prints the score of as many drives of the wide family as `DRIVES` says, 200 by default, with the law of the number
+/// `LAW`, or all; or of that of the index `ONLY`.
+#[test]
+#[ignore = "minutes: the score, run by hand for benches/RESULTS.md"]
+fn wide_score() {
+    let number = |name: &str| std::env::var(name).ok()?.parse().ok();
+    let count = number("DRIVES").unwrap_or(200);
+    let seed = number("SEED").unwrap_or(777) as u64;
+    for law in (0..4).filter(|&law| number("LAW").is_none_or(|asked| asked == law)) {
+        wide_survey(law, count, seed + law as u64, number("ONLY"));
     }
 }
 

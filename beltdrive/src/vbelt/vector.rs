@@ -22,7 +22,7 @@
 //! ```
 //!
 //! What leads the traction is the derivative of what makes it lag, which is of the order of τ there, so that the error is
-//! of the order τ₀².
+//! of the order τ₀². Where the plastic rate sets in gradually, both terms with τ have the factor σ.
 
 use super::groove::{LAW, Law};
 use super::{Contact, Groove, Over, Regime};
@@ -85,14 +85,17 @@ impl<'c, S: Real, T: Over<S>> Yielding<'c, T, S> {
         self.along(self.contact.slip) / mu - self.pressure_rate * (mu / self.stiffness)
     }
 
+    /// (|B|/μ)^2m, the share of the plastic rate that a gradual onset lets act.
+    fn onset(&self) -> T {
+        let share = self.along(self.deflection) / self.friction_coefficient.powi(2);
+        share.powi(self.sharpness)
+    }
+
     /// p dB/ds over `k_f` where the belt is not taken to slip.
     fn growth(&self) -> [T; 2] {
         let mu = self.friction_coefficient;
         let plastic = match self.contact.regime {
-            Regime::Either => {
-                let share = self.along(self.deflection) / (mu * mu);
-                self.plastic_rate().max(T::from_f64(0.0)) * share.powi(self.sharpness)
-            }
+            Regime::Either => self.plastic_rate().max(T::from_f64(0.0)) * self.onset(),
             _ => T::from_f64(0.0),
         };
         let decay = plastic / mu + self.pressure_rate / self.stiffness;
@@ -109,12 +112,12 @@ impl<'c, S: Real, T: Over<S>> Yielding<'c, T, S> {
         let least = (contact.slip_norm * (self.stiffness * self.lead / mu)).powi(2);
         let lead = least / (least + contact.pressure * contact.pressure) * self.lead;
         let weight = (self.along(contact.slip) / mu + contact.slip_norm) * (S::from_f64(0.5) / mu);
-        let inertia = length + lead * weight;
-        if contact.regime == Regime::Either {
-            return self.growth().map(|growth| growth / inertia);
-        }
-        let [slip, turning] = [contact.slip, turning()].map(|vector| self.across(vector));
-        [0, 1].map(|axis| (slip[axis] + lead * turning[axis]) / inertia)
+        let turning = self.across(turning());
+        let (growth, lead) = match contact.regime {
+            Regime::Either => (self.growth(), lead * self.onset()),
+            _ => (self.across(contact.slip), lead),
+        };
+        [0, 1].map(|axis| (growth[axis] + lead * turning[axis]) / (length + lead * weight))
     }
 
     /// What is zero at the entry, where there is no pressure: the growth, and in slip the angle between traction
