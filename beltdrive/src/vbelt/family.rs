@@ -66,10 +66,10 @@ impl DriveFamily {
         }
     }
 
-    /// The same family with another length ℓ/R or normalisation ε.
-    pub(super) fn with_smoothing(self, smoothing: f64) -> Self {
+    /// The same family with a share of its ℓ/R, ε or τ, as [`Law::finer`].
+    pub(super) fn finer(self, share: f64) -> Self {
         Self {
-            problem: self.problem.with_smoothing(smoothing),
+            problem: self.problem.with_laws(|law, _| law.finer(share)),
             ..self
         }
     }
@@ -136,6 +136,7 @@ fn member(drive: &Drive, like: &DriveProblem) -> DriveProblem {
     let scales = Scales::with_force(&drive, like.units().force);
     DriveProblem::new(&drive, scales, like.smoothing())
         .with_direction(like.has_direction())
+        .with_laws(|law, _| law.with_onset_of(like.law()))
         .with_zones(&like.regimes())
 }
 
@@ -155,10 +156,14 @@ fn scaled<S: Real>(like: &DriveProblem, numbers: &Numbers<S>) -> Scaled<S> {
     }
 }
 
-/// The belt on a pulley with the direction of its friction as a state where it is one of a member.
+/// The belt on a pulley with the direction of its friction as a state where it is one of a member, and the same onset of
+/// vector EPP friction.
 fn directed<S: Real>(like: &DriveProblem, groove: Groove<S>) -> Groove<S> {
     Groove {
-        law: groove.law.with_direction(like.has_direction()),
+        law: groove
+            .law
+            .with_direction(like.has_direction())
+            .with_onset_of(like.law()),
         ..groove
     }
 }

@@ -115,7 +115,7 @@ impl Chart<'_> {
         let entries = entries.map(|(key, unit)| Entry { key, unit });
         let family = DriveFamily::new(self.drive, &solved.problem, entries.to_vec());
         let finer = DriveFamily::new(self.drive, &solved.problem, entries.to_vec());
-        let finer = finer.with_smoothing(FINER * solved.problem.smoothing());
+        let finer = finer.finer(FINER);
         let mut walk = Walk {
             family: &family,
             finer: &finer,

@@ -80,6 +80,8 @@ pub(crate) enum Law<S = f64> {
         /// Half of the exponent of |B|/μ with which the plastic rate sets in where the regime is
         /// [`Either`](Regime::Either).
         sharpness: i32,
+        /// δ over p/`k_f`, by which a plastic rate is rounded where it sets in in that regime; zero on the way.
+        rounding: f64,
         /// Length over which the traction of a slipping belt is led towards its slip where it follows that faster.
         lead: f64,
     },
@@ -107,6 +109,7 @@ impl<S: Real> Law<S> {
                 return Self::Vector {
                     stiffness: units.radial_stiffness(parameter, radius),
                     sharpness: 1,
+                    rounding: 0.0,
                     lead: lag,
                 };
             }
@@ -163,6 +166,50 @@ impl<S: Real> Law<S> {
             Self::Sliding { lag, .. } => *lag = smoothing,
             Self::Vector { lead, .. } => *lead = smoothing,
             Self::Bristle { .. } => {}
+        }
+        self
+    }
+
+    /// Vector EPP friction whose plastic rate sets in as in another law. Other laws stay as they are.
+    pub(super) fn with_onset_of(mut self, like: Law) -> Self {
+        if let (
+            Self::Vector {
+                sharpness,
+                rounding,
+                ..
+            },
+            Law::Vector {
+                sharpness: other_sharpness,
+                rounding: other_rounding,
+                ..
+            },
+        ) = (&mut self, like)
+        {
+            (*sharpness, *rounding) = (other_sharpness, other_rounding);
+        }
+        self
+    }
+
+    /// The same law with a share of its ℓ/R, ε or τ, and vector EPP friction without zones as much sharper.
+    pub(super) fn finer(self, share: f64) -> Self {
+        let smoothing = share * self.smoothing();
+        let mut finer = self.with_smoothing(smoothing);
+        if let Self::Vector {
+            sharpness,
+            rounding,
+            ..
+        } = &mut finer
+        {
+            *sharpness = (f64::from(*sharpness) / share).round() as i32;
+            *rounding *= share;
+        }
+        finer
+    }
+
+    /// Vector EPP friction with another δ. Other laws stay as they are.
+    pub(super) fn with_rounding(mut self, asked: f64) -> Self {
+        if let Self::Vector { rounding, .. } = &mut self {
+            *rounding = asked;
         }
         self
     }

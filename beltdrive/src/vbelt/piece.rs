@@ -22,6 +22,9 @@ const LAGS: [f64; 2] = [1e-8, 1e-10];
 /// ε where the direction is normalised. Places at which the belt breaks loose move with the load the more abruptly
 /// the smaller it is.
 const EPSILON: f64 = 1e-6;
+/// δ of vector EPP friction without zones over p/`k_f`: with a tenth of it `limits` of a random drive with stiff friction,
+/// 5.6e8 N/m², takes minutes in place of seconds.
+const ROUNDING: f64 = 0.01;
 /// Length τ/R over which the traction of vector EPP friction is led.
 const BRANCH_LEAD: f64 = 1e-4;
 /// Labelled points are located once more with ℓ or ε multiplied by this.
@@ -133,9 +136,11 @@ impl Tracer<'_> {
             key: self.key,
             unit,
         };
-        let family = DriveFamily::new(self.drive, &solved.problem, vec![entry]);
-        let finer = DriveFamily::new(self.drive, &solved.problem, vec![entry]);
-        let finer = finer.with_smoothing(FINER * smoothing);
+        let rounded = solved.problem.clone();
+        let rounded = rounded.with_laws(|law, _| law.with_rounding(ROUNDING));
+        let family = DriveFamily::new(self.drive, &rounded, vec![entry]);
+        let finer = DriveFamily::new(self.drive, &rounded, vec![entry]);
+        let finer = finer.finer(FINER);
         let options = discretisation(self.tolerance, &solved.problem);
         let first = family.first_entry();
         let guess = Member {

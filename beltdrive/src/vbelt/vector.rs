@@ -10,8 +10,13 @@
 //!
 //! elastic   σ = 0                       ends where |B| = μ
 //! slip      σ = 1, so |B| stays μ       ends where Λ = 0
-//! either    σ = (|B|/μ)^2m if Λ > 0     tends to the law as m grows, without zones
+//! either    σ = (|B|/μ)^2m, with        tends to the law as m grows and δ falls, without zones
+//!           (Λ + sqrt(Λ² + δ²))/2       in place of Λ
 //! ```
+//!
+//! Without δ there would be a kink where Λ changes its sign, and along a branch of states a kink wherever it passes a
+//! collocation point: on a drive with stiff friction the steps became a millionth of the load there, and branch points were
+//! seen that are none. Its effect is of the order δ², and δ is a share of p/`k_f`, the order of Λ where friction is elastic.
 //!
 //! In slip p dB/ds = `k_f` (e − (e·B) B/μ²): the direction follows the slip over the length μ p/`k_f`, which is zero
 //! where the belt enters and leaves. Gauss collocation does not damp what decays that fast. There the traction is led
@@ -22,7 +27,7 @@
 //! ```
 //!
 //! What leads the traction is the derivative of what makes it lag, which is of the order of τ there, so that the error is
-//! of the order τ₀². Where the plastic rate sets in gradually, both terms with τ have the factor σ.
+//! of the order τ₀². Where the plastic rate sets in gradually, both terms with τ have the factor (|B|/μ)^2m.
 
 use super::groove::{LAW, Law};
 use super::{Contact, Groove, Over, Regime};
@@ -35,6 +40,8 @@ pub(super) struct Yielding<'c, T, S = f64> {
     stiffness: S,
     /// Half of the exponent of the gradual onset.
     sharpness: i32,
+    /// δ over p/`k_f`.
+    rounding: f64,
     /// The length τ₀.
     lead: f64,
     friction_coefficient: S,
@@ -50,6 +57,7 @@ impl<'c, S: Real, T: Over<S>> Yielding<'c, T, S> {
         let Law::Vector {
             stiffness,
             sharpness,
+            rounding,
             lead,
         } = groove.law
         else {
@@ -61,6 +69,7 @@ impl<'c, S: Real, T: Over<S>> Yielding<'c, T, S> {
             contact,
             stiffness,
             sharpness,
+            rounding,
             lead,
             friction_coefficient: groove.friction_coefficient,
             deflection: [state[LAW], state[LAW + 1]],
@@ -85,6 +94,11 @@ impl<'c, S: Real, T: Over<S>> Yielding<'c, T, S> {
         self.along(self.contact.slip) / mu - self.pressure_rate * (mu / self.stiffness)
     }
 
+    /// δ.
+    fn least_plastic_rate(&self) -> T {
+        self.contact.pressure * (S::from_f64(self.rounding) / self.stiffness)
+    }
+
     /// (|B|/μ)^2m, the share of the plastic rate that a gradual onset lets act.
     fn onset(&self) -> T {
         let share = self.along(self.deflection) / self.friction_coefficient.powi(2);
@@ -95,7 +109,14 @@ impl<'c, S: Real, T: Over<S>> Yielding<'c, T, S> {
     fn growth(&self) -> [T; 2] {
         let mu = self.friction_coefficient;
         let plastic = match self.contact.regime {
-            Regime::Either => self.plastic_rate().max(T::from_f64(0.0)) * self.onset(),
+            Regime::Either => {
+                let (rate, least) = (self.plastic_rate(), self.least_plastic_rate());
+                let rounded = match self.rounding {
+                    0.0 => rate.max(T::from_f64(0.0)),
+                    _ => ((rate * rate + least * least).sqrt() + rate) * 0.5,
+                };
+                rounded * self.onset()
+            }
             _ => T::from_f64(0.0),
         };
         let decay = plastic / mu + self.pressure_rate / self.stiffness;
@@ -164,6 +185,7 @@ mod tests {
         let law = Law::Vector {
             stiffness: STIFFNESS,
             sharpness: 2,
+            rounding: 0.0,
             lead,
         };
         let groove = groove(law, 0.0);

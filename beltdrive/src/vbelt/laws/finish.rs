@@ -1,12 +1,16 @@
 //! The end of the way: zones of the right kind, the tolerance, and a smoothing without effect.
 
 use super::GREAT_STEP;
+use crate::vbelt::carried::Carried;
 use crate::vbelt::path::{Effort, Path, Solved, Stuck};
 use crate::vbelt::zones::Cut;
 use crate::vbelt::{BeltProblem, Law};
 
 /// ε at which the profile is first resolved to the tolerance.
 pub(super) const RESOLVED: f64 = 1e-7;
+/// δ of vector EPP friction without zones over p/`k_f`: its effect on the drive of Kim (2009) at 700 N is less than 1e-8, and
+/// 5e-7 with 0.01. Without it 1 of 800 random drives takes minutes. On the way, with 0.1, it hides zones.
+const ROUNDING: f64 = 1e-3;
 /// ε below which slip velocities drown in the rounding of the speeds they are differences of.
 const SMALLEST: f64 = 1e-12;
 /// The same of ℓ/R, whose effect is 4e-14 with this on the drive of Kim (2009) at 700 N.
@@ -72,8 +76,20 @@ impl Path<'_> {
         &mut self,
         rough: Solved<P>,
     ) -> Result<Solved<P>, Stuck<P>> {
+        let rough = self.rounded(rough)?;
         let solved = self.resolve(rough)?;
         self.with_estimate(solved)
+    }
+
+    /// A state of vector EPP friction without zones with the usual δ.
+    fn rounded<P: BeltProblem>(&mut self, rough: Solved<P>) -> Result<Solved<P>, Stuck<P>> {
+        let problem = rough.problem.clone();
+        let problem = problem.with_laws(|law, _| law.with_rounding(ROUNDING));
+        if problem.is_split() || problem.law() == rough.problem.law() {
+            return Ok(rough);
+        }
+        let outcome = self.attempt(problem, &Carried(&rough), Effort::Full);
+        outcome.map_err(|cause| Stuck::after(rough, cause))
     }
 
     /// Solves to the tolerance, and smooths less until the effect of that is below the tolerance.

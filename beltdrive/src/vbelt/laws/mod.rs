@@ -322,6 +322,7 @@ impl Path<'_> {
         let scales = Scales::with_force(&drive, solved.problem.scales().units.force);
         let problem = DriveProblem::new(&drive, scales, solved.problem.smoothing())
             .with_direction(solved.problem.has_direction())
+            .with_laws(|law, _| law.with_onset_of(solved.problem.law()))
             .with_zones(&solved.problem.regimes());
         self.attempt(problem, &Carried(solved), Effort::Final)
     }
