@@ -66,10 +66,10 @@ impl DriveFamily {
         }
     }
 
-    /// The same family with a share of its ℓ/R, ε or τ, as [`Law::finer`].
-    pub(super) fn finer(self, share: f64) -> Self {
+    /// The same family with its ℓ/R, ε or τ divided by a number, as [`Law::finer`](super::Law::finer).
+    pub(super) fn finer(self, times: i32) -> Self {
         Self {
-            problem: self.problem.with_laws(|law, _| law.finer(share)),
+            problem: self.problem.with_laws(|law, _| law.finer(times)),
             ..self
         }
     }

@@ -190,17 +190,17 @@ impl<S: Real> Law<S> {
         self
     }
 
-    /// The same law with a share of its ℓ/R, ε or τ, and vector EPP friction without zones as much sharper.
-    pub(super) fn finer(self, share: f64) -> Self {
-        let smoothing = share * self.smoothing();
-        let mut finer = self.with_smoothing(smoothing);
+    /// The same law with its ℓ/R, ε or τ divided by a number, and vector EPP friction without zones as much sharper.
+    pub(super) fn finer(self, times: i32) -> Self {
+        let share = 1.0 / f64::from(times);
+        let mut finer = self.with_smoothing(share * self.smoothing());
         if let Self::Vector {
             sharpness,
             rounding,
             ..
         } = &mut finer
         {
-            *sharpness = (f64::from(*sharpness) / share).round() as i32;
+            *sharpness *= times;
             *rounding *= share;
         }
         finer

@@ -27,10 +27,10 @@ const EPSILON: f64 = 1e-6;
 const ROUNDING: f64 = 0.01;
 /// Length τ/R over which the traction of vector EPP friction is led.
 const BRANCH_LEAD: f64 = 1e-4;
-/// Labelled points are located once more with ℓ or ε multiplied by this.
-pub(super) const FINER: f64 = 0.25;
-/// The effect of ℓ or ε from its change when that is multiplied by [`FINER`]: it vanishes at least as fast.
-pub(super) const WHOLE: f64 = 1.0 / (1.0 - FINER);
+/// Labelled points are located once more with ℓ, ε or τ divided by this.
+pub(super) const FINER: i32 = 4;
+/// The effect of ℓ, ε or τ from its change when that is divided by [`FINER`]: it vanishes at least as fast.
+pub(super) const WHOLE: f64 = 1.0 / (1.0 - 1.0 / FINER as f64);
 /// The most steps of a piece, and of one in shorter steps.
 const MAX_STEPS: usize = 600;
 const MAX_SHORT_STEPS: usize = 2000;
@@ -139,8 +139,7 @@ impl Tracer<'_> {
         let rounded = solved.problem.clone();
         let rounded = rounded.with_laws(|law, _| law.with_rounding(ROUNDING));
         let family = DriveFamily::new(self.drive, &rounded, vec![entry]);
-        let finer = DriveFamily::new(self.drive, &rounded, vec![entry]);
-        let finer = finer.finer(FINER);
+        let finer = DriveFamily::new(self.drive, &rounded, vec![entry]).finer(FINER);
         let options = discretisation(self.tolerance, &solved.problem);
         let first = family.first_entry();
         let guess = Member {

@@ -179,7 +179,7 @@ fn two_entries_vary_at_once_and_the_smoothing_with_them() {
         let unit = key.get(&drive);
         Entry { key, unit }
     });
-    let family = DriveFamily::new(&drive, &problem, entries.to_vec()).finer(0.5);
+    let family = DriveFamily::new(&drive, &problem, entries.to_vec()).finer(2);
     let scaled = [1.2, 0.9];
     let member = family.member(&scaled);
     assert_eq!(member.smoothing(), 0.5 * problem.smoothing());
