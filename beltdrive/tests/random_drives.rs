@@ -7,7 +7,7 @@ mod random;
 mod wide_family;
 
 use beltdrive::{
-    Belt, BeltKind, Drive, FrictionLaw, Load, SolveError, SolveOptions, SpanTension, SteadyState,
+    Belt, BeltKind, FrictionLaw, Load, SolveError, SolveOptions, SpanTension, SteadyState,
     TwoPulleys, VBelt, ZoneKind, solve,
 };
 use std::f64::consts::PI;
@@ -102,49 +102,15 @@ const RATIOS: [f64; 2] = [1.0001, 20.0];
 /// Drives that take longer, s, are told.
 const SLOW: f64 = 3.0;
 
-/// Solves drives of the wide family with the law of a number, all or that of one index, prints the score and returns how
-/// many failed.
+/// Solves drives of the wide family with the law of a number, all or that of one index, as [`score`].
 fn wide_survey(number: usize, count: usize, seed: u64, only: Option<usize>) -> usize {
     let mut random = random::Random(seed);
-    let [mut solved, mut refused, mut failed] = [0; 3];
-    let mut seconds = Vec::new();
-    for index in 0..count {
-        let drive = wide_family::drive(&mut random, number, RATIOS);
-        if only.is_some_and(|only| only != index) {
-            continue;
-        }
-        let start = Instant::now();
-        let found = solve(&drive.into(), &SolveOptions::default());
-        let took = start.elapsed().as_secs_f64();
-        seconds.push(took);
-        if took > SLOW {
-            println!("{index}: {took:.1} s");
-        }
-        match found {
-            Ok(state) => {
-                solved += 1;
-                assert_possible(&state);
-            }
-            Err(SolveError::NoSteadyState { asked, limit, .. }) => {
-                refused += 1;
-                assert!(limit < asked * (1.0 + 1e-6));
-            }
-            Err(error) => {
-                failed += 1;
-                println!("{index}: {error}\n  {drive:?}");
-            }
-        }
-    }
-    seconds.sort_by(f64::total_cmp);
-    let time = |share: usize| 1e3 * seconds[(seconds.len() - 1) * share / 100];
-    println!(
-        "law {number}: {solved} solved, {refused} refused with a reason, {failed} failed; \
-         median {:.1} ms, 90 % {:.1} ms, slowest {:.0} ms",
-        time(50),
-        time(90),
-        time(100)
-    );
-    failed
+    let drives = (0..count).map(|_| wide_family::drive(&mut random, number, RATIOS));
+    score(
+        drives
+            .enumerate()
+            .filter(|&(index, _)| only.is_none_or(|only| only == index)),
+    )
 }
 
 #[test]
@@ -175,19 +141,30 @@ fn wide_score() {
     }
 }
 
-/// Solves `count` random drives, prints the score and returns how many failed.
+/// Solves `count` random drives, as [`score`].
 fn survey(law: FrictionLaw, count: usize, seed: u64) -> usize {
     let mut random = Random(seed);
+    score((0..count).map(|_| drive(&mut random, law)).enumerate())
+}
+
+/// Solves drives with one law, prints the score and returns how many failed.
+fn score(drives: impl Iterator<Item = (usize, TwoPulleys)>) -> usize {
     let (mut refused, mut failed) = (0, Vec::new());
-    let mut seconds = Vec::new();
-    let mut work = Vec::new();
-    for index in 0..count {
-        let drive = Drive::from(drive(&mut random, law));
-        match solve(&drive, &SolveOptions::default()) {
+    let (mut seconds, mut work) = (Vec::new(), Vec::new());
+    let mut law = "";
+    for (index, drive) in drives {
+        law = drive.law.name();
+        let start = Instant::now();
+        let found = solve(&drive.into(), &SolveOptions::default());
+        let took = start.elapsed().as_secs_f64();
+        seconds.push(took);
+        if took > SLOW {
+            println!("{index}: {took:.1} s");
+        }
+        match found {
             Ok(state) => {
                 assert!(state.driven.angular_speed > 0.0);
                 assert_possible(&state);
-                seconds.push(state.convergence.seconds);
                 work.push(state.convergence.factorisations);
             }
             Err(SolveError::NoSteadyState { asked, limit, .. }) => {
@@ -200,19 +177,24 @@ fn survey(law: FrictionLaw, count: usize, seed: u64) -> usize {
     seconds.sort_by(f64::total_cmp);
     work.sort_unstable();
     let milliseconds = |share: usize| 1e3 * seconds[(seconds.len() - 1) * share / 100];
+    // None is solved of one drive that is refused.
+    let factorisations = |share: usize| {
+        work.get(work.len().saturating_sub(1) * share / 100)
+            .copied()
+            .unwrap_or(0)
+    };
     println!(
-        "{}: {} solved, {refused} refused with a reason, {} failed; \
+        "{law}: {} solved, {refused} refused with a reason, {} failed; \
          median {:.1} ms, 90 % {:.1} ms, slowest {:.1} ms; \
          factorisations: median {}, 90 % {}, most {}",
-        law.name(),
-        seconds.len(),
+        work.len(),
         failed.len(),
         milliseconds(50),
         milliseconds(90),
         milliseconds(100),
-        work[(work.len() - 1) / 2],
-        work[(work.len() - 1) * 9 / 10],
-        work[work.len() - 1],
+        factorisations(50),
+        factorisations(90),
+        factorisations(100),
     );
     for failure in &failed {
         println!("{failure}");

@@ -23,7 +23,8 @@ fn law(number: usize, random: &mut Random) -> FrictionLaw {
     }
 }
 
-/// A drive with the law of a number and a tension ratio in a range: soft and stiff belts and grooves, ratios from 1:4 to 4:1, near and far pulleys.
+/// A drive with the law of a number and a tension ratio in a range: soft and stiff belts and grooves, ratios from 1:4 to
+/// 4:1, near and far pulleys.
 pub(crate) fn drive(random: &mut Random, number: usize, [low, high]: [f64; 2]) -> TwoPulleys {
     loop {
         let driver_radius = scale(random, 0.02, 0.4);
