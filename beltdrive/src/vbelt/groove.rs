@@ -77,14 +77,20 @@ pub(crate) enum Law<S = f64> {
     Vector {
         /// Stiffness `k_f` R²/`F_ref`.
         stiffness: S,
-        /// Half of the exponent of |B|/μ with which the plastic rate sets in where the regime is
-        /// [`Either`](Regime::Either).
-        sharpness: i32,
-        /// δ over p/`k_f`, by which a plastic rate is rounded where it sets in in that regime; zero on the way.
-        rounding: f64,
+        /// How the plastic rate sets in where the regime is [`Either`](Regime::Either).
+        onset: Onset,
         /// Length over which the traction of a slipping belt is led towards its slip where it follows that faster.
         lead: f64,
     },
+}
+
+/// How the plastic rate of vector EPP friction sets in where there are no zones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Onset {
+    /// Half of the exponent of |B|/μ in proportion to which it does.
+    pub(super) sharpness: i32,
+    /// δ over p/`k_f`, by which it is rounded; zero on the way to a state.
+    pub(super) rounding: f64,
 }
 
 impl<S: Real> Law<S> {
@@ -108,8 +114,10 @@ impl<S: Real> Law<S> {
             FrictionLaw::VectorEpp { .. } => {
                 return Self::Vector {
                     stiffness: units.radial_stiffness(parameter, radius),
-                    sharpness: 1,
-                    rounding: 0.0,
+                    onset: Onset {
+                        sharpness: 1,
+                        rounding: 0.0,
+                    },
                     lead: lag,
                 };
             }
@@ -172,20 +180,8 @@ impl<S: Real> Law<S> {
 
     /// Vector EPP friction whose plastic rate sets in as in another law. Other laws stay as they are.
     pub(super) fn with_onset_of(mut self, like: Law) -> Self {
-        if let (
-            Self::Vector {
-                sharpness,
-                rounding,
-                ..
-            },
-            Law::Vector {
-                sharpness: other_sharpness,
-                rounding: other_rounding,
-                ..
-            },
-        ) = (&mut self, like)
-        {
-            (*sharpness, *rounding) = (other_sharpness, other_rounding);
+        if let (Self::Vector { onset, .. }, Law::Vector { onset: asked, .. }) = (&mut self, like) {
+            *onset = asked;
         }
         self
     }
@@ -194,22 +190,17 @@ impl<S: Real> Law<S> {
     pub(super) fn finer(self, times: i32) -> Self {
         let share = 1.0 / f64::from(times);
         let mut finer = self.with_smoothing(share * self.smoothing());
-        if let Self::Vector {
-            sharpness,
-            rounding,
-            ..
-        } = &mut finer
-        {
-            *sharpness *= times;
-            *rounding *= share;
+        if let Self::Vector { onset, .. } = &mut finer {
+            onset.sharpness *= times;
+            onset.rounding *= share;
         }
         finer
     }
 
     /// Vector EPP friction with another δ. Other laws stay as they are.
     pub(super) fn with_rounding(mut self, asked: f64) -> Self {
-        if let Self::Vector { rounding, .. } = &mut self {
-            *rounding = asked;
+        if let Self::Vector { onset, .. } = &mut self {
+            onset.rounding = asked;
         }
         self
     }

@@ -29,7 +29,7 @@
 //! What leads the traction is the derivative of what makes it lag, which is of the order of τ there, so that the error is
 //! of the order τ₀². Where the plastic rate sets in gradually, both terms with τ have the factor (|B|/μ)^2m.
 
-use super::groove::{LAW, Law};
+use super::groove::{LAW, Law, Onset};
 use super::{Contact, Groove, Over, Regime};
 use bvp::Real;
 
@@ -38,10 +38,8 @@ pub(super) struct Yielding<'c, T, S = f64> {
     contact: &'c Contact<T>,
     /// Scaled stiffness `k_f`.
     stiffness: S,
-    /// Half of the exponent of the gradual onset.
-    sharpness: i32,
-    /// δ over p/`k_f`.
-    rounding: f64,
+    /// How the plastic rate sets in without zones.
+    onset: Onset,
     /// The length τ₀.
     lead: f64,
     friction_coefficient: S,
@@ -56,8 +54,7 @@ impl<'c, S: Real, T: Over<S>> Yielding<'c, T, S> {
     pub(super) fn new(contact: &'c Contact<T>, groove: &Groove<S>, state: &[T]) -> Option<Self> {
         let Law::Vector {
             stiffness,
-            sharpness,
-            rounding,
+            onset,
             lead,
         } = groove.law
         else {
@@ -68,8 +65,7 @@ impl<'c, S: Real, T: Over<S>> Yielding<'c, T, S> {
         Some(Self {
             contact,
             stiffness,
-            sharpness,
-            rounding,
+            onset,
             lead,
             friction_coefficient: groove.friction_coefficient,
             deflection: [state[LAW], state[LAW + 1]],
@@ -96,13 +92,13 @@ impl<'c, S: Real, T: Over<S>> Yielding<'c, T, S> {
 
     /// δ.
     fn least_plastic_rate(&self) -> T {
-        self.contact.pressure * (S::from_f64(self.rounding) / self.stiffness)
+        self.contact.pressure * (S::from_f64(self.onset.rounding) / self.stiffness)
     }
 
     /// (|B|/μ)^2m, the share of the plastic rate that a gradual onset lets act.
-    fn onset(&self) -> T {
+    fn acting_share(&self) -> T {
         let share = self.along(self.deflection) / self.friction_coefficient.powi(2);
-        share.powi(self.sharpness)
+        share.powi(self.onset.sharpness)
     }
 
     /// p dB/ds over `k_f` where the belt is not taken to slip.
@@ -111,11 +107,11 @@ impl<'c, S: Real, T: Over<S>> Yielding<'c, T, S> {
         let plastic = match self.contact.regime {
             Regime::Either => {
                 let (rate, least) = (self.plastic_rate(), self.least_plastic_rate());
-                let rounded = match self.rounding {
+                let rounded = match self.onset.rounding {
                     0.0 => rate.max(T::from_f64(0.0)),
                     _ => ((rate * rate + least * least).sqrt() + rate) * 0.5,
                 };
-                rounded * self.onset()
+                rounded * self.acting_share()
             }
             _ => T::from_f64(0.0),
         };
@@ -135,7 +131,7 @@ impl<'c, S: Real, T: Over<S>> Yielding<'c, T, S> {
         let weight = (self.along(contact.slip) / mu + contact.slip_norm) * (S::from_f64(0.5) / mu);
         let turning = self.across(turning());
         let (growth, lead) = match contact.regime {
-            Regime::Either => (self.growth(), lead * self.onset()),
+            Regime::Either => (self.growth(), lead * self.acting_share()),
             _ => (self.across(contact.slip), lead),
         };
         [0, 1].map(|axis| (growth[axis] + lead * turning[axis]) / (length + lead * weight))
@@ -184,8 +180,10 @@ mod tests {
     fn yielding(share: f64, lead: f64) -> (Groove, [f64; 6]) {
         let law = Law::Vector {
             stiffness: STIFFNESS,
-            sharpness: 2,
-            rounding: 0.0,
+            onset: Onset {
+                sharpness: 2,
+                rounding: 0.0,
+            },
             lead,
         };
         let groove = groove(law, 0.0);

@@ -214,8 +214,8 @@ fn with_stiffness<P: BeltProblem>(problem: &P, t: f64) -> P {
 /// The same problem with another power of |B|/μ.
 fn with_sharpness<P: BeltProblem>(problem: &P, half: i32) -> P {
     problem.clone().with_laws(|mut law, _| {
-        if let Law::Vector { sharpness, .. } = &mut law {
-            *sharpness = half;
+        if let Law::Vector { onset, .. } = &mut law {
+            onset.sharpness = half;
         }
         law
     })
@@ -249,10 +249,10 @@ mod tests {
             assert!(!sharp.problem.is_split());
             // Its neighbours are as sharp.
             let neighbour = path.neighbour(&sharp).unwrap();
-            let Law::Vector { sharpness, .. } = neighbour.problem.law() else {
+            let Law::Vector { onset, .. } = neighbour.problem.law() else {
                 panic!("{:?}", neighbour.problem.law());
             };
-            assert_eq!(sharpness, half);
+            assert_eq!(onset.sharpness, half);
             sharp.change_to(&zones.constants())
         })
     }
