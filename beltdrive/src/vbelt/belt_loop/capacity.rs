@@ -176,7 +176,7 @@ impl Solved<LoopProblem> {
             turned,
             change,
         };
-        let options = on_the_way(tolerance);
+        let options = on_the_way(tolerance, groove.law);
         let guess = OfState {
             solved: rough,
             pulley,
