@@ -49,10 +49,10 @@ const REFINEMENT: f64 = 4.0;
 /// ... at most so often.
 const MAX_REFINEMENTS: i32 = 4;
 /// Accuracy of the points of a branch, as a share of the tolerance; ...
-const ACCURACY: f64 = 1e-3;
+pub(super) const ACCURACY: f64 = 1e-3;
 /// ... and where the direction is a state. Its rate of change is that of the slip over ℓ, and with 1e-3 the mesh was
 /// refined up to 3600 intervals after errors of Newton's method, with this to 80.
-const ACCURACY_OF_DIRECTION: f64 = 1e-6;
+pub(super) const ACCURACY_OF_DIRECTION: f64 = 1e-6;
 
 /// How a piece ends.
 pub(super) enum PieceEnd {

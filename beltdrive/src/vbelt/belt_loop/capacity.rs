@@ -182,7 +182,7 @@ impl Solved<LoopProblem> {
             pulley,
         };
         let (mut family, z) = Family::new(&one, GROWTH, &[], &guess, &options).ok()?;
-        let within = followed([-1.0, to.ln()], &options);
+        let within = followed([-1.0, to.ln()], &options, groove.law, 0);
         let branch = Branch::new(&mut family, &z, Direction::Increasing, &within).ok()?;
         let branch = branch.event(|_, point| point.z[point.z.len() - 1 - GROWTH + SPEED]);
         let mut levelling = Levelling::default();

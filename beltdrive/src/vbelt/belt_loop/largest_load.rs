@@ -10,6 +10,7 @@ use super::super::path::{Effort, Solved};
 use super::at_rest::rest_near;
 use super::climb::{Climbed, Limit};
 use super::guess::tractive_tensions;
+use super::like::Like;
 use super::problem::LoopProblem;
 use super::round::Target;
 use super::running::{SLOW, is_drive, may_be_beyond, presses};
@@ -32,6 +33,10 @@ pub(super) const BELOW: f64 = 0.97;
 /// tension: by the first alone, three of the six first speeds of `kim2009-epp` were begun from nothing, which took 14 s
 /// of 21 s.
 const LOWER: [f64; 3] = [1.0, 0.8, 0.5];
+
+/// The same of a state with bristles from which exact Coulomb or EPP friction is found, in turn: soft bristles carry a few
+/// per cent more or less.
+const WELL_BELOW: [f64; 3] = [0.85, 0.6, 0.4];
 
 /// Factor between loads up to which the load is raised.
 const RAISED: f64 = 4.0;
@@ -155,14 +160,29 @@ impl Search<'_> {
         })
     }
 
-    /// The load of a state raised to the largest.
+    /// The load of a state with bristles raised to the largest, with Coulomb or EPP friction whose direction is a state
+    /// if that is found.
     fn raised(
         &mut self,
         from: Solved<LoopProblem>,
         expected: f64,
     ) -> Result<(LargestLoad, NearLargestLoad), SolveError> {
-        let begin = from.factor();
-        let (mut here, mut to) = (from, RAISED * begin.max(0.5 * expected));
+        let directed = self.with_direction_near(&Like::new(self.drive, &from), &from);
+        let directed = directed.filter(is_begin);
+        let limit = directed.and_then(|directed| self.limit(&directed, expected).ok());
+        let limit = match limit {
+            Some(limit) => limit,
+            None => self.limit(&from, expected)?,
+        };
+        let found = answer(self.drive, &limit);
+        let below = self.below(limit, from);
+        let factor = found.factor;
+        Ok((found, NearLargestLoad { below, factor }))
+    }
+
+    /// The largest load of the curve on which that of a state is raised.
+    fn limit(&mut self, from: &Solved<LoopProblem>, expected: f64) -> Result<Limit, SolveError> {
+        let (mut here, mut to) = (from.clone(), RAISED * from.factor().max(0.5 * expected));
         let mut slipping = Slipping::default();
         while to < LARGEST * expected {
             match self.climb(&here, to, Some(&mut slipping)) {
@@ -170,10 +190,7 @@ impl Search<'_> {
                 Climbed::Limit(mut limit) => {
                     self.judge(&mut limit, &slipping, &here, Judge::GrossSlip);
                     self.without_bristles(&mut limit, &here, Judge::GrossSlip);
-                    let found = answer(self.drive, &limit);
-                    let below = Self::below(*limit, here);
-                    let factor = found.factor;
-                    return Ok((found, NearLargestLoad { below, factor }));
+                    return Ok(*limit);
                 }
                 Climbed::Lost { reached, cause } => {
                     return Err(SolveError::Unreached { reached, cause });
@@ -186,13 +203,20 @@ impl Search<'_> {
         })
     }
 
-    /// The state on the way to a limit from which others are found; else that from which it began.
-    fn below(limit: Limit, begin: Solved<LoopProblem>) -> Solved<LoopProblem> {
-        let is_below = |state: &Solved<LoopProblem>| state.factor() <= BELOW * limit.top.factor;
-        let begins_higher = |state: &Solved<LoopProblem>| state.factor() < begin.factor();
-        let mut states = limit.below.into_iter().rev();
-        let below = states.find(|state| is_below(state) || begins_higher(state));
-        below.filter(|below| !begins_higher(below)).unwrap_or(begin)
+    /// The state from which others are found: on the way to the limit, or with bristles raised from that with which it
+    /// began.
+    fn below(&mut self, limit: Limit, begin: Solved<LoopProblem>) -> Solved<LoopProblem> {
+        let (top, from) = (limit.top.factor, begin.factor());
+        let is_below = |state: &Solved<LoopProblem>| {
+            !state.problem.has_direction() && (from..=BELOW * top).contains(&state.factor())
+        };
+        if let Some(below) = limit.below.into_iter().rev().find(is_below) {
+            return below;
+        }
+        let factors = WELL_BELOW.map(|share| share * top);
+        let mut higher = factors.into_iter().filter(|factor| *factor > from);
+        let raised = higher.find_map(|factor| self.at_factor(&begin, factor).filter(is_begin));
+        raised.unwrap_or(begin)
     }
 }
 

@@ -13,6 +13,7 @@ mod contacts;
 mod guess;
 mod largest_load;
 mod levelling;
+mod like;
 mod plane;
 mod problem;
 mod rest;

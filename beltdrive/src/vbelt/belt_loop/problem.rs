@@ -71,9 +71,7 @@ impl LoopProblem {
         law: FrictionLaw,
         lag: f64,
     ) -> Self {
-        let pulleys = drive.pulleys.iter();
-        let seats = pulleys.map(|pulley| Seat::new(drive, pulley, units, law, lag));
-        let seats: Vec<_> = seats.collect();
+        let seats = seated(drive, units, law, lag);
         let loads = drive.pulleys.iter().map(|pulley| match pulley.duty {
             Duty::Driver(_) | Duty::Driven => Load::Driver,
             Duty::Torque(torque) => Load::Torque(torque / units.torque(pulley.radius)),
@@ -81,12 +79,6 @@ impl LoopProblem {
         });
         let (tensioner, driver) = (drive.tensioner(), drive.driver());
         let is_epp = matches!(law, FrictionLaw::Epp { .. });
-        let zones = seats.iter().map(|seat| match seat {
-            Seat::Groove(_) => vec![Regime::of_contact(law)],
-            Seat::Back(_) => vec![Regime::Either],
-            Seat::Idle => vec![],
-        });
-        let zones: Vec<_> = zones.collect();
         let problem = Self {
             plane: Plane::new(drive, layout),
             units,
@@ -100,7 +92,24 @@ impl LoopProblem {
             segments: Vec::new(),
             seats,
         };
-        problem.with_zones(&zones)
+        problem.in_one_zone(law)
+    }
+
+    /// The same loop of a drive with a law of friction in its grooves, and one segment on each pulley.
+    pub(super) fn with_law(mut self, drive: &Drive, law: FrictionLaw, lag: f64) -> Self {
+        self.seats = seated(drive, self.units, law, lag);
+        self.in_one_zone(law)
+    }
+
+    /// The same loop with one segment on each pulley.
+    fn in_one_zone(self, law: FrictionLaw) -> Self {
+        let zones = self.seats.iter().map(|seat| match seat {
+            Seat::Groove(_) => vec![Regime::of_contact(law)],
+            Seat::Back(_) => vec![Regime::Either],
+            Seat::Idle => vec![],
+        });
+        let zones: Vec<_> = zones.collect();
+        self.with_zones(&zones)
     }
 
     /// The same loop with all torques and powers multiplied by a factor.
@@ -181,6 +190,13 @@ impl LoopProblem {
         self.segments = seats.map(|seat| Segment::new(seat.states())).collect();
         self
     }
+}
+
+/// How the belt of a drive lies on its pulleys.
+fn seated(drive: &Drive, units: Units, law: FrictionLaw, lag: f64) -> Vec<Seat> {
+    let pulleys = drive.pulleys.iter();
+    let seats = pulleys.map(|pulley| Seat::new(drive, pulley, units, law, lag));
+    seats.collect()
 }
 
 impl BeltProblem for LoopProblem {

@@ -40,9 +40,7 @@ impl Asked for Start<'_> {
     }
 
     fn largest_curvature(&self) -> f64 {
-        let pulleys = self.drive.pulleys.iter();
-        let curvatures = pulleys.map(|pulley| pulley.friction_coefficient / pulley.radius);
-        curvatures.fold(0.0, f64::max)
+        largest_curvature(self.drive)
     }
 
     fn problem(&self, law: FrictionLaw, lag: f64) -> LoopProblem {
@@ -52,7 +50,14 @@ impl Asked for Start<'_> {
         LoopProblem::new(drive, &self.layout, units, self.target, law, lag).with_factor(self.factor)
     }
 
-    fn guess<'p>(&self, problem: &'p LoopProblem) -> impl bvp::Guess + 'p {
+    fn guess<'p>(&'p self, problem: &'p LoopProblem) -> impl bvp::Guess + 'p {
         LoopGuess::new(problem, &self.tractive, self.coordinate)
     }
+}
+
+/// The largest friction coefficient of a pulley over its radius, 1/m.
+pub(super) fn largest_curvature(drive: &Drive) -> f64 {
+    let pulleys = drive.pulleys.iter();
+    let curvatures = pulleys.map(|pulley| pulley.friction_coefficient / pulley.radius);
+    curvatures.fold(0.0, f64::max)
 }

@@ -154,7 +154,7 @@ impl Search<'_> {
         from: &Solved<LoopProblem>,
         judge: Judge,
     ) {
-        if self.follows_law() {
+        if self.follows_law() || limit.at.problem.has_direction() {
             return;
         }
         let mut factors = vec![limit.top.factor];

@@ -59,7 +59,7 @@ pub(super) trait Asked {
     fn problem(&self, law: FrictionLaw, lag: f64) -> Self::Problem;
 
     /// A state nearly without friction.
-    fn guess<'p>(&self, problem: &'p Self::Problem) -> impl bvp::Guess + 'p;
+    fn guess<'p>(&'p self, problem: &'p Self::Problem) -> impl bvp::Guess + 'p;
 
     /// The stiffness κ of the bristles of the start, 1/m.
     fn soft(&self) -> f64 {
@@ -102,7 +102,7 @@ impl Asked for AtLoad<'_> {
         DriveProblem::new(&drive, Scales::new(&drive), lag).with_tight_tension(self.tight)
     }
 
-    fn guess<'p>(&self, problem: &'p DriveProblem) -> impl bvp::Guess + 'p {
+    fn guess<'p>(&'p self, problem: &'p DriveProblem) -> impl bvp::Guess + 'p {
         Guess::new(problem)
     }
 }
@@ -189,6 +189,19 @@ impl Path<'_> {
             let problem = asked.problem(FrictionLaw::Bristle { stiffness }, 0.0);
             self.attempt(problem, &Carried(near), Effort::Start).ok()
         })
+    }
+
+    /// Coulomb or EPP friction whose direction is a state from the bristles of [`Path::enter_bristles`], if it is found.
+    pub(super) fn with_direction_near<A: Asked>(
+        &mut self,
+        asked: &A,
+        bristles: &Solved<A::Problem>,
+    ) -> Option<Solved<A::Problem>> {
+        match asked.law() {
+            FrictionLaw::Coulomb => self.coulomb(asked, bristles),
+            FrictionLaw::Epp { .. } => self.epp_by_bristles(asked, bristles),
+            _ => None,
+        }
     }
 
     /// From bristles to Coulomb or EPP friction.
