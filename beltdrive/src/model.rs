@@ -3,7 +3,7 @@
 
 use crate::belt_loop::LoopState;
 use crate::input::Key;
-use crate::results::largest_load::LargestLoad;
+use crate::results::largest_load::{LargestLoad, LastState};
 use crate::results::loop_state::RestState;
 use crate::{
     BeltKind, Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, StateSummary,
@@ -107,6 +107,12 @@ pub(crate) trait Model {
         expected: f64,
         options: &SolveOptions,
     ) -> Result<(LargestLoad, NearLargest), SolveError>;
+
+    /// The last steady state of a loop as all its torques and powers rise together from its own, where it is found
+    /// along the curve of these states.
+    fn last_state(&self, _: &Drive, _: &SolveOptions) -> Option<LastState> {
+        None
+    }
 
     /// As [`crate::belt_loop::solve_with_margins`].
     fn solve_with_margins(

@@ -42,6 +42,17 @@ impl Refusal {
             Self::Loop(error) => error.kind(),
         }
     }
+
+    /// The largest factor on the load that has a state, if there is one for that reason.
+    pub(super) fn largest_load(&self) -> Option<f64> {
+        match self {
+            Self::Loop(error) => match &**error {
+                SolveError::Overloaded { load_factor, .. } => Some(*load_factor),
+                _ => None,
+            },
+            Self::Input(_) => None,
+        }
+    }
 }
 
 impl From<SolveError> for Refusal {
@@ -115,7 +126,7 @@ pub(super) struct Members<'f> {
     /// With the sense of the loop.
     file: DriveFile,
     varied: &'f Varied,
-    options: &'f SolveOptions,
+    pub(super) options: &'f SolveOptions,
 }
 
 impl<'f> Members<'f> {

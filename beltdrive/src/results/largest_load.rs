@@ -1,5 +1,6 @@
 //! The largest load of a loop at one speed.
 
+use crate::belt_loop::LoopState;
 use crate::{Drive, SolveError};
 use std::borrow::Cow;
 
@@ -33,6 +34,19 @@ pub(crate) struct LargestLoad {
     pub(crate) power_out: Option<f64>,
     /// Estimated relative error of factor and torque.
     pub(crate) error: f64,
+}
+
+/// The last steady state of a loop as its load rises.
+#[derive(Clone, Debug)]
+pub(crate) struct LastState {
+    /// The factor on all torques and powers.
+    pub(crate) factor: f64,
+    /// How far the limit of the load is from it at most, relative.
+    pub(crate) error: f64,
+    /// Why there is no state beyond.
+    pub(crate) reason: SolveError,
+    /// The state.
+    pub(crate) state: LoopState,
 }
 
 impl LoadEnd {

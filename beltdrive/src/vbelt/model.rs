@@ -3,7 +3,7 @@
 use crate::belt_loop::LoopState;
 use crate::input::Key;
 use crate::model::{Model, NearLargest, Neighbour, Progress};
-use crate::results::largest_load::LargestLoad;
+use crate::results::largest_load::{LargestLoad, LastState};
 use crate::results::loop_state::RestState;
 use crate::{Branch, Drive, LimitCurve, Limits, SolveError, SolveOptions, Stability, SteadyState};
 
@@ -103,6 +103,10 @@ impl Model for VBelts {
         let (found, near) =
             super::belt_loop::largest_load(drive, near, expected, options.tolerance)?;
         Ok((found, NearLargest::V(Box::new(near))))
+    }
+
+    fn last_state(&self, drive: &Drive, options: &SolveOptions) -> Option<LastState> {
+        super::belt_loop::last_state(drive, options.tolerance)
     }
 
     fn solve_with_margins(

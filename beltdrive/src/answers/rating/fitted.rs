@@ -231,8 +231,10 @@ impl Fit<'_> {
         self.keep(found);
     }
 
+    /// The solved speed nearest to another in the logarithm of the tension without load, with which the limit goes.
     fn nearest(&self, speed: f64) -> Option<&Solved> {
-        let distance = |(node, _): &Solved| (node.load.speed - speed).abs();
+        let tension = self.speeds.pressing(speed).ok()?;
+        let distance = |(node, _): &Solved| (node.tension / tension).ln().abs();
         let solved = self.solved.iter();
         solved.min_by(|one, other| distance(one).total_cmp(&distance(other)))
     }

@@ -51,8 +51,10 @@ const STILL_SHARPER: [f64; 3] = [SHARPER, 1e-5, 1e-6];
 /// States below a limit from which a smaller ε is tried, in turn: the last one may be too near.
 const LOWER: usize = 4;
 
+/// Factor between loads up to which that of a state is raised in turn.
+const DOUBLED: f64 = 2.0;
 /// Largest load factor that is tried: beyond it the torques are but rounding errors of the driver's.
-const LARGEST_FACTOR: f64 = 1e9;
+pub(super) const LARGEST_FACTOR: f64 = 1e9;
 
 /// Where a climb ends.
 pub(super) enum Climbed {
@@ -102,31 +104,61 @@ pub(crate) fn limit_accuracy(tolerance: f64) -> f64 {
 }
 
 impl Search<'_> {
-    /// How far all torques of a state can be raised until a pulley slips grossly, found by raising them from a rough
-    /// solution of it; `None` if that is not at all, or farther than anything that was tried.
+    /// How far all torques of a state can be raised until a pulley slips grossly: from the state itself if the direction
+    /// of its friction is a state, and where that is not followed to its end from a rough one; `None` if that is not at
+    /// all, or farther than anything that was tried.
     pub(super) fn load_limit(
         &mut self,
         state: &Solved<LoopProblem>,
-        rough: Solved<LoopProblem>,
-    ) -> Result<Option<Top>, SolveError> {
+        rough: Option<Solved<LoopProblem>>,
+    ) -> Option<Top> {
         if self.drive.is_idle() {
-            return Ok(None);
+            return None;
         }
-        let problem = rough.problem.with_torques(state.solution.parameters());
-        let (mut here, mut to) = (Solved { problem, ..rough }, 2.0);
+        if state.problem.has_direction()
+            && let Ok(top) = self.limit_from(state, state.clone())
+        {
+            return top;
+        }
+        self.limit_from(state, rough?).ok().flatten()
+    }
+
+    /// The same from one solution of a state.
+    fn limit_from(
+        &mut self,
+        state: &Solved<LoopProblem>,
+        begin: Solved<LoopProblem>,
+    ) -> Result<Option<Top>, SolveError> {
+        let problem = begin.problem.with_torques(state.solution.parameters());
         let mut slipping = Slipping::default();
-        while to < LARGEST_FACTOR {
-            match self.climb(&here, to, Some(&mut slipping)) {
+        let begin = Solved { problem, ..begin };
+        let found = self.rise(&begin, DOUBLED, LARGEST_FACTOR, Some(&mut slipping))?;
+        Ok(found.map(|(mut limit, from)| {
+            self.without_bristles(&mut limit, &from, Judge::LimitPointOrSlip);
+            limit.top
+        }))
+    }
+
+    /// The limit of the curve on which the load of a state is raised, up to a factor on all torques, and the state from
+    /// which the last climb to it began; `None` if there is none up to there. A climb goes from one power of `times` the
+    /// load to the next.
+    pub(super) fn rise(
+        &mut self,
+        from: &Solved<LoopProblem>,
+        times: f64,
+        largest: f64,
+        mut slipping: Option<&mut Slipping>,
+    ) -> Result<Option<(Limit, Solved<LoopProblem>)>, SolveError> {
+        let (mut here, mut to) = (from.clone(), times * from.factor());
+        while to < largest {
+            match self.climb(&here, to, slipping.as_deref_mut()) {
                 Climbed::Reached(solved) => here = *solved,
-                Climbed::Limit(mut limit) => {
-                    self.without_bristles(&mut limit, &here, Judge::LimitPointOrSlip);
-                    return Ok(Some(limit.top));
-                }
+                Climbed::Limit(limit) => return Ok(Some((*limit, here))),
                 Climbed::Lost { reached, cause } => {
                     return Err(SolveError::Unreached { reached, cause });
                 }
             }
-            to *= 2.0;
+            to *= times;
         }
         Ok(None)
     }

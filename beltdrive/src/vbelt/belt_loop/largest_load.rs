@@ -8,7 +8,7 @@ use super::super::belt_problem::BeltProblem;
 use super::super::groove::TENSION;
 use super::super::path::{Effort, Solved};
 use super::at_rest::rest_near;
-use super::climb::{Climbed, Limit};
+use super::climb::Limit;
 use super::guess::tractive_tensions;
 use super::like::Like;
 use super::problem::LoopProblem;
@@ -182,25 +182,15 @@ impl Search<'_> {
 
     /// The largest load of the curve on which that of a state is raised.
     fn limit(&mut self, from: &Solved<LoopProblem>, expected: f64) -> Result<Limit, SolveError> {
-        let (mut here, mut to) = (from.clone(), RAISED * from.factor().max(0.5 * expected));
         let mut slipping = Slipping::default();
-        while to < LARGEST * expected {
-            match self.climb(&here, to, Some(&mut slipping)) {
-                Climbed::Reached(solved) => here = *solved,
-                Climbed::Limit(mut limit) => {
-                    self.judge(&mut limit, &slipping, &here, Judge::GrossSlip);
-                    self.without_bristles(&mut limit, &here, Judge::GrossSlip);
-                    return Ok(*limit);
-                }
-                Climbed::Lost { reached, cause } => {
-                    return Err(SolveError::Unreached { reached, cause });
-                }
-            }
-            to *= RAISED;
-        }
-        Err(SolveError::NotFound {
+        let times = RAISED * (0.5 * expected / from.factor()).max(1.0);
+        let found = self.rise(from, times, LARGEST * expected, Some(&mut slipping))?;
+        let (mut limit, begin) = found.ok_or(SolveError::NotFound {
             what: "largest load",
-        })
+        })?;
+        self.judge(&mut limit, &slipping, &begin, Judge::GrossSlip);
+        self.without_bristles(&mut limit, &begin, Judge::GrossSlip);
+        Ok(limit)
     }
 
     /// The state from which others are found: on the way to the limit, or with bristles raised from that with which it

@@ -12,6 +12,7 @@ mod climb;
 mod contacts;
 mod guess;
 mod largest_load;
+mod last_state;
 mod levelling;
 mod like;
 mod plane;
@@ -33,4 +34,5 @@ mod unknowns;
 
 pub(crate) use climb::{Top, limit_accuracy};
 pub(crate) use largest_load::{NearLargestLoad, largest_load};
+pub(crate) use last_state::last_state;
 pub(crate) use solve::{LoopNeighbour, at_rest, solve, solve_from, solve_with_margins};

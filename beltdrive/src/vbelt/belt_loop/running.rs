@@ -7,6 +7,7 @@ use super::super::laws::Asked;
 use super::super::path::{Effort, Solved};
 use super::climb::{Climbed, Top};
 use super::guess::tractive_tensions;
+use super::like::Like;
 use super::problem::LoopProblem;
 use super::rest::Rest;
 use super::round::Target;
@@ -52,6 +53,15 @@ impl Running<'_> {
             }
         }
     }
+
+    /// The loop with a law whose curve of states can be followed to a limit that is that of its own law.
+    pub(super) fn followed(&self, search: &mut Search<'_>) -> Option<Solved<LoopProblem>> {
+        if search.follows(&self.solved) {
+            return Some(self.solved.clone());
+        }
+        let bristles = self.roughly(search).ok()?;
+        search.with_direction_near(&Like::new(search.drive, &bristles), &bristles)
+    }
 }
 
 /// The running loop under its whole load: at once where Newton's method finds it and it cannot lie
@@ -88,7 +98,16 @@ pub(super) fn running<'l>(
         Ok(solved) if is_safe(&solved) => return Ok(found(whole, solved, None)),
         other => other,
     };
-    for share in SHARES.map(start).iter().filter(|share| share.is_taut()) {
+    let shares = SHARES.map(start);
+    let shares = || shares.iter().filter(|share| share.is_taut());
+    if let Some(found) = shares().find_map(|share| along_direction(search, share)) {
+        return found.map(|solved| Running {
+            solved,
+            start: whole,
+            raised: None,
+        });
+    }
+    for share in shares() {
         match search.enter(share) {
             Ok(rough) if is_safe(&rough) => {
                 let raised = raise(search, share, &rough)?;
@@ -111,6 +130,22 @@ pub(super) fn running<'l>(
             reached: 0.0,
             cause: "the belt would have to push in a span even under hardly any load",
         }),
+    }
+}
+
+/// The running loop under its whole load, raised from a share of it with Coulomb or EPP friction whose direction is a
+/// state, or why there is none; `None` if that is not followed so far.
+fn along_direction(
+    search: &mut Search<'_>,
+    share: &Start<'_>,
+) -> Option<Result<Solved<LoopProblem>, SolveError>> {
+    let is_safe = |solved: &Solved<LoopProblem>| is_drive(solved) && !may_be_beyond(solved);
+    let bristles = search.enter_bristles(share).ok().filter(is_safe)?;
+    let begin = search.with_direction_near(share, &bristles)?;
+    match search.climb(&begin, 1.0, None) {
+        Climbed::Reached(raised) => search.finish_obeying(*raised).ok().map(Ok),
+        Climbed::Limit(limit) => Some(Err(overloaded(search.drive, &limit.top))),
+        Climbed::Lost { .. } => None,
     }
 }
 
@@ -204,7 +239,7 @@ fn raise(
 }
 
 /// The load is above the largest.
-fn overloaded(drive: &Drive, top: &Top) -> SolveError {
+pub(super) fn overloaded(drive: &Drive, top: &Top) -> SolveError {
     SolveError::Overloaded {
         pulley: drive.pulleys[top.pulley].name.clone(),
         load_factor: top.factor,

@@ -33,10 +33,10 @@ pub(crate) struct LoopNeighbour {
 }
 
 /// A loop at rest and running.
-struct Found<'l> {
-    at_rest: RestProblem,
-    rest: Rest,
-    running: Running<'l>,
+pub(super) struct Found<'l> {
+    pub(super) at_rest: RestProblem,
+    pub(super) rest: Rest,
+    pub(super) running: Running<'l>,
 }
 
 /// The steady state of a loop with a V-belt.
@@ -149,11 +149,11 @@ impl LoopNeighbour {
     /// How far all torques can be raised, found by raising them; as [`Search::load_limit`].
     pub(crate) fn load_limit(&self, tolerance: f64) -> Option<Top> {
         let mut search = Search::new(&self.drive, tolerance);
-        let rough = match (self.drive.law, &self.rough) {
-            (FrictionLaw::Bristle { .. }, _) => self.solved.clone(),
-            (_, rough) => (**rough.as_ref()?).clone(),
+        let rough = match self.drive.law {
+            FrictionLaw::Bristle { .. } => Some(self.solved.clone()),
+            _ => self.rough.as_deref().cloned(),
         };
-        search.load_limit(&self.solved, rough).ok().flatten()
+        search.load_limit(&self.solved, rough)
     }
 }
 
@@ -167,19 +167,18 @@ pub(crate) fn solve_with_margins(drive: &Drive, tolerance: f64) -> Result<LoopSt
     } = search.search()?;
     let solved = &running.solved;
     let mut found = state(&mut search, &rest, &at_rest, solved, None)?;
-    let Ok(rough) = running.roughly(&mut search) else {
-        return Ok(found);
-    };
-    let stiffer = search.with_stiffer_ones(&rough);
+    let rough = running.roughly(&mut search).ok();
+    let stiffer = rough.as_ref().map(|rough| search.with_stiffer_ones(rough));
     for (index, pulley) in found.pulleys.iter_mut().enumerate() {
-        let Some([margin, error]) = solved.torque_margin(index, &stiffer, tolerance) else {
+        let margin = |stiffer| solved.torque_margin(index, stiffer, tolerance);
+        let Some([margin, error]) = stiffer.as_ref().and_then(margin) else {
             continue;
         };
         pulley.torque_margin = Some(margin);
         pulley.torque_capacity = Some(margin * pulley.torque.abs());
         pulley.torque_margin_error = error / margin;
     }
-    let limit = search.load_limit(solved, rough).ok().flatten();
+    let limit = search.load_limit(solved, rough);
     found.load_limit = limit.map(|top| LoadLimit {
         factor: top.factor,
         pulley: top.pulley,
@@ -208,7 +207,7 @@ pub(crate) fn at_rest(drive: &Drive, tolerance: f64) -> Result<RestState, SolveE
 
 impl<'l> Search<'l> {
     /// The loop at rest and running, in the order in which the closure gives them.
-    fn search(&mut self) -> Result<Found<'l>, SolveError> {
+    pub(super) fn search(&mut self) -> Result<Found<'l>, SolveError> {
         let drive = self.drive;
         let start = drive.start_coordinate();
         let layout = drive.layout(start)?;
@@ -253,7 +252,11 @@ impl<'l> Search<'l> {
     }
 
     /// Refuses a tensioner beyond its stops, at rest and running.
-    fn within_travel(&self, rest: &Rest, running: &Solved<LoopProblem>) -> Result<(), SolveError> {
+    pub(super) fn within_travel(
+        &self,
+        rest: &Rest,
+        running: &Solved<LoopProblem>,
+    ) -> Result<(), SolveError> {
         let Solved { problem, solution } = running;
         for coordinate in [rest.coordinate, problem.coordinate(solution.parameters())] {
             within_travel(self.drive, coordinate)?;

@@ -99,6 +99,11 @@ impl Stiffened {
 }
 
 impl Search<'_> {
+    /// Whether friction in a state is of the law of the drive itself, so that the curve of its states is.
+    pub(super) fn follows(&self, state: &Solved<LoopProblem>) -> bool {
+        self.follows_law() || state.problem.has_direction()
+    }
+
     /// Whether curves of states are followed with the law of the drive itself.
     fn follows_law(&self) -> bool {
         !matches!(
@@ -154,7 +159,7 @@ impl Search<'_> {
         from: &Solved<LoopProblem>,
         judge: Judge,
     ) {
-        if self.follows_law() || limit.at.problem.has_direction() {
+        if self.follows(&limit.at) {
             return;
         }
         let mut factors = vec![limit.top.factor];

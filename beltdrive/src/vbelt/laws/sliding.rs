@@ -78,6 +78,14 @@ impl Path<'_> {
                 return Err(failure);
             }
         };
+        self.finish_obeying(sharp)
+    }
+
+    /// A solution to the tolerance, if friction obeys its law then.
+    pub(in crate::vbelt) fn finish_obeying<P: BeltProblem>(
+        &mut self,
+        sharp: Solved<P>,
+    ) -> Result<Solved<P>, Astray> {
         let solved = self.finish(sharp).map_err(|stuck| stuck.astray)?;
         let gains = Gains::of(&solved);
         match gains.obey_friction(&solved, self.tolerance) {
