@@ -9,28 +9,27 @@
 //! φ − (θ_out − θ_in) = the angle between the spans          R (F_out cos θ_out − F_in cos θ_in) = λ M
 //! ```
 //!
-//! with the unknown speed ω and length L of the contact, and the logarithm of λ, since a torque may be small beside
-//! the largest. On the back of the belt nothing of this depends on
-//! the law: it carries R F (exp(μ φ) − 1). The curve is that of bristles where friction is Coulomb's or EPP
-//! (see `stiffening`).
+//! with the unknown speed ω and lengths of the contact, and the logarithm of λ, since a torque may be small beside
+//! the largest. On the back of the belt nothing of this depends on the law: it carries R F (exp(μ φ) − 1). Where the
+//! curve cannot be followed with the friction of the state itself it is that of bristles (see `stiffening`).
 
-use super::super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
-use super::super::path::Solved;
-use super::super::vector::Yielding;
-use super::super::{BeltProblem, Contact, Groove, Regime};
-use super::climb::{followed, on_the_way};
+use super::super::belt_problem::{BeltProblem, Zoning, in_groove};
+use super::super::groove::{ANGLE, INCLINATION, TENSION};
+use super::super::path::{Effort, Solved};
+use super::super::{Contact, Groove, Law, Regime, Units};
+use super::climb::limit_accuracy;
 use super::levelling::Levelling;
+use super::pieces::{Curved, Place};
 use super::problem::LoopProblem;
 use super::seat::Seat;
+use super::solve::Search;
 use super::stiffening::Stiffened;
 use super::unknowns::FLOW;
-use bvp::{Ends, Family, Problem, Real, Segment};
-use continuation::{Branch, Direction, Kind};
+use bvp::{Ends, Problem, Real, Segment, Solution};
 
-/// Indices of the parameters.
+/// Indices of the parameters: the lengths of all zones follow, and the logarithm of λ if it is one.
 const SPEED: usize = 0;
-const LENGTH: usize = 1;
-const GROWTH: usize = 2;
+const FIRST_LENGTH: usize = 1;
 
 /// Where the search ends, as multiple of what the slack side carries with all friction along the pulley. Radial
 /// friction presses a belt deeper into the groove of a driver: limits of up to four times were seen.
@@ -40,6 +39,11 @@ const BEYOND: f64 = 100.0;
 #[derive(Clone, Debug)]
 struct OneGroove {
     groove: Groove,
+    units: Units,
+    /// Pitch radius, m.
+    radius: f64,
+    /// The sense of friction.
+    sense: f64,
     /// Scaled mass flow.
     flow: f64,
     /// Tension at which the displacement of EPP friction does not grow.
@@ -50,69 +54,156 @@ struct OneGroove {
     turned: f64,
     /// Change of the tension of the state, F cos θ between exit and entry; positive on a driven pulley.
     change: f64,
+    /// The logarithm of λ; unknown where there is none.
+    growth: Option<f64>,
+    zoning: Zoning,
+}
+
+impl OneGroove {
+    fn growth<T: Real>(&self, p: &[T]) -> T {
+        self.growth
+            .map_or_else(|| p[FIRST_LENGTH + self.zoning.count()], T::from_f64)
+    }
+}
+
+/// The logarithm of λ.
+impl Curved for OneGroove {
+    fn freed(self) -> Self {
+        let growth = None;
+        Self { growth, ..self }
+    }
+
+    fn held(self, value: f64) -> Self {
+        let growth = Some(value);
+        Self { growth, ..self }
+    }
+
+    fn number(&self, p: &[f64]) -> f64 {
+        self.growth(p)
+    }
+}
+
+impl BeltProblem for OneGroove {
+    fn zoning(&self) -> &Zoning {
+        &self.zoning
+    }
+
+    fn in_groove(&self, _: usize) -> Option<&Groove> {
+        Some(&self.groove)
+    }
+
+    fn omega<T: Real>(&self, _: usize, p: &[T]) -> T {
+        p[SPEED]
+    }
+
+    fn sense(&self, _: usize) -> f64 {
+        self.sense
+    }
+
+    fn flow<T: Real>(&self, _: &[T]) -> T {
+        T::from_f64(self.flow)
+    }
+
+    fn first_length(&self) -> usize {
+        FIRST_LENGTH
+    }
+
+    fn behind_lengths(&self, solution: &Solution) -> f64 {
+        self.growth(solution.parameters())
+    }
+
+    fn constants(&self, solution: &Solution) -> Vec<f64> {
+        let p = solution.parameters();
+        vec![p[SPEED], self.contact_length(0, p)]
+    }
+
+    fn pitch_radius(&self, _: usize) -> f64 {
+        self.radius
+    }
+
+    fn units(&self) -> Units {
+        self.units
+    }
+
+    fn with_zones(self, zones: &[Vec<Regime>]) -> Self {
+        let zoning = Zoning::new(zones);
+        Self { zoning, ..self }
+    }
+
+    fn with_laws(mut self, change: impl Fn(Law, f64) -> Law) -> Self {
+        self.groove.law = change(self.groove.law, self.radius);
+        self
+    }
 }
 
 impl Problem for OneGroove {
     fn segments(&self) -> Vec<Segment> {
-        vec![Segment::new(self.groove.states())]
+        vec![Segment::new(self.groove.states()); self.zoning.count()]
     }
 
     fn parameters(&self) -> usize {
-        GROWTH + 1
+        FIRST_LENGTH + self.zoning.count() + usize::from(self.growth.is_none())
     }
 
     fn condition_count(&self) -> usize {
-        self.groove.states() + GROWTH
+        (self.groove.states() + 1) * self.zoning.count() + FIRST_LENGTH
     }
 
-    fn rhs<T: Real>(&self, _segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
-        let flow = T::from_f64(self.flow);
-        let contact = Contact::new(&self.groove, Regime::Either, y, p[SPEED], flow);
+    fn rhs<T: Real>(&self, segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
+        let (regime, flow) = (self.regime(segment), self.flow(p));
+        let contact = Contact::new(&self.groove, regime, y, p[SPEED], flow);
         contact.rates(&self.groove, y, dy);
         if self.groove.elastic().is_some() {
             dy[self.groove.displacement()] -= self.reference;
         }
+        let length = self.length(segment, p);
         for rate in dy {
-            *rate *= p[LENGTH];
+            *rate *= length;
         }
+    }
+
+    fn depends(&self, segment: usize, parameter: usize) -> bool {
+        [SPEED, FIRST_LENGTH + segment].contains(&parameter)
     }
 
     fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]) {
-        let (entry, exit) = (at.start(0), at.end(0));
+        let (entry, exit) = (at.start(0), at.end(self.zoning.count() - 1));
         let slack_side = if self.change > 0.0 { entry } else { exit };
         let pull = |end: &[T]| end[TENSION] * end[INCLINATION].cos();
-        let fixed = [
+        let own = [
             slack_side[TENSION] - self.slack,
-            entry[PENETRATION],
-            exit[PENETRATION],
-            entry[ANGLE],
             exit[ANGLE] - (exit[INCLINATION] - entry[INCLINATION]) - self.turned,
-            pull(exit) - pull(entry) - p[GROWTH].exp() * self.change,
+            pull(exit) - pull(entry) - self.growth(p).exp() * self.change,
         ];
-        let flow = T::from_f64(self.flow);
-        let contact = Contact::new(&self.groove, Regime::Either, entry, p[SPEED], flow);
-        let entering = Yielding::new(&contact, &self.groove, entry).map(|vector| vector.entering());
-        let law = match &entering {
-            Some(entering) => entering.as_slice(),
-            None => &entry[LAW..],
-        };
-        for (residual, value) in r.iter_mut().zip(fixed.iter().chain(law)) {
-            *residual = *value;
-        }
+        let (own_residuals, others) = r.split_at_mut(own.len());
+        own_residuals.copy_from_slice(&own);
+        let mut others = others.iter_mut();
+        in_groove(self, (0, &self.groove), &at, p, |value| {
+            if let Some(residual) = others.next() {
+                *residual = value;
+            }
+        });
     }
 }
 
-/// The contact of a state that has one zone on every pulley, as it is with λ = 1.
+/// The contact with a pulley of a state, as it is with λ = 1.
 struct OfState<'s> {
     solved: &'s Solved<LoopProblem>,
     pulley: usize,
 }
 
+impl OfState<'_> {
+    /// The segment of the loop that is one of the contact.
+    fn of_loop(&self, segment: usize) -> usize {
+        self.solved.problem.zones(self.pulley).start + segment
+    }
+}
+
 impl bvp::Guess for OfState<'_> {
-    fn state(&self, _segment: usize, s: f64, y: &mut [f64]) {
+    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
         let mut states = [0.0; super::super::MAX_STATES];
-        let Solved { problem, solution } = self.solved;
-        let segment = problem.zones(self.pulley).start;
+        let solution = &self.solved.solution;
+        let segment = self.of_loop(segment);
         let known = solution.segments()[segment].states;
         solution.state(segment, s, &mut states[..known]);
         y.copy_from_slice(&states[..y.len()]);
@@ -121,39 +212,57 @@ impl bvp::Guess for OfState<'_> {
     fn parameters(&self, p: &mut [f64]) {
         let (problem, known) = (&self.solved.problem, self.solved.solution.parameters());
         p[SPEED] = problem.omega(self.pulley, known);
-        p[LENGTH] = problem.contact_length(self.pulley, known);
-        p[GROWTH] = 0.0;
+        let zones = problem.zones(self.pulley);
+        for (length, segment) in p[FIRST_LENGTH..].iter_mut().zip(zones) {
+            *length = problem.length(segment, known);
+        }
     }
 
     fn mesh(&self) -> Option<Vec<Vec<f64>>> {
         let Solved { problem, solution } = self.solved;
-        let segment = problem.zones(self.pulley).start;
-        Some(vec![solution.mesh(segment).to_vec()])
+        let zones = problem.zones(self.pulley);
+        Some(
+            zones
+                .map(|segment| solution.mesh(segment).to_vec())
+                .collect(),
+        )
     }
 }
 
-impl Solved<LoopProblem> {
-    /// The largest torque of a pulley over that of the state, with its error; `None` if it has none or the largest was
-    /// not found. It is sought from rough states of the same loop.
-    pub(super) fn torque_margin(
-        &self,
+impl Search<'_> {
+    /// The largest torque of a pulley over that of a state, with its error; `None` if it has none or the largest was
+    /// not found. It is sought with the friction of the state if that can be followed, else from rough states of the same
+    /// loop.
+    pub(super) fn torque_margin<'r>(
+        &mut self,
+        state: &Solved<LoopProblem>,
         pulley: usize,
-        rough: &Stiffened,
-        tolerance: f64,
+        rough: impl FnOnce(&mut Self) -> Option<&'r Stiffened>,
     ) -> Option<[f64; 2]> {
-        rough.value(|rough| self.torque_margin_as(pulley, rough, tolerance))
+        if self.follows(state)
+            && let Some(margin) = self.torque_margin_as(state, pulley, state)
+        {
+            return Some([margin, limit_accuracy(self.tolerance) * margin]);
+        }
+        let rough = rough(self)?;
+        rough.value(|rough| self.torque_margin_as(state, pulley, rough))
     }
 
-    /// The same with friction as it is in one rough state.
-    fn torque_margin_as(&self, pulley: usize, rough: &Self, tolerance: f64) -> Option<f64> {
-        let problem = &self.problem;
+    /// The same with friction as it is in one state of the same loop.
+    fn torque_margin_as(
+        &mut self,
+        state: &Solved<LoopProblem>,
+        pulley: usize,
+        like: &Solved<LoopProblem>,
+    ) -> Option<f64> {
+        let problem = &state.problem;
         if problem.is_idle(pulley) {
             return None;
         }
-        let p = self.solution.parameters();
+        let p = state.solution.parameters();
         let coordinate = problem.coordinate(p);
-        let ends = self.round(|round| round.end_angles());
-        let [entry, exit] = [self.entry(pulley), self.exit(pulley)];
+        let ends = state.round(|round| round.end_angles());
+        let [entry, exit] = [state.entry(pulley), state.exit(pulley)];
         let change =
             exit[TENSION] * ends[pulley].exit.cos() - entry[TENSION] * ends[pulley].entry.cos();
         if change == 0.0 {
@@ -162,7 +271,7 @@ impl Solved<LoopProblem> {
         let slack = if change > 0.0 { entry } else { exit }[TENSION];
         let turned = problem.plane.lay(coordinate, &ends).turned[pulley];
         let capstan = |friction: f64| slack * (friction * turned).exp_m1() / change.abs();
-        let groove = match rough.problem.seats[pulley] {
+        let groove = match like.problem.seats[pulley] {
             Seat::Groove(groove) => groove,
             Seat::Back(back) => return Some(capstan(back.friction_coefficient)),
             Seat::Idle => return None,
@@ -170,33 +279,36 @@ impl Solved<LoopProblem> {
         let to = BEYOND * capstan(groove.friction_coefficient / groove.sin_beta);
         let one = OneGroove {
             groove,
+            units: problem.units,
+            radius: problem.pitch_radius(pulley),
+            sense: problem.sense(pulley),
             flow: p[FLOW],
             reference: problem.reference(p),
             slack,
             turned,
             change,
+            growth: Some(0.0),
+            zoning: Zoning::new(&like.problem.regimes()[pulley..=pulley]),
         };
-        let options = on_the_way(tolerance, groove.law);
-        let guess = OfState {
-            solved: rough,
+        let near = OfState {
+            solved: like,
             pulley,
         };
-        let (mut family, z) = Family::new(&one, GROWTH, &[], &guess, &options).ok()?;
-        let within = followed([-1.0, to.ln()], &options, groove.law, 0);
-        let branch = Branch::new(&mut family, &z, Direction::Increasing, &within).ok()?;
-        let branch = branch.event(|_, point| point.z[point.z.len() - 1 - GROWTH + SPEED]);
+        let begin = self.attempt(one, &near, Effort::Rough).ok()?;
         let mut levelling = Levelling::default();
-        for point in branch {
-            match point.kind {
-                Kind::LimitPoint | Kind::Event(_) => return Some(point.lambda().exp()),
-                Kind::Bound => return None,
-                _ => {
-                    if let Some(limit) = levelling.top(&point, 1.0) {
-                        return Some(limit.exp());
-                    }
+        let within = [-1.0, to.ln()];
+        let margin = self.along(&begin, within, &[SPEED], |_, place, point, _| {
+            let growth = match place {
+                Place::LimitPoint | Place::Zero(_) => Some(point.lambda()),
+                Place::End => return Some(None),
+                Place::Start => {
+                    levelling = Levelling::default();
+                    levelling.top(point, 1.0)
                 }
-            }
-        }
-        None
+                Place::Way => levelling.top(point, 1.0),
+            };
+            growth.map(|growth| Some(growth.exp()))
+        });
+        margin.ok().flatten()
     }
 }

@@ -2,44 +2,23 @@
 //! that is asked for or to where no state carries more.
 
 use super::super::BeltProblem;
-use super::super::groove::{Law, Regime};
 use super::super::path::{Effort, Solved};
-use super::super::piece::{ACCURACY, ACCURACY_OF_DIRECTION};
-use super::super::zones::Cut;
 use super::levelling::Levelling;
+use super::pieces::{Lost, Place, ROUGH};
 use super::problem::LoopProblem;
-use super::rising::Rising;
 use super::slipping::Slipping;
 use super::solve::Search;
 use super::stiffening::Judge;
 use super::unknowns::FLOW;
 use crate::SolveError;
 use crate::results::difficulty;
-use bvp::{Control, Family, Options, Problem, Scheme, Solution};
-use continuation::{Branch, Direction, Kind, Point};
+use continuation::Point;
 use std::f64::consts::FRAC_PI_2;
 
-/// Tolerance of the states on the way, which are only guesses of those to come, ...
-const ROUGH: f64 = 1e-4;
-/// ... and where meshes are for their error, as with bristles: these are half as fine as for the defect and the rating of
-/// `spb-fan` takes half the time. With 1e-4 two curves with stiff bristles in it were lost, and two of `kim2009`.
-const ROUGH_ERROR: f64 = 3e-5;
 /// A limit is known to this share of the tolerance of the states: at a limit point the error of a state changes the load
 /// in second order. With tolerances of 1e-3 and 1e-4, limits of two V-belts with bristles and three with Coulomb
 /// friction are off by 4e-5 of the tolerance and less, against 1e-7.
 const OF_LIMIT: f64 = 1e-2;
-
-/// The most mesh intervals: a point that needs more is approached by a shorter step. Four times as many found no more
-/// limits on five loops, and took 31 s in place of 3 s to find none with elastic friction on four grooves.
-const MAX_INTERVALS: usize = 1000;
-/// The most steps of a piece, and the most pieces.
-const STEPS: usize = 300;
-const MAX_PIECES: usize = 40;
-/// Where zones have changed on the way to a limit point the step is taken again with steps divided by this, at most so
-/// often.
-const REFINEMENT: f64 = 4.0;
-const MAX_REFINEMENTS: i32 = 4;
-const ABRUPT: &str = "the states change too abruptly there to be followed";
 
 /// ε of Coulomb friction with which a limit is found once more, from the last state below it: friction is too small by
 /// about ε²/2 of the slip squared. With 10⁻³, the largest load of a small pulley was 3 % too low.
@@ -110,17 +89,18 @@ impl Search<'_> {
     pub(super) fn load_limit(
         &mut self,
         state: &Solved<LoopProblem>,
-        rough: Option<Solved<LoopProblem>>,
+        rough: impl FnOnce(&mut Self) -> Option<Solved<LoopProblem>>,
     ) -> Option<Top> {
         if self.drive.is_idle() {
             return None;
         }
-        if state.problem.has_direction()
+        if self.follows(state)
             && let Ok(top) = self.limit_from(state, state.clone())
         {
             return top;
         }
-        self.limit_from(state, rough?).ok().flatten()
+        let rough = rough(self)?;
+        self.limit_from(state, rough).ok().flatten()
     }
 
     /// The same from one solution of a state.
@@ -211,91 +191,23 @@ impl Search<'_> {
         None
     }
 
-    /// As [`Search::climb`], with the same ε, in pieces on which the zones of friction stay the same.
+    /// As [`Search::climb`], with the same ε.
     fn climb_as_it_is(
         &mut self,
         from: &Solved<LoopProblem>,
         to: f64,
-        slipping: Option<&mut Slipping>,
+        mut slipping: Option<&mut Slipping>,
     ) -> Climbed {
-        let mut way = Way {
-            from,
-            to,
-            slipping,
-            below: Vec::new(),
-            refused: None,
-        };
-        let (mut here, mut refinements) = (from.clone(), 0);
-        for _ in 0..MAX_PIECES {
-            let reached = here.factor();
-            match self.piece(&here, &mut way, refinements) {
-                Piece::Ends(climbed) => return climbed,
-                Piece::Shorter(last) if refinements < MAX_REFINEMENTS => {
-                    (here, refinements) = (*last, refinements + 1);
-                }
-                Piece::Shorter(_) => return lost(reached, ABRUPT),
-                Piece::Changes(state) => match self.keep_zones(*state, Effort::Full) {
-                    Ok(next) => {
-                        let cut = Cut::of(&next);
-                        way.refused = (!cut.is_kept()).then(|| cut.regimes());
-                        (here, refinements) = (next, 0);
-                    }
-                    Err(stuck) => return lost(reached, difficulty::of_solver(&stuck.cause)),
-                },
-            }
-        }
-        lost(here.factor(), ABRUPT)
-    }
-
-    /// A piece of a climb.
-    fn piece(
-        &mut self,
-        from: &Solved<LoopProblem>,
-        way: &mut Way<'_, '_>,
-        refinements: i32,
-    ) -> Piece {
-        let begin = from.factor();
-        let free = from.problem.clone().with_unknown_factor();
-        let unknown = Problem::parameters(&free) - 1;
-        let options = on_the_way(self.tolerance, free.law());
-        let guess = WithFactor {
-            solution: &from.solution,
-            factor: begin,
-        };
-        let to = way.to;
-        let (mut curve, z) = match Family::new(&free, unknown, &[], &guess, &options) {
-            Ok((family, z)) => (Rising(family), z),
-            Err(error) => return Piece::lost(begin, difficulty::of_solver(&error)),
-        };
-        let branch_options = followed([begin.min(0.0), to], &options, free.law(), refinements);
-        let direction = Direction::Increasing;
-        let mut branch = match Branch::new(&mut curve, &z, direction, &branch_options) {
-            Ok(branch) => branch,
-            Err(error) => return Piece::lost(begin, difficulty::of_branch(&error)),
-        };
-        let moving: Vec<_> = (0..free.pulleys())
-            .filter_map(|pulley| Some((pulley, free.unknowns.speeds[pulley]?)))
+        let moving: Vec<_> = (0..from.problem.pulleys())
+            .filter_map(|pulley| Some((pulley, from.problem.unknowns.speeds[pulley]?)))
             .collect();
-        let lengths = match free.has_junctions() {
-            true => free.first_length()..free.first_length() + free.zoning().count(),
-            false => 0..0,
-        };
-        for index in moving.iter().map(|&(_, index)| index).chain(lengths) {
-            branch = branch.event(move |_, point| point.z[point.z.len() - 1 - unknown + index]);
-        }
-        let (mut reached, mut levelling) = (begin, Levelling::default());
-        let mut before: Option<Solved<LoopProblem>> = None;
-        while let Some(point) = branch.next() {
-            let factor = point.lambda();
-            let solution = || branch.system().solution(&point.z);
-            let here = || Solved {
-                problem: free.clone().with_factor(point.lambda()),
-                solution: solution(),
-            };
-            let error = limit_accuracy(self.tolerance);
-            let limit = |factor, slips: Option<usize>, below: Vec<_>| {
-                let at = here();
-                let of_curve = || most_slowed(&at, &point);
+        let watched: Vec<_> = moving.iter().map(|&(_, index)| index).collect();
+        let (mut levelling, mut below) = (Levelling::default(), Vec::new());
+        let mut reached = from.factor();
+        let error = limit_accuracy(self.tolerance);
+        let climbed = self.along(from, [0.0, to], &watched, |search, place, point, here| {
+            let limit = |at: Solved<LoopProblem>, factor, slips: Option<usize>, below: Vec<_>| {
+                let of_curve = || most_slowed(&at, point);
                 let (pulley, overhangs) = slips.map_or_else(of_curve, |pulley| (pulley, false));
                 let top = Top {
                     factor,
@@ -304,145 +216,40 @@ impl Search<'_> {
                     is_last: true,
                     error,
                 };
-                Piece::Ends(Climbed::Limit(Box::new(Limit { top, at, below })))
+                Some(Climbed::Limit(Box::new(Limit { top, at, below })))
             };
-            let is_turn = point.kind == Kind::LimitPoint;
-            let stands = |index: usize| (index < moving.len()).then(|| moving[index].0);
-            if is_turn || matches!(point.kind, Kind::Event(index) if stands(index).is_some()) {
-                // A zone may have changed on the way there.
-                if let Some(last) = &before
-                    && !way.is_kept(&here())
-                {
-                    return Piece::Shorter(Box::new(last.clone()));
+            let factor = point.lambda();
+            match place {
+                Place::LimitPoint => return limit(here, factor, None, std::mem::take(&mut below)),
+                Place::Zero(index) => {
+                    let (pulley, _) = moving[index];
+                    return limit(here, factor, Some(pulley), std::mem::take(&mut below));
                 }
+                Place::End => {
+                    return Some(match search.at_point(here) {
+                        Ok(solved) => Climbed::Reached(Box::new(solved)),
+                        Err(cause) => Climbed::Lost {
+                            reached,
+                            cause: difficulty::of_solver(&cause),
+                        },
+                    });
+                }
+                Place::Start => levelling = Levelling::default(),
+                Place::Way => {}
             }
-            let below = |way: &mut Way<'_, '_>| std::mem::take(&mut way.below);
-            match point.kind {
-                Kind::LimitPoint => return limit(factor, None, below(way)),
-                Kind::Event(index) => {
-                    return match stands(index) {
-                        Some(pulley) => limit(factor, Some(pulley), below(way)),
-                        None => Piece::Changes(Box::new(here())),
-                    };
-                }
-                Kind::Bound if factor == to => {
-                    let solution = solution();
-                    self.stats.newton_steps += solution.stats().newton_steps;
-                    let problem = free.clone().with_factor(to);
-                    let guess = WithFactor {
-                        solution: &solution,
-                        factor: to,
-                    };
-                    return match self.attempt(problem, &guess, Effort::Rough) {
-                        Ok(solved) => Piece::Ends(Climbed::Reached(Box::new(solved))),
-                        Err(cause) => Piece::lost(reached, difficulty::of_solver(&cause)),
-                    };
-                }
-                _ => {
-                    let here = here();
-                    if !way.is_kept(&here) {
-                        return Piece::Changes(Box::new(here));
-                    }
-                    if let Some(factor) = levelling.top(&point, factor) {
-                        return limit(factor, None, below(way));
-                    }
-                    if let Some(slipping) = way.slipping.as_deref_mut()
-                        && slipping.has_slowed(&here)
-                    {
-                        let slip = self.gross_slip(slipping, way.from);
-                        return Piece::Ends(Climbed::Limit(Box::new(slip)));
-                    }
-                    reached = factor;
-                    before = Some(here.clone());
-                    way.below.push(here);
-                }
+            if let Some(factor) = levelling.top(point, factor) {
+                return limit(here, factor, None, std::mem::take(&mut below));
             }
-        }
-        Piece::lost(reached, ABRUPT)
-    }
-}
-
-/// What a climb has to keep in mind from piece to piece.
-struct Way<'w, 's> {
-    /// Where it began.
-    from: &'w Solved<LoopProblem>,
-    /// The factor to which it leads.
-    to: f64,
-    slipping: Option<&'s mut Slipping>,
-    /// The states on the way, in order.
-    below: Vec<Solved<LoopProblem>>,
-    /// Zones that the first state of a piece shows and Newton's method refused.
-    refused: Option<Vec<Vec<Regime>>>,
-}
-
-impl Way<'_, '_> {
-    /// Whether the zones of a state are its segments, if they have to be.
-    fn is_kept(&self, here: &Solved<LoopProblem>) -> bool {
-        if !here.problem.has_junctions() {
-            return true;
-        }
-        let cut = Cut::of(here);
-        cut.is_kept() || self.refused.as_ref() == Some(&cut.regimes())
-    }
-}
-
-/// How a piece of a climb ends.
-enum Piece {
-    /// With the climb.
-    Ends(Climbed),
-    /// At a state whose zones are others.
-    Changes(Box<Solved<LoopProblem>>),
-    /// Behind a state from which it is to be followed in shorter steps.
-    Shorter(Box<Solved<LoopProblem>>),
-}
-
-impl Piece {
-    fn lost(reached: f64, cause: &'static str) -> Self {
-        Self::Ends(lost(reached, cause))
-    }
-}
-
-fn lost(reached: f64, cause: &'static str) -> Climbed {
-    Climbed::Lost { reached, cause }
-}
-
-/// How states on the way are solved with a law, if the final tolerance is this. Beside a kink of elastic friction the defect
-/// shows what an error does not: twice as many curves with it are lost on meshes for the error.
-pub(super) fn on_the_way(tolerance: f64, law: Law) -> Options {
-    let (control, rough) = match law {
-        Law::Bristle { elastic: None, .. } | Law::Sliding { elastic: None, .. } => {
-            (Control::Error, ROUGH_ERROR)
-        }
-        _ => (Control::Defect, ROUGH),
-    };
-    Options {
-        tolerance: tolerance.max(rough),
-        scheme: Some(Scheme::Gauss { stages: 5 }),
-        control,
-        max_intervals: MAX_INTERVALS,
-        ..Options::default()
-    }
-}
-
-/// How a curve of states that are solved with these options is followed within bounds, its steps shortened so often.
-pub(super) fn followed(
-    [low, high]: [f64; 2],
-    options: &Options,
-    law: Law,
-    refinements: i32,
-) -> continuation::Options {
-    let usual = continuation::Options::within(low, high);
-    let shorter = REFINEMENT.powi(refinements);
-    let accuracy = match law {
-        Law::Sliding { .. } => ACCURACY_OF_DIRECTION,
-        _ => ACCURACY,
-    };
-    continuation::Options {
-        steps: STEPS,
-        first_step: usual.first_step / shorter,
-        largest_step: usual.largest_step / shorter,
-        accuracy: accuracy * options.tolerance,
-        ..usual
+            if let Some(slipping) = slipping.as_deref_mut()
+                && slipping.has_slowed(&here)
+            {
+                return Some(Climbed::Limit(Box::new(search.gross_slip(slipping, from))));
+            }
+            reached = factor;
+            below.push(here);
+            None
+        });
+        climbed.unwrap_or_else(|Lost { reached, cause }| Climbed::Lost { reached, cause })
     }
 }
 
@@ -466,27 +273,4 @@ fn most_slowed(solved: &Solved<LoopProblem>, point: &Point) -> (usize, bool) {
     let ends = solved.round(|round| round.end_angles());
     let steep = ends.iter().position(|ends| ends.exit.abs() > FRAC_PI_2);
     (steep.unwrap_or(slips), steep.is_some())
-}
-
-/// A solution as the guess of a problem with or without the factor as its last parameter.
-struct WithFactor<'a> {
-    solution: &'a Solution,
-    factor: f64,
-}
-
-impl bvp::Guess for WithFactor<'_> {
-    fn state(&self, segment: usize, s: f64, y: &mut [f64]) {
-        self.solution.state(segment, s, y);
-    }
-
-    fn parameters(&self, p: &mut [f64]) {
-        let known = self.solution.parameters();
-        let common = known.len().min(p.len());
-        p[..common].copy_from_slice(&known[..common]);
-        p[common..].fill(self.factor);
-    }
-
-    fn mesh(&self) -> Option<Vec<Vec<f64>>> {
-        bvp::Guess::mesh(self.solution)
-    }
 }

@@ -15,6 +15,7 @@ mod largest_load;
 mod last_state;
 mod levelling;
 mod like;
+mod pieces;
 mod plane;
 mod problem;
 mod rest;

@@ -24,6 +24,7 @@ use super::super::belt_problem::{BeltProblem, Zoning, in_groove};
 use super::super::groove::{ANGLE, LAW, TENSION};
 use super::super::{Contact, Groove, Law, Regime, Units};
 use super::back;
+use super::pieces::Curved;
 use super::plane::Plane;
 use super::round::Target;
 use super::seat::Seat;
@@ -140,12 +141,6 @@ impl LoopProblem {
                 self.loads[pulley] = Load::Torque(power / self.omega(pulley, p));
             }
         }
-        self
-    }
-
-    /// The same loop with the factor as its last parameter, and no condition for it: a curve of states.
-    pub(super) fn with_unknown_factor(mut self) -> Self {
-        self.factor = None;
         self
     }
 
@@ -278,6 +273,22 @@ impl BeltProblem for LoopProblem {
             }
         }
         self.laid_out()
+    }
+}
+
+/// The factor on all torques and powers.
+impl Curved for LoopProblem {
+    fn freed(mut self) -> Self {
+        self.factor = None;
+        self
+    }
+
+    fn held(self, value: f64) -> Self {
+        self.with_factor(value)
+    }
+
+    fn number(&self, p: &[f64]) -> f64 {
+        self.factor(p)
     }
 }
 

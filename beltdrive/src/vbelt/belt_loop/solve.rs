@@ -12,6 +12,7 @@ use crate::mechanics::tensioner::within_travel;
 use crate::results::difficulty;
 use crate::results::loop_state::{LoadLimit, LoopState, RestState};
 use crate::{Drive, FrictionLaw, SolveError};
+use std::cell::OnceCell;
 
 /// The search for the steady state of a loop.
 pub(super) type Search<'l> = Path<'l>;
@@ -149,11 +150,10 @@ impl LoopNeighbour {
     /// How far all torques can be raised, found by raising them; as [`Search::load_limit`].
     pub(crate) fn load_limit(&self, tolerance: f64) -> Option<Top> {
         let mut search = Search::new(&self.drive, tolerance);
-        let rough = match self.drive.law {
+        search.load_limit(&self.solved, |_| match self.drive.law {
             FrictionLaw::Bristle { .. } => Some(self.solved.clone()),
             _ => self.rough.as_deref().cloned(),
-        };
-        search.load_limit(&self.solved, rough)
+        })
     }
 }
 
@@ -167,18 +167,26 @@ pub(crate) fn solve_with_margins(drive: &Drive, tolerance: f64) -> Result<LoopSt
     } = search.search()?;
     let solved = &running.solved;
     let mut found = state(&mut search, &rest, &at_rest, solved, None)?;
-    let rough = running.roughly(&mut search).ok();
-    let stiffer = rough.as_ref().map(|rough| search.with_stiffer_ones(rough));
+    let rough = OnceCell::new();
+    let rough = |search: &mut Search<'_>| {
+        let rough = rough.get_or_init(|| {
+            let rough = running.roughly(search).ok()?;
+            Some((search.with_stiffer_ones(&rough), rough))
+        });
+        rough.as_ref()
+    };
     for (index, pulley) in found.pulleys.iter_mut().enumerate() {
-        let margin = |stiffer| solved.torque_margin(index, stiffer, tolerance);
-        let Some([margin, error]) = stiffer.as_ref().and_then(margin) else {
+        let stiffer = |search: &mut Search<'_>| rough(search).map(|(stiffer, _)| stiffer);
+        let Some([margin, error]) = search.torque_margin(solved, index, stiffer) else {
             continue;
         };
         pulley.torque_margin = Some(margin);
         pulley.torque_capacity = Some(margin * pulley.torque.abs());
         pulley.torque_margin_error = error / margin;
     }
-    let limit = search.load_limit(solved, rough);
+    let limit = search.load_limit(solved, |search| {
+        rough(search).map(|(_, rough)| rough.clone())
+    });
     found.load_limit = limit.map(|top| LoadLimit {
         factor: top.factor,
         pulley: top.pulley,

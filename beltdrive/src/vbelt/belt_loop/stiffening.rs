@@ -88,7 +88,7 @@ impl Stiffened {
     /// A number of a state with the law of the drive, and its error.
     pub(super) fn value(
         &self,
-        of: impl Fn(&Solved<LoopProblem>) -> Option<f64>,
+        of: impl FnMut(&Solved<LoopProblem>) -> Option<f64>,
     ) -> Option<[f64; 2]> {
         let values: Vec<_> = self.states.iter().map_while(of).collect();
         match self.is_of_law {
