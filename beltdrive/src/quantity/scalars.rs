@@ -204,21 +204,7 @@ impl<'a> Scalars<'a> {
             scale.angle("slip_arc", "slip arc", words::slip_arc(&pulley.zones)),
         ];
         if let Some(least) = pulley.least_slip {
-            // Of a small slip its order is what matters.
-            let slip = least.slip.max(ROUNDED_SLIP);
-            let error = (0.005 * slip).max(least.normalised);
-            let arc = || least.locked.map_or(0.0, |[from, to]| to - from);
-            let locked = least.tells_locked().then(arc);
-            quantities.extend([
-                number(
-                    "smallest_slip",
-                    "smallest slip, of V",
-                    Measure::Number,
-                    slip,
-                    error,
-                ),
-                scale.angle("locked_arc", "arc below 1e-7 of V", locked),
-            ]);
+            quantities.extend(scale.least_slip(&least));
             quantities.extend(scale.locked(Some(&least)));
         }
         if !is_v {
@@ -267,8 +253,6 @@ impl<'a> Scalars<'a> {
     }
 }
 
-/// A slip below this is rounding: the speeds whose difference it is are of the order of one.
-const ROUNDED_SLIP: f64 = 1e-15;
 /// Bounds of an error that decides on digits, so that some digit remains.
 const EXACT: f64 = 1e-12;
 const VAGUE: f64 = 0.1;

@@ -102,6 +102,25 @@ impl Scale {
         ]
     }
 
+    /// How little a belt slips in a groove, and how long the arc is on which it hardly does.
+    pub(super) fn least_slip(&self, least: &LeastSlip) -> [Quantity; 2] {
+        // Of a small slip its order is what matters.
+        let slip = least.slip.max(ROUNDED_SLIP);
+        let error = (0.005 * slip).max(least.normalised);
+        let arc = || least.locked.map_or(0.0, |[from, to]| to - from);
+        let locked = least.tells_locked().then(arc);
+        [
+            Quantity::number(
+                "smallest_slip",
+                "smallest slip, of V",
+                Measure::Number,
+                slip,
+                error,
+            ),
+            self.angle("locked_arc", "arc below 1e-7 of V", locked),
+        ]
+    }
+
     /// Where a belt at full friction hardly slips.
     pub(super) fn locked(&self, least: Option<&LeastSlip>) -> [Quantity; 2] {
         let end = |end: usize| least.and_then(|least| least.locked.map(|ends| ends[end]));
@@ -125,3 +144,6 @@ impl Scale {
 
 /// The key of a hub load, of its magnitude and of its direction.
 pub(super) const HUB_LOAD: [&str; 3] = ["hub_load", "hub_load_magnitude", "hub_load_direction"];
+
+/// A slip below this is rounding: the speeds whose difference it is are of the order of one.
+const ROUNDED_SLIP: f64 = 1e-15;

@@ -186,7 +186,7 @@ fn convergence(drive: &Drive, found: &Convergence) -> Vec<Quantity> {
     let of_v = |label: &'static str| if is_v { label } else { "" };
     let error = |key, label, value: f64| Quantity::error(key, label, Measure::Number, value);
     let is_regularised = found.slip_normalisation > 0.0;
-    let effect = format!("effect of smoothing {:.1e}", found.slip_normalisation);
+    let effect = words::effect_of_smoothing(found.slip_normalisation);
     let meshes = ["mesh intervals, driver", "  driven"]
         .into_iter()
         .zip(found.mesh_intervals);

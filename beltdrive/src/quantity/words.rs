@@ -106,6 +106,11 @@ pub(crate) fn slip_arc(zones: &[Zone]) -> f64 {
     0.0 + slip.map(|zone| zone.to - zone.from).sum::<f64>()
 }
 
+/// What the effect of ℓ/R or ε on the numbers of a state is called.
+pub(super) fn effect_of_smoothing(smoothing: f64) -> String {
+    format!("effect of smoothing {smoothing:.1e}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

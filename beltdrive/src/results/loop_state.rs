@@ -4,7 +4,7 @@ use super::warning::{Warning, beyond_model, large_strain, overhangs};
 use crate::drive::layout::Layout;
 use crate::friction::rim::contact::Contact;
 use crate::friction::rim::profile::profile;
-use crate::{Belt, Check, Drive, Profile, Zone};
+use crate::{Belt, Check, Drive, LeastSlip, Profile, Zone};
 
 /// The steady state of a belt loop; lists are in belt order.
 #[derive(Clone, Debug, PartialEq)]
@@ -256,6 +256,8 @@ pub struct GrooveState {
     /// Power that goes into the transverse compression of the belt between entry and exit, W: ∫ k x tan β V
     /// dx. It is small and of either sign, since the belt speed V changes along the contact.
     pub transverse_loss: f64,
+    /// Where the belt hardly slips.
+    pub least_slip: LeastSlip,
 }
 
 /// The tensioner; its coordinate is an angle in rad or a displacement in m.

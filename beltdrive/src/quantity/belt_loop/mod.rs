@@ -72,15 +72,19 @@ fn convergence(found: &LoopConvergence) -> Vec<Quantity> {
     let error = |key, label, value: f64| Quantity::error(key, label, Measure::Number, value);
     let count = Quantity::count;
     let is_regularised = found.slip_normalisation > 0.0;
-    let effect = if is_regularised { "effect of ε" } else { "" };
+    let effect = match is_regularised {
+        true => words::effect_of_smoothing(found.slip_normalisation),
+        false => String::new(),
+    };
     vec![
         error("tolerance", "relative tolerance", found.tolerance),
         error("error_estimate", "estimated error", found.error_estimate),
         error("defect", "largest defect", found.defect),
         error("slip_normalisation", "", found.slip_normalisation),
-        error(
+        Quantity::error(
             "slip_normalisation_effect",
             effect,
+            Measure::Number,
             found.slip_normalisation_effect,
         ),
         count("mesh_intervals", "mesh intervals", found.mesh_intervals),

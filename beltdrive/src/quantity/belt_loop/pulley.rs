@@ -123,6 +123,9 @@ pub(super) fn subject(drive: &Drive, state: &LoopState, index: usize, scale: &Sc
                 groove.map(|groove| groove.transverse_loss),
             ),
         ]);
+        let least = groove.map(|groove| groove.least_slip);
+        quantities.extend(least.iter().flat_map(|least| scale.least_slip(least)));
+        quantities.extend(scale.locked(least.as_ref()));
     }
     quantities.extend(along(profile));
     Subject::new(&*pulley.name, quantities)

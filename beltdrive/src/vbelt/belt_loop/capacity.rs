@@ -23,7 +23,7 @@ use super::pieces::{Curved, Place};
 use super::problem::LoopProblem;
 use super::seat::Seat;
 use super::solve::Search;
-use super::stiffening::Stiffened;
+use super::stiffening::{Stiffened, is_followed};
 use super::unknowns::FLOW;
 use bvp::{Ends, Problem, Real, Segment, Solution};
 
@@ -239,7 +239,7 @@ impl Search<'_> {
         pulley: usize,
         rough: impl FnOnce(&mut Self) -> Option<&'r Stiffened>,
     ) -> Option<[f64; 2]> {
-        if self.follows(state)
+        if is_followed(state)
             && let Some(margin) = self.torque_margin_as(state, pulley, state)
         {
             return Some([margin, limit_accuracy(self.tolerance) * margin]);

@@ -8,7 +8,7 @@ use super::pieces::{Lost, Place, ROUGH};
 use super::problem::LoopProblem;
 use super::slipping::Slipping;
 use super::solve::Search;
-use super::stiffening::Judge;
+use super::stiffening::{Judge, is_followed};
 use super::unknowns::FLOW;
 use crate::SolveError;
 use crate::results::difficulty;
@@ -94,7 +94,7 @@ impl Search<'_> {
         if self.drive.is_idle() {
             return None;
         }
-        if self.follows(state)
+        if is_followed(state)
             && let Ok(top) = self.limit_from(state, state.clone())
         {
             return top;

@@ -216,7 +216,12 @@ impl Search<'_> {
             number: problem.number(solution.parameters()),
             solution: &solution,
         };
-        self.attempt(problem, &guess, Effort::Rough)
+        // Near a limit Newton's method does not come from a rough state to one to the tolerance.
+        let effort = match problem.has_direction() {
+            true => Effort::Close,
+            false => Effort::Rough,
+        };
+        self.attempt(problem, &guess, effort)
     }
 }
 

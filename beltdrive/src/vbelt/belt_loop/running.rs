@@ -13,6 +13,7 @@ use super::rest::Rest;
 use super::round::Target;
 use super::solve::{Search, lost};
 use super::start::Start;
+use super::stiffening::is_followed;
 use super::unknowns::FLOW;
 use crate::drive::layout::Layout;
 use crate::{Drive, SolveError};
@@ -56,7 +57,7 @@ impl Running<'_> {
 
     /// The loop with a law whose curve of states can be followed to a limit that is that of its own law.
     pub(super) fn followed(&self, search: &mut Search<'_>) -> Option<Solved<LoopProblem>> {
-        if search.follows(&self.solved) {
+        if is_followed(&self.solved) {
             return Some(self.solved.clone());
         }
         let bristles = self.roughly(search).ok()?;

@@ -181,6 +181,7 @@ impl<'a> Seen<'a> {
             inclination: [entry, exit],
             max_penetration: on.max_penetration(),
             transverse_loss: self.integrals[pulley].stored * on.units.power(),
+            least_slip: on.least_slip(),
         })
     }
 

@@ -23,8 +23,11 @@ const ROUNDED_SLIP: f64 = 2e-17;
 const LEFT_ASIDE: f64 = 0.1;
 /// The effect of ℓ may be this share of the tolerance.
 const LAG_SHARE: f64 = 0.1;
-/// The effect of ε may be this share of the tolerance.
+/// The effect of ε may be this share of the tolerance, and that of an ℓ/R below `SHORT`.
 const EFFECT_SHARE: f64 = 0.3;
+/// A shorter ℓ/R than this makes meshes follow the rounding of the slip. Near the largest load the effect is a hundred times
+/// as large as elsewhere: of one loop at 0.995 of it, shortening from 1e-12, with 0.18 of the tolerance, took 40 s in vain.
+const SHORT: f64 = 1e-10;
 /// The effect of ℓ is told from its change by a length this much shorter, ...
 const SHORTER: f64 = 0.1;
 /// ... and that of ε by one this much smaller: every step towards a smaller ε takes ten Newton steps and more, and on
@@ -159,7 +162,8 @@ impl Path<'_> {
                 Err(cause) => return Err(Stuck::after(here, cause)),
             };
             self.smoothing_effect = here.change_to(&corrected) / (1.0 - SHORTER);
-            if self.smoothing_effect <= LAG_SHARE * self.tolerance || lag <= SHORTEST {
+            let share = if lag < SHORT { EFFECT_SHARE } else { LAG_SHARE };
+            if self.smoothing_effect <= share * self.tolerance || lag <= SHORTEST {
                 return Ok(here);
             }
             here = self.smooth_less(here, SHORTER * lag, Effort::Close)?;
