@@ -2,7 +2,8 @@
 //!
 //! Speed enters through the momentum flow alone. A state a little below the largest load at one speed is turned into
 //! one at another speed by a single Newton solve, and the load is raised from there: the way from no load, which
-//! takes most of the time, is gone once.
+//! takes most of the time, is gone once. States with bristles go from one speed to another, since those with Coulomb or EPP
+//! friction have zones that change with it; the load is raised with that friction itself where it is found from them.
 
 use super::super::belt_problem::BeltProblem;
 use super::super::groove::TENSION;

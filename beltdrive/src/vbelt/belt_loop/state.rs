@@ -14,10 +14,56 @@ use super::tensioner::{held, length_derivatives};
 use super::unknowns::FLOW;
 use crate::mechanics::span::{DEFLECTION, first_frequency, rest_frequency};
 use crate::results::loop_state::{
-    Contacts, FrictionParts, GrooveState, LoopConvergence, LoopState, PulleyState, SpanState,
-    TensionerState,
+    Contacts, FrictionParts, GrooveState, LoopConvergence, LoopState, Profiles, PulleyState,
+    SpanState, TensionerState,
 };
 use crate::{Duty, Mount, Profile, SolveError, Zone, ZoneKind};
+
+/// How the belt of a solved loop lies.
+struct Lying<'a> {
+    laid: Laid<f64>,
+    ends: Vec<EndAngles<f64>>,
+    touching: Vec<Touching<'a>>,
+    /// Tractive tension of each span, scaled.
+    tractive: Vec<f64>,
+}
+
+impl<'a> Lying<'a> {
+    fn of(solved: &'a Solved<LoopProblem>) -> Self {
+        let problem = &solved.problem;
+        let count = problem.seats.len();
+        let (ends, tractive) = solved.round(|round| {
+            let tractive: Vec<_> = (0..count).map(|span| round.leaving(span)).collect();
+            (round.end_angles(), tractive)
+        });
+        let coordinate = problem.coordinate(solved.solution.parameters());
+        let laid = problem.plane.lay(coordinate, &ends);
+        let touching = (0..count).map(|pulley| solved.touching(pulley, laid.turned[pulley]));
+        Self {
+            touching: touching.collect(),
+            laid,
+            ends,
+            tractive,
+        }
+    }
+
+    /// The belt along a pulley.
+    fn profile(&self, solved: &Solved<LoopProblem>, pulley: usize) -> Profile {
+        let problem = &solved.problem;
+        let force = problem.units.force;
+        match &self.touching[pulley] {
+            Touching::Groove(on) => on.profile(),
+            Touching::Back(on) => on.profile(),
+            Touching::Idle(wrap) => {
+                let tractive = self.tractive[pulley];
+                let flow = solved.solution.parameters()[FLOW];
+                let tension = problem.units.strand().tension(tractive, flow);
+                let radius = problem.plane.spots[pulley].radius;
+                idle_profile(*wrap, radius, tension * force, tractive * force)
+            }
+        }
+    }
+}
 
 /// A solved loop with what follows from its solution at once.
 struct Seen<'a> {
@@ -42,15 +88,13 @@ impl<'a> Seen<'a> {
         let problem = &solved.problem;
         let p = solved.solution.parameters();
         let count = problem.seats.len();
-        let (ends, tractive) = solved.round(|round| {
-            let tractive: Vec<_> = (0..count).map(|span| round.leaving(span)).collect();
-            (round.end_angles(), tractive)
-        });
         let coordinate = problem.coordinate(p);
-        let laid = problem.plane.lay(coordinate, &ends);
-        let touching: Vec<_> = (0..count)
-            .map(|pulley| solved.touching(pulley, laid.turned[pulley]))
-            .collect();
+        let Lying {
+            laid,
+            ends,
+            touching,
+            tractive,
+        } = Lying::of(solved);
         let integrals = touching.iter().map(|touching| match touching {
             Touching::Groove(on) => on.integrate(),
             Touching::Back(on) => on.integrate(),
@@ -194,20 +238,6 @@ impl<'a> Seen<'a> {
                 from: 0.0,
                 to: *wrap,
             }],
-        }
-    }
-
-    fn profile(&self, pulley: usize) -> Profile {
-        let force = self.solved.problem.units.force;
-        match &self.touching[pulley] {
-            Touching::Groove(on) => on.profile(),
-            Touching::Back(on) => on.profile(),
-            Touching::Idle(wrap) => idle_profile(
-                *wrap,
-                self.solved.problem.plane.spots[pulley].radius,
-                self.tension(pulley) * force,
-                self.tractive[pulley] * force,
-            ),
         }
     }
 
@@ -397,6 +427,17 @@ pub(super) fn state(
             slip_normalisation_effect: search.smoothing_effect,
         }),
         checks,
-        contacts: Contacts::V((0..count).map(|pulley| seen.profile(pulley)).collect()),
+        contacts: Contacts::V(profiles(solved.clone())),
+    })
+}
+
+/// The belt along every pulley of a solved loop.
+fn profiles(solved: Solved<LoopProblem>) -> Profiles {
+    Profiles::new(move || {
+        let lying = Lying::of(&solved);
+        let pulleys = 0..lying.touching.len();
+        pulleys
+            .map(|pulley| lying.profile(&solved, pulley))
+            .collect()
     })
 }
