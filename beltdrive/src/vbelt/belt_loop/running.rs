@@ -16,7 +16,7 @@ use super::start::Start;
 use super::stiffening::is_followed;
 use super::unknowns::FLOW;
 use crate::drive::layout::Layout;
-use crate::{Drive, SolveError};
+use crate::{Drive, FrictionLaw, SolveError};
 use bvp::Problem;
 
 /// Shares of the load that are tried in turn where the whole fails; from them the load is raised.
@@ -145,8 +145,11 @@ fn along_direction(
     let begin = search.with_direction_near(share, &bristles)?;
     match search.climb(&begin, 1.0, None) {
         Climbed::Reached(raised) => search.finish_obeying(*raised).ok().map(Ok),
-        Climbed::Limit(limit) => Some(Err(overloaded(search.drive, &limit.top))),
-        Climbed::Lost { .. } => None,
+        // Where scalar EPP friction has a limit point, states with the belt at rest on other arcs may lead on.
+        Climbed::Limit(limit) if search.drive.law == FrictionLaw::Coulomb => {
+            Some(Err(overloaded(search.drive, &limit.top)))
+        }
+        Climbed::Limit(_) | Climbed::Lost { .. } => None,
     }
 }
 
