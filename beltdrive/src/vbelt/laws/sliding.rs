@@ -25,7 +25,7 @@ const RESOLVED_LAG: f64 = 1e-8;
 const RESOLVED_LAG_WITH_STICK: f64 = 1e-7;
 /// Share of the power of friction that the belt may gain from a traction on the way that is not against its
 /// slip. Where the traction turns the wrong way round it is 0.03 and more, elsewhere less than 1e-6.
-const WRONG_WAY: f64 = 1e-4;
+pub(in crate::vbelt) const WRONG_WAY: f64 = 1e-4;
 /// If the belt gains more than this share of that without a lead, it does not do so because of the lead, and a shorter ℓ
 /// leads to the same state: on a loop of three pulleys three such ways took 150 to 170 Newton steps each, and the gain
 /// stayed the same to 1 % along each of them.
