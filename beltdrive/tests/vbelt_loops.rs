@@ -3,7 +3,10 @@
 #[path = "support/random.rs"]
 mod random_numbers;
 
-use beltdrive::belt_loop::{LoopState, solve, solve_to, solve_with_margins};
+use beltdrive::belt_loop::{
+    LoopEnd, LoopState, Varied, limits, solve, solve_to, solve_with_margins,
+};
+use beltdrive::input::DriveFile;
 use beltdrive::quantity::two_pulleys::as_drive;
 use beltdrive::{
     Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, Pulley, Sense, Side,
@@ -584,6 +587,82 @@ fn the_smallest_margin_of_two_pulleys_is_their_load_limit() {
                 .zip(margin)
                 .map(|(capacity, margin)| capacity / margin);
             assert!((torque.unwrap() / pulley.torque.abs() - 1.0).abs() < 1e-12);
+        }
+    }
+}
+
+/// Where the belt hardly slips is told of a loop as of the drive with two pulleys: the driver by 117.0°, the driven pulley
+/// by 128.8° below 1e-7 of the belt speed.
+#[test]
+fn a_loop_is_locked_where_the_drive_is() {
+    let options = SolveOptions::default();
+    let drive = beltdrive::solve(&thesis("coulomb", 105.0), &options).unwrap();
+    let state = solve_to(&drive.as_loop(), &options).unwrap();
+    for (pulley, known) in state.pulleys.iter().zip([&drive.driver, &drive.driven]) {
+        let found = pulley.groove.as_ref().unwrap().least_slip.locked.unwrap();
+        let known = known.least_slip.unwrap().locked.unwrap();
+        for (found, known) in found.into_iter().zip(known) {
+            close("end of the locked arc", found, known, 1e-4);
+        }
+    }
+}
+
+/// With a direction that follows the slip over a length that suits a tolerance of 1e-8, zones were kept that had to change,
+/// and the limit was said to be 1.54.
+#[test]
+fn limits_do_not_depend_on_the_tolerance() {
+    let text = examples::find("v-power").unwrap().text;
+    let overrides = ["friction.law=coulomb".to_owned()];
+    let drive = input::parse("v-power.toml", text, &overrides).unwrap();
+    let found = |tolerance| {
+        let state = solve_with_margins(&drive, &SolveOptions { tolerance }).unwrap();
+        let margins = state.pulleys.iter().map(|pulley| pulley.torque_margin);
+        let limit = state.load_limit.unwrap();
+        assert!(limit.error <= 1e-5, "{limit:?}");
+        Vec::from_iter(margins.map(Option::unwrap).chain([limit.factor]))
+    };
+    let known = found(1e-6);
+    close("slip margin", known[2], 2.0319105, 1e-6);
+    for tolerance in [1e-4, 1e-8] {
+        agree(&format!("{tolerance}"), &found(tolerance), &known, 1e-6);
+    }
+}
+
+/// The limit of the load factor lies on the curve of states of the law itself: a state is found 1e-6 below it, and none
+/// above. Bisection took 29 s and ended where no state was found.
+#[test]
+fn the_load_factor_of_a_loop_ends_at_a_limit_point() {
+    let text = examples::find("v-power").unwrap().text;
+    for (law, known) in [("coulomb", 1.896253), ("bristle", 1.915324)] {
+        let overrides = [format!("friction.law={law}")];
+        let file = DriveFile::read("v-power.toml", text, &overrides).unwrap();
+        let options = SolveOptions::default();
+        let found = limits(&file, &Varied::LoadFactor, &options, &mut |_, _| {}).unwrap();
+        let largest = &found.largest;
+        let LoopEnd::Limit(reason) = &largest.end else {
+            panic!("{:?}", largest.end);
+        };
+        assert_eq!(reason.kind(), "gross slip");
+        let point = &largest.point;
+        assert!(point.value_error < 1e-5 * point.value);
+        close(law, point.value, known, 2e-6);
+        // The fan takes that share of its power.
+        close(law, point.state.power_out, 5500.0 * point.value, 1e-9);
+        let times = |factor: f64| {
+            let mut drive = file.drive().unwrap();
+            for pulley in &mut drive.pulleys {
+                if let Duty::Power(power) = &mut pulley.duty {
+                    *power *= factor * point.value;
+                }
+            }
+            solve(&drive)
+        };
+        times(0.999).unwrap();
+        match times(1.001) {
+            Err(SolveError::Overloaded { load_factor, .. }) => {
+                close(law, 1.001 * load_factor, 1.0, 1e-5);
+            }
+            other => panic!("{law}: {other:?}"),
         }
     }
 }
