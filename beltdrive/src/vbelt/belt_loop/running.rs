@@ -101,12 +101,16 @@ pub(super) fn running<'l>(
     };
     let shares = SHARES.map(start);
     let shares = || shares.iter().filter(|share| share.is_taut());
-    if let Some(found) = shares().find_map(|share| along_direction(search, share)) {
-        return found.map(|solved| Running {
-            solved,
-            start: whole,
-            raised: None,
-        });
+    for share in shares() {
+        match along_direction(search, share) {
+            Along::Carries(solved) => return Ok(found(whole, *solved, None)),
+            Along::Ends(top) if drive.law == FrictionLaw::Coulomb => {
+                return Err(overloaded(drive, &top));
+            }
+            // Where scalar EPP friction has a limit point, states with the belt at rest on other arcs may lead on.
+            Along::Ends(_) => break,
+            Along::Lost => {}
+        }
     }
     for share in shares() {
         match search.enter(share) {
@@ -134,22 +138,28 @@ pub(super) fn running<'l>(
     }
 }
 
-/// The running loop under its whole load, raised from a share of it with Coulomb or EPP friction whose direction is a
-/// state, or why there is none; `None` if that is not followed so far.
-fn along_direction(
-    search: &mut Search<'_>,
-    share: &Start<'_>,
-) -> Option<Result<Solved<LoopProblem>, SolveError>> {
+/// Where a load that is raised with Coulomb or EPP friction whose direction is a state comes to.
+enum Along {
+    /// The whole load.
+    Carries(Box<Solved<LoopProblem>>),
+    /// The largest load, which is less.
+    Ends(Top),
+    /// It is not followed so far.
+    Lost,
+}
+
+/// The whole load, raised from a share of it with Coulomb or EPP friction whose direction is a state.
+fn along_direction(search: &mut Search<'_>, share: &Start<'_>) -> Along {
     let is_safe = |solved: &Solved<LoopProblem>| is_drive(solved) && !may_be_beyond(solved);
-    let bristles = search.enter_bristles(share).ok().filter(is_safe)?;
-    let begin = search.with_direction_near(share, &bristles)?;
-    match search.climb(&begin, 1.0, None) {
-        Climbed::Reached(raised) => search.finish_obeying(*raised).ok().map(Ok),
-        // Where scalar EPP friction has a limit point, states with the belt at rest on other arcs may lead on.
-        Climbed::Limit(limit) if search.drive.law == FrictionLaw::Coulomb => {
-            Some(Err(overloaded(search.drive, &limit.top)))
-        }
-        Climbed::Limit(_) | Climbed::Lost { .. } => None,
+    let bristles = search.enter_bristles(share).ok().filter(is_safe);
+    let begin = bristles.and_then(|bristles| search.with_direction_near(share, &bristles));
+    match begin.map(|begin| search.climb(&begin, 1.0, None)) {
+        Some(Climbed::Reached(raised)) => match search.finish_obeying(*raised) {
+            Ok(solved) => Along::Carries(Box::new(solved)),
+            Err(_) => Along::Lost,
+        },
+        Some(Climbed::Limit(limit)) => Along::Ends(limit.top),
+        Some(Climbed::Lost { .. }) | None => Along::Lost,
     }
 }
 
