@@ -206,7 +206,10 @@ impl Search<'_> {
         }
         let factors = WELL_BELOW.map(|share| share * top);
         let mut higher = factors.into_iter().filter(|factor| *factor > from);
-        let raised = higher.find_map(|factor| self.at_factor(&begin, factor).filter(is_begin));
+        let raised = higher.find_map(|factor| {
+            self.at_factor(&begin, factor, Effort::Rough)
+                .filter(is_begin)
+        });
         raised.unwrap_or(begin)
     }
 }

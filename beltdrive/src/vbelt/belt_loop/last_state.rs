@@ -1,6 +1,6 @@
 //! The last steady state of a loop as its load rises.
 
-use super::super::path::Solved;
+use super::super::path::{Effort, Solved};
 use super::climb::{LARGEST_FACTOR, Limit};
 use super::problem::LoopProblem;
 use super::running::{is_drive, overloaded};
@@ -55,7 +55,7 @@ impl Search<'_> {
     ) -> Option<Solved<LoopProblem>> {
         let below = limit.below.iter().rev();
         let mut below = below.filter(|state| state.factor() <= factor);
-        let near = self.at_factor(below.next().unwrap_or(from), factor)?;
+        let near = self.at_factor(below.next().unwrap_or(from), factor, Effort::Rough)?;
         self.finish_obeying(near).ok().filter(is_drive)
     }
 }

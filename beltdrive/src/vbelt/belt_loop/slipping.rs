@@ -96,7 +96,8 @@ impl Search<'_> {
         let excess = |state: &Solved<LoopProblem>| most(state).0 - GROSS;
         let (places, first) = ([begin.factor(), slips], excess(&begin));
         let mut near = begin.clone();
-        let mut reached = |to: f64| match self.at_factor(&near, to) {
+        // Slip at a load changes with the error of a state in first order: by 2e-5 of the load where that is rough.
+        let mut reached = |to: f64| match self.at_factor(&near, to, Effort::Full) {
             Some(state) => {
                 near = state;
                 excess(&near)
@@ -133,7 +134,7 @@ impl Search<'_> {
         }
         let mut factors = factors.into_iter();
         let slips = factors.find(|&factor| {
-            let state = self.at_factor(begin, factor);
+            let state = self.at_factor(begin, factor, Effort::Rough);
             state.is_some_and(|state| is_slipping(&state))
         })?;
         let slipping = Slipping {
@@ -146,7 +147,7 @@ impl Search<'_> {
     /// A state under less load in which no pulley slips grossly, if it is found.
     fn unslipped(&mut self, mut state: Solved<LoopProblem>) -> Solved<LoopProblem> {
         while is_slipping(&state) {
-            match self.at_factor(&state, LESS * state.factor()) {
+            match self.at_factor(&state, LESS * state.factor(), Effort::Rough) {
                 Some(lower) => state = lower,
                 None => break,
             }
@@ -159,11 +160,12 @@ impl Search<'_> {
         &mut self,
         near: &Solved<LoopProblem>,
         to: f64,
+        effort: Effort,
     ) -> Option<Solved<LoopProblem>> {
         let from = near.factor();
         let member = |problem: &LoopProblem, factor| problem.clone().with_factor(factor);
         let step = (to - from).abs();
-        let found = self.follow(near.clone(), [from, to], step, Effort::Rough, member);
+        let found = self.follow(near.clone(), [from, to], step, effort, member);
         found.ok()
     }
 }
