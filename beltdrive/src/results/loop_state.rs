@@ -75,8 +75,7 @@ pub(crate) enum Contacts {
     V(Profiles),
 }
 
-/// The profiles of a belt on its pulleys, made when they are first asked for: in a map of states nobody does, and they
-/// take a tenth of the time of a state from its neighbour.
+/// The profiles of a belt on its pulleys, made when they are first asked for: in a map of states nobody does.
 #[derive(Clone)]
 pub(crate) struct Profiles {
     make: Arc<dyn Fn() -> Vec<Profile> + Send + Sync>,

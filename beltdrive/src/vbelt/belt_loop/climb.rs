@@ -31,7 +31,7 @@ const STILL_SHARPER: [f64; 3] = [SHARPER, 1e-5, 1e-6];
 const LOWER: usize = 4;
 
 /// Factor between loads up to which that of a state is raised in turn.
-const DOUBLED: f64 = 2.0;
+pub(super) const DOUBLED: f64 = 2.0;
 /// Largest load factor that is tried: beyond it the torques are but rounding errors of the driver's.
 pub(super) const LARGEST_FACTOR: f64 = 1e9;
 

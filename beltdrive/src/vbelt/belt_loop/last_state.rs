@@ -1,7 +1,7 @@
 //! The last steady state of a loop as its load rises.
 
 use super::super::path::{Effort, Solved};
-use super::climb::{LARGEST_FACTOR, Limit};
+use super::climb::{DOUBLED, LARGEST_FACTOR, Limit};
 use super::problem::LoopProblem;
 use super::running::{is_drive, overloaded};
 use super::solve::{Found, Search};
@@ -11,8 +11,6 @@ use crate::results::largest_load::LastState;
 
 /// Distances from the limit, relative, at which a state is sought in turn: the first is that to which a limit is known.
 const BEFORE: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
-/// Factor between loads up to which that of the loop is raised in turn.
-const RAISED: f64 = 4.0;
 
 /// The last state of a loop as all its torques and powers rise, from its own; `None` if that has no load, or if the limit
 /// or a state beside it is not found. The friction of its states is that of the law itself: others only lead to guesses.
@@ -27,7 +25,7 @@ pub(crate) fn last_state(drive: &Drive, tolerance: f64) -> Option<LastState> {
         return None;
     }
     let begin = running.followed(&mut search)?;
-    let found = search.rise(&begin, RAISED, LARGEST_FACTOR, None).ok()?;
+    let found = search.rise(&begin, DOUBLED, LARGEST_FACTOR, None).ok()?;
     let (limit, from) = found?;
     let top = limit.top;
     let solved = BEFORE.into_iter().find_map(|share| {

@@ -101,7 +101,8 @@ pub(super) fn running<'l>(
     };
     let shares = SHARES.map(start);
     let shares = || shares.iter().filter(|share| share.is_taut());
-    for share in shares() {
+    let has_direction = matches!(drive.law, FrictionLaw::Coulomb | FrictionLaw::Epp { .. });
+    for share in shares().filter(|_| has_direction) {
         match along_direction(search, share) {
             Along::Carries(solved) => return Ok(found(whole, *solved, None)),
             Along::Ends(top) if drive.law == FrictionLaw::Coulomb => {
