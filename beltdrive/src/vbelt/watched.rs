@@ -58,7 +58,11 @@ impl Tracer<'_> {
         if problem.has_junctions() {
             for segment in 0..problem.zones(DRIVER).end {
                 let index = DriveProblem::length_index(segment);
-                branch = branch.event(move |curve, point| parameter(curve, point, index));
+                let length = move |curve: &Curve<'_>, point: &Point| parameter(curve, point, index);
+                branch = match is_part(problem, segment) {
+                    true => branch.change(length),
+                    false => branch.event(length),
+                };
             }
         }
         branch
@@ -81,12 +85,7 @@ impl Tracer<'_> {
             Kind::Event(index) if index >= FIRST_ZONE => {
                 let segment = index - FIRST_ZONE;
                 let pulley = here.problem.pulley(segment);
-                // A cut of a zone of one kind is no event.
-                let kind = |segment| here.problem.regime(segment).kind();
-                let zones = here.problem.zones(pulley);
-                let is_part = (segment > zones.start && kind(segment - 1) == kind(segment))
-                    || (segment + 1 < zones.end && kind(segment + 1) == kind(segment));
-                (!is_part).then(|| EventKind::ZoneVanishes {
+                (!is_part(&here.problem, segment)).then(|| EventKind::ZoneVanishes {
                     pulley: pulleys[pulley],
                     kind: here.problem.regime(segment).kind(),
                 })
@@ -94,4 +93,12 @@ impl Tracer<'_> {
             _ => None,
         }
     }
+}
+
+/// Whether a segment is a part of a zone of one kind: that it vanishes is no event.
+fn is_part(problem: &DriveProblem, segment: usize) -> bool {
+    let zones = problem.zones(problem.pulley(segment));
+    let kind = |segment| problem.regime(segment).kind();
+    (segment > zones.start && kind(segment - 1) == kind(segment))
+        || (segment + 1 < zones.end && kind(segment + 1) == kind(segment))
 }

@@ -34,7 +34,12 @@ impl<S: System> Assessment<'_, '_, S> {
     /// system. Where the error exceeds the tolerance of the system, the branch goes over to the
     /// refined one; where it stays so, that is a reason to stop.
     pub(crate) fn assessed(&mut self, mut point: Point) -> (Point, Option<Stop>) {
-        if point.kind == Kind::Regular || point.approximate {
+        let is_asked_for = match point.kind {
+            Kind::Regular => false,
+            Kind::Event(index) => self.events.is_assessed(index),
+            _ => true,
+        };
+        if !is_asked_for || point.approximate {
             return (point, None);
         }
         let tolerance = self.curve.system.tolerance();

@@ -195,11 +195,27 @@ impl<'a, S: System> Branch<'a, S> {
     /// # Ok::<(), continuation::Error>(())
     /// ```
     #[must_use]
-    pub fn event(mut self, mut function: impl FnMut(&S, &Point) -> f64 + 'a) -> Self {
+    pub fn event(self, function: impl FnMut(&S, &Point) -> f64 + 'a) -> Self {
+        self.with_event(function, true)
+    }
+
+    /// As [`event`](Self::event), numbered with these, but its points have no discretisation error
+    /// ([`Point::error`] is `None`): for a place at which the caller goes over to another system, which saves locating it
+    /// a second time on a finer discretisation.
+    #[must_use]
+    pub fn change(self, function: impl FnMut(&S, &Point) -> f64 + 'a) -> Self {
+        self.with_event(function, false)
+    }
+
+    fn with_event(
+        mut self,
+        mut function: impl FnMut(&S, &Point) -> f64 + 'a,
+        is_assessed: bool,
+    ) -> Self {
         let node = &mut self.progress.node;
         let value = function(self.curve.system, &node.point(Kind::Regular));
         node.events.push(value);
-        self.events.push(function);
+        self.events.push(function, is_assessed);
         self
     }
 

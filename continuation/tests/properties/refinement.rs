@@ -2,7 +2,7 @@
 
 use crate::{of, trace};
 use continuation::Direction::Increasing;
-use continuation::{Cause, Kind, Options, Stop, System};
+use continuation::{Branch, Cause, Kind, Options, Point, Stop, System};
 
 /// λ = 1 − x² + offset(level), finer and finer.
 #[derive(Clone)]
@@ -106,4 +106,24 @@ fn a_point_that_the_refined_system_has_not_is_not_trusted() {
     assert!(matches!(stop, Stop::Inaccurate { error, .. } if error == f64::INFINITY));
     assert_eq!(points.len(), 1);
     assert_eq!(points[0].error.unwrap().lambda, f64::INFINITY);
+}
+
+#[test]
+fn the_error_of_a_change_is_not_asked_for() {
+    let mut system = Refining::new(|level| 1e-6 * 0.25f64.powi(level), 1e-3);
+    let near = |point: &Point| point.z[0] + 0.5;
+    let mut branch = Branch::new(&mut system, &[-1.0, 0.0], Increasing, &options())
+        .unwrap()
+        .event(move |_, point| near(point))
+        .change(move |_, point| near(point));
+    let found: Vec<_> = branch
+        .by_ref()
+        .filter(|point| matches!(point.kind, Kind::Event(_)))
+        .collect();
+    let [event, change] = &found[..] else {
+        panic!("{found:?}");
+    };
+    assert_eq!((event.kind, change.kind), (Kind::Event(0), Kind::Event(1)));
+    assert!((event.z[0] + 0.5).abs() < 1e-12 && (change.z[0] + 0.5).abs() < 1e-12);
+    assert!(event.error.is_some() && change.error.is_none());
 }
