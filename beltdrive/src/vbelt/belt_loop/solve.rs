@@ -24,9 +24,6 @@ pub(crate) struct LoopNeighbour {
     at_rest: RestProblem,
     rest: Rest,
     solved: Solved<LoopProblem>,
-    /// Roughly, with one zone on every pulley, from which the load is raised; none if that is not found. With bristles
-    /// the state itself has one zone.
-    rough: Option<Box<Solved<LoopProblem>>>,
     /// That from which it was found.
     before: Option<Box<Solved<LoopProblem>>>,
     /// Force across each span at rest, as in [`SpanState::deflection_force`](crate::belt_loop::SpanState).
@@ -69,12 +66,7 @@ pub(crate) fn solve_from(
         rest,
         running,
     } = search.search()?;
-    let rough = match drive.law {
-        FrictionLaw::Bristle { .. } => None,
-        _ => running.roughly(&mut search).ok().map(Box::new),
-    };
-    let (state, found) = LoopNeighbour::of(&mut search, at_rest, rest, running.solved, None)?;
-    Ok((state, LoopNeighbour { rough, ..found }))
+    LoopNeighbour::of(&mut search, at_rest, rest, running.solved, None)
 }
 
 impl LoopNeighbour {
@@ -94,7 +86,6 @@ impl LoopNeighbour {
             at_rest,
             rest,
             solved,
-            rough: None,
             before: None,
         };
         Ok((state, neighbour))
@@ -150,9 +141,9 @@ impl LoopNeighbour {
     /// How far all torques can be raised, found by raising them; as [`Search::load_limit`].
     pub(crate) fn load_limit(&self, tolerance: f64) -> Option<Top> {
         let mut search = Search::new(&self.drive, tolerance);
-        search.load_limit(&self.solved, |_| match self.drive.law {
-            FrictionLaw::Bristle { .. } => Some(self.solved.clone()),
-            _ => self.rough.as_deref().cloned(),
+        search.load_limit(&self.solved, |search| {
+            let found = search.search().ok()?;
+            found.running.roughly(search).ok()
         })
     }
 }
