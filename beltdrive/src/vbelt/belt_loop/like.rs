@@ -4,7 +4,6 @@ use super::super::carried::Carried;
 use super::super::laws::Asked;
 use super::super::path::{Effort, Solved};
 use super::problem::LoopProblem;
-use super::start::largest_curvature;
 use crate::{Drive, FrictionLaw};
 
 /// A loop whose steady state is asked for near one with another law, and with one zone on every pulley.
@@ -24,12 +23,8 @@ impl Asked for Like<'_> {
 
     const FIRST: Effort = Effort::Start;
 
-    fn law(&self) -> FrictionLaw {
-        self.drive.law
-    }
-
-    fn largest_curvature(&self) -> f64 {
-        largest_curvature(self.drive)
+    fn drive(&self) -> &Drive {
+        self.drive
     }
 
     fn problem(&self, law: FrictionLaw, lag: f64) -> LoopProblem {

@@ -35,12 +35,8 @@ impl Asked for Start<'_> {
     /// A coarse mesh takes two thirds of the time of a mesh that could be the final one.
     const FIRST: Effort = Effort::Start;
 
-    fn law(&self) -> FrictionLaw {
-        self.drive.law
-    }
-
-    fn largest_curvature(&self) -> f64 {
-        largest_curvature(self.drive)
+    fn drive(&self) -> &Drive {
+        self.drive
     }
 
     fn problem(&self, law: FrictionLaw, lag: f64) -> LoopProblem {
@@ -53,11 +49,4 @@ impl Asked for Start<'_> {
     fn guess<'p>(&'p self, problem: &'p LoopProblem) -> impl bvp::Guess + 'p {
         LoopGuess::new(problem, &self.tractive, self.coordinate)
     }
-}
-
-/// The largest friction coefficient of a pulley over its radius, 1/m.
-pub(super) fn largest_curvature(drive: &Drive) -> f64 {
-    let pulleys = drive.pulleys.iter();
-    let curvatures = pulleys.map(|pulley| pulley.friction_coefficient / pulley.radius);
-    curvatures.fold(0.0, f64::max)
 }

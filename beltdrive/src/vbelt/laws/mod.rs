@@ -50,11 +50,8 @@ pub(super) trait Asked {
     /// How accurately bristles are solved from nothing.
     const FIRST: Effort;
 
-    /// The friction law.
-    fn law(&self) -> FrictionLaw;
-
-    /// The largest friction coefficient of a pulley over its radius, 1/m.
-    fn largest_curvature(&self) -> f64;
+    /// The drive.
+    fn drive(&self) -> &Drive;
 
     /// The problem with any law, its direction smoothed over the length ℓ/R `lag`.
     fn problem(&self, law: FrictionLaw, lag: f64) -> Self::Problem;
@@ -62,9 +59,16 @@ pub(super) trait Asked {
     /// A state nearly without friction.
     fn guess<'p>(&'p self, problem: &'p Self::Problem) -> impl bvp::Guess + 'p;
 
-    /// The stiffness κ of the bristles of the start, 1/m.
+    /// The friction law.
+    fn law(&self) -> FrictionLaw {
+        self.drive().law
+    }
+
+    /// The stiffness κ of the bristles of the start, 1/m, by the largest friction coefficient of a pulley over its radius.
     fn soft(&self) -> f64 {
-        START_STIFFNESS * self.largest_curvature()
+        let pulleys = self.drive().pulleys.iter();
+        let curvatures = pulleys.map(|pulley| pulley.friction_coefficient / pulley.radius);
+        START_STIFFNESS * curvatures.fold(0.0, f64::max)
     }
 
     /// Those bristles.
@@ -86,13 +90,8 @@ impl Asked for AtLoad<'_> {
 
     const FIRST: Effort = Effort::Final;
 
-    fn law(&self) -> FrictionLaw {
-        self.drive.law
-    }
-
-    fn largest_curvature(&self) -> f64 {
-        let pair = self.drive.pair();
-        pair.friction_coefficient / pair.driver_radius.min(pair.driven_radius)
+    fn drive(&self) -> &Drive {
+        self.drive
     }
 
     fn problem(&self, law: FrictionLaw, lag: f64) -> DriveProblem {
