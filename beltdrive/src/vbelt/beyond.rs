@@ -11,6 +11,7 @@ use super::path::{Path, Solved};
 use super::piece::PieceEnd;
 use super::state::describe;
 use super::tracer::Tracer;
+use super::zones::Refused;
 use crate::{BranchEnd, BranchEvent, EventKind, FrictionLaw, LeastSlip};
 use continuation::Direction;
 
@@ -50,7 +51,7 @@ impl Tracer<'_> {
             if let Some(solved) = self.anew_at(value)
                 && self.leads_to(value, &solved)
             {
-                self.refused = None;
+                self.refused = Refused::default();
                 self.refinements = 0;
                 return Some(PieceEnd::Next {
                     solved: Box::new(solved),
@@ -99,7 +100,7 @@ impl Tracer<'_> {
         self.events.pop_if(ends);
         self.passed.clear();
         self.before = before;
-        self.refused = None;
+        self.refused = Refused::default();
         self.refinements = 0;
         Some(found)
     }

@@ -8,7 +8,7 @@ use super::path::{Effort, Path, Solved};
 use super::state::describe;
 use super::tracer::{Tracer, Until};
 use super::watched::FIRST_ZONE;
-use super::zones::Cut;
+use super::zones::Refused;
 use super::{BeltProblem, DriveProblem, Law};
 use crate::input::Key;
 use crate::results::difficulty;
@@ -45,9 +45,9 @@ const FIRST_STEP: f64 = 0.05;
 /// on the way to a labelled point, ...
 const MARGIN: f64 = 0.05;
 /// ... the step is taken again with steps and margin divided by this, ...
-const REFINEMENT: f64 = 4.0;
+pub(super) const REFINEMENT: f64 = 4.0;
 /// ... at most so often.
-const MAX_REFINEMENTS: i32 = 4;
+pub(super) const MAX_REFINEMENTS: i32 = 4;
 /// Accuracy of the points of a branch, as a share of the tolerance; ...
 pub(super) const ACCURACY: f64 = 1e-3;
 /// ... and where the direction is a state. Its rate of change is that of the slip over ℓ, and with 1e-3 the mesh was
@@ -263,7 +263,7 @@ impl Tracer<'_> {
         }
         // A step may have passed the place where a zone appears: its state is none, but a guess.
         let is_guess = point.kind == Kind::Regular;
-        if is_guess && here.problem.has_junctions() && !self.is_kept(here) {
+        if is_guess && here.problem.has_junctions() && !self.refused.are_all(here) {
             return Some(self.next_piece(point, here, &drive, ahead));
         }
         let restart = matches!(point.kind, Kind::Event(index) if index >= FIRST_ZONE);
@@ -310,12 +310,6 @@ impl Tracer<'_> {
         }
     }
 
-    /// Whether the zones of a state are its segments, but for cuts that Newton's method refused.
-    fn is_kept(&self, here: &Solved) -> bool {
-        let cut = Cut::of(here);
-        cut.is_kept() || self.refused.as_ref() == Some(&cut.regimes())
-    }
-
     /// Whether a point at which something happens that is no change of zones is found with zones that have changed
     /// on the way to it.
     fn has_other_zones(&self, point: &Point, here: &Solved) -> bool {
@@ -324,7 +318,7 @@ impl Tracer<'_> {
             Kind::Event(index) => index < FIRST_ZONE,
             _ => false,
         };
-        happens && here.problem.has_junctions() && !self.is_kept(here)
+        happens && here.problem.has_junctions() && !self.refused.are_all(here)
     }
 
     /// The next piece, from a point whose state is cut anew into zones.
@@ -353,8 +347,7 @@ impl Tracer<'_> {
         });
         match found {
             Ok((value, next)) => {
-                let cut = Cut::of(&next);
-                self.refused = (!cut.is_kept()).then(|| cut.regimes());
+                self.refused = Refused::by(&next);
                 self.refinements = 0;
                 self.before += point.arclength;
                 PieceEnd::Next {

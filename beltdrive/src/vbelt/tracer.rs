@@ -10,10 +10,10 @@
 //! change of zones. Every labelled point is located once more with ℓ/4 on the halved mesh: its error follows from the
 //! difference. A branch from a state whose direction is normalised is followed in the same way with a fixed ε.
 
-use super::Regime;
 use super::found::is_crossed;
 use super::path::Solved;
 use super::piece::{PieceEnd, WHOLE};
+use super::zones::Refused;
 use crate::input::Key;
 use crate::results::difficulty;
 use crate::{
@@ -24,7 +24,7 @@ use continuation::{Direction, Kind, Point, Stop};
 use web_time::Instant;
 
 /// The most pieces of a branch.
-const MAX_PIECES: usize = 40;
+pub(super) const MAX_PIECES: usize = 40;
 /// Behind a limit point a branch is followed until the entry has come back by this share of its way.
 const WAY_BACK: f64 = 0.25;
 
@@ -53,7 +53,7 @@ pub(super) struct Tracer<'d> {
     /// How often the steps were shortened since the zones have changed.
     pub(super) refinements: i32,
     /// Zones that the last state shows and Newton's method refused.
-    pub(super) refused: Option<Vec<Vec<Regime>>>,
+    pub(super) refused: Refused,
     /// The last state that is no limit point, and the value of the entry there.
     pub(super) near: Option<(f64, Solved)>,
     /// The constants of all states that are no limit points, with the values of the entry.
@@ -85,7 +85,7 @@ impl<'d> Tracer<'d> {
             },
             before: 0.0,
             refinements: 0,
-            refused: None,
+            refused: Refused::default(),
             near: None,
             passed: Vec::new(),
             no_load: match key {

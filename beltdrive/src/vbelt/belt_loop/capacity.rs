@@ -301,10 +301,6 @@ impl Search<'_> {
             let growth = match place {
                 Place::LimitPoint | Place::Zero(_) => Some(point.lambda()),
                 Place::End => return Some(None),
-                Place::Start => {
-                    levelling = Levelling::default();
-                    levelling.top(point, 1.0)
-                }
                 Place::Way => levelling.top(point, 1.0),
             };
             growth.map(|growth| Some(growth.exp()))

@@ -206,25 +206,13 @@ impl Search<'_> {
         let mut reached = from.factor();
         let error = limit_accuracy(self.tolerance);
         let climbed = self.along(from, [0.0, to], &watched, |search, place, point, here| {
-            let limit = |at: Solved<LoopProblem>, factor, slips: Option<usize>, below: Vec<_>| {
-                let of_curve = || most_slowed(&at, point);
-                let (pulley, overhangs) = slips.map_or_else(of_curve, |pulley| (pulley, false));
-                let top = Top {
-                    factor,
-                    pulley,
-                    overhangs,
-                    is_last: true,
-                    error,
-                };
-                Some(Climbed::Limit(Box::new(Limit { top, at, below })))
-            };
             let factor = point.lambda();
-            match place {
-                Place::LimitPoint => return limit(here, factor, None, std::mem::take(&mut below)),
-                Place::Zero(index) => {
-                    let (pulley, _) = moving[index];
-                    return limit(here, factor, Some(pulley), std::mem::take(&mut below));
-                }
+            let top = match place {
+                Place::LimitPoint => Some((factor, most_slowed(&here, point))),
+                Place::Zero(index) => Some((factor, (moving[index].0, false))),
+                Place::Way => levelling
+                    .top(point, factor)
+                    .map(|factor| (factor, most_slowed(&here, point))),
                 Place::End => {
                     return Some(match search.at_point(here) {
                         Ok(solved) => Climbed::Reached(Box::new(solved)),
@@ -234,11 +222,17 @@ impl Search<'_> {
                         },
                     });
                 }
-                Place::Start => levelling = Levelling::default(),
-                Place::Way => {}
-            }
-            if let Some(factor) = levelling.top(point, factor) {
-                return limit(here, factor, None, std::mem::take(&mut below));
+            };
+            if let Some((factor, (pulley, overhangs))) = top {
+                let top = Top {
+                    factor,
+                    pulley,
+                    overhangs,
+                    is_last: true,
+                    error,
+                };
+                let (at, below) = (here, std::mem::take(&mut below));
+                return Some(Climbed::Limit(Box::new(Limit { top, at, below })));
             }
             if let Some(slipping) = slipping.as_deref_mut()
                 && slipping.has_slowed(&here)

@@ -5,7 +5,7 @@
 //! so that the limit point itself, whose labelled state would be refined in several turns, is not needed: it took
 //! 2.6 s of the 3.3 s that the load limit of three stiff grooves did.
 
-use continuation::Point;
+use continuation::{Kind, Point};
 
 /// The limit is known where the rest of the way up is no more than this, relative: the digits that are shown.
 const KNOWN: f64 = 1e-6;
@@ -24,8 +24,12 @@ pub(super) struct Levelling {
 }
 
 impl Levelling {
-    /// The largest parameter, if it is known from this next point of the curve. `scale` is what it is relative to.
+    /// The largest parameter, if it is known from this next point of the curve, which begins anew with every piece. `scale`
+    /// is what it is relative to.
     pub(super) fn top(&mut self, point: &Point, scale: f64) -> Option<f64> {
+        if point.kind == Kind::Start {
+            *self = Self::default();
+        }
         let slope = point.tangent[point.tangent.len() - 1];
         let first = *self.first.get_or_insert(slope);
         let [arclength, before] = self.last.replace([point.arclength, slope])?;

@@ -4,11 +4,12 @@
 //! enough on the way.
 
 use super::super::BeltProblem;
-use super::super::groove::{Law, Regime};
+use super::super::groove::Law;
 use super::super::laws::{WRONG_WAY, power_gained};
 use super::super::path::{Effort, Solved};
-use super::super::piece::{ACCURACY, ACCURACY_OF_DIRECTION};
-use super::super::zones::Cut;
+use super::super::piece::{ACCURACY, ACCURACY_OF_DIRECTION, MAX_REFINEMENTS, REFINEMENT};
+use super::super::tracer::MAX_PIECES;
+use super::super::zones::Refused;
 use super::rising::Rising;
 use super::solve::Search;
 use crate::results::difficulty;
@@ -23,13 +24,8 @@ const ROUGH_ERROR: f64 = 3e-5;
 /// The most mesh intervals: a point that needs more is approached by a shorter step. Four times as many found no more
 /// limits on five loops, and took 31 s in place of 3 s to find none with elastic friction on four grooves.
 const MAX_INTERVALS: usize = 1000;
-/// The most steps of a piece, and the most pieces.
+/// The most steps of a piece.
 const STEPS: usize = 300;
-const MAX_PIECES: usize = 40;
-/// Where zones have changed on the way to a limit point the step is taken again with steps divided by this, at most so
-/// often.
-const REFINEMENT: f64 = 4.0;
-const MAX_REFINEMENTS: i32 = 4;
 /// ℓ/R along a curve. With 1e-10, that of a state to 1e-8, zones of `v-power` with Coulomb friction that had to change were
 /// kept, and a limit was seen at 1.54 in place of 2.03 of the load. Limits of five drives are off by 1.4e-7 with it.
 const LAG: f64 = 1e-8;
@@ -50,8 +46,6 @@ pub(super) trait Curved: BeltProblem {
 /// What a point of a curve is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
-    /// The first one of a piece.
-    Start,
     /// One on the way.
     Way,
     /// A limit point.
@@ -85,17 +79,13 @@ struct Curve<'c> {
     /// The parameters whose zeros are sought.
     watched: &'c [usize],
     /// Zones that the first state of a piece shows and Newton's method refused.
-    refused: Option<Vec<Vec<Regime>>>,
+    refused: Refused,
 }
 
 impl Curve<'_> {
     /// Whether the zones of a state are its segments, if they have to be.
     fn is_kept<P: BeltProblem>(&self, here: &Solved<P>) -> bool {
-        if !here.problem.has_junctions() {
-            return true;
-        }
-        let cut = Cut::of(here);
-        cut.is_kept() || self.refused.as_ref() == Some(&cut.regimes())
+        !here.problem.has_junctions() || self.refused.are_all(here)
     }
 }
 
@@ -112,7 +102,7 @@ impl Search<'_> {
         let mut curve = Curve {
             range,
             watched,
-            refused: None,
+            refused: Refused::default(),
         };
         let begin = match from.problem.has_direction() {
             true => self.smooth_less(from.clone(), LAG, Effort::Close).ok(),
@@ -131,8 +121,7 @@ impl Search<'_> {
                 Piece::Changes(state) => {
                     let next = self.keep_zones(*state, Effort::Full);
                     here = next.map_err(|stuck| lost(difficulty::of_solver(&stuck.cause)))?;
-                    let cut = Cut::of(&here);
-                    curve.refused = (!cut.is_kept()).then(|| cut.regimes());
+                    curve.refused = Refused::by(&here);
                     refinements = 0;
                 }
             }
@@ -185,7 +174,6 @@ impl Search<'_> {
                 solution: branch.system().solution(&point.z),
             };
             let place = match point.kind {
-                Kind::Start => Place::Start,
                 Kind::LimitPoint => Place::LimitPoint,
                 Kind::Event(index) if index < curve.watched.len() => Place::Zero(index),
                 Kind::Event(_) => return Ok(Piece::Changes(Box::new(here))),

@@ -164,6 +164,24 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
     }
 }
 
+/// Zones that a state shows other than its segments, and that Newton's method refused; none by default.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Refused(Option<Vec<Vec<Regime>>>);
+
+impl Refused {
+    /// Those of a state that was to have the zones that it shows.
+    pub(super) fn by<P: BeltProblem>(solved: &Solved<P>) -> Self {
+        let cut = Cut::of(solved);
+        Self((!cut.is_kept()).then(|| cut.regimes()))
+    }
+
+    /// Whether the zones of a state are its segments, but for these.
+    pub(super) fn are_all<P: BeltProblem>(&self, solved: &Solved<P>) -> bool {
+        let cut = Cut::of(solved);
+        cut.is_kept() || self.0.as_ref() == Some(&cut.regimes())
+    }
+}
+
 /// What is seen of a solution along a pulley, and its zones.
 fn cut<P: BeltProblem>(
     solved: &Solved<P>,
