@@ -242,22 +242,23 @@ impl Search<'_> {
         if is_followed(state)
             && let Some(margin) = self.torque_margin_as(state, pulley, state)
         {
-            return Some([margin, limit_accuracy(self.tolerance) * margin]);
+            return margin.map(|margin| [margin, limit_accuracy(self.tolerance) * margin]);
         }
         let rough = rough(self)?;
-        rough.value(|rough| self.torque_margin_as(state, pulley, rough))
+        rough.value(|rough| self.torque_margin_as(state, pulley, rough).flatten())
     }
 
-    /// The same with friction as it is in one state of the same loop.
+    /// The same with friction as it is in one state of the same loop; `None` if the curve is not followed to its end, and
+    /// within if it has no largest torque.
     fn torque_margin_as(
         &mut self,
         state: &Solved<LoopProblem>,
         pulley: usize,
         like: &Solved<LoopProblem>,
-    ) -> Option<f64> {
+    ) -> Option<Option<f64>> {
         let problem = &state.problem;
         if problem.is_idle(pulley) {
-            return None;
+            return Some(None);
         }
         let p = state.solution.parameters();
         let coordinate = problem.coordinate(p);
@@ -266,15 +267,15 @@ impl Search<'_> {
         let change =
             exit[TENSION] * ends[pulley].exit.cos() - entry[TENSION] * ends[pulley].entry.cos();
         if change == 0.0 {
-            return None;
+            return Some(None);
         }
         let slack = if change > 0.0 { entry } else { exit }[TENSION];
         let turned = problem.plane.lay(coordinate, &ends).turned[pulley];
         let capstan = |friction: f64| slack * (friction * turned).exp_m1() / change.abs();
         let groove = match like.problem.seats[pulley] {
             Seat::Groove(groove) => groove,
-            Seat::Back(back) => return Some(capstan(back.friction_coefficient)),
-            Seat::Idle => return None,
+            Seat::Back(back) => return Some(Some(capstan(back.friction_coefficient))),
+            Seat::Idle => return Some(None),
         };
         let to = BEYOND * capstan(groove.friction_coefficient / groove.sin_beta);
         let one = OneGroove {
@@ -305,6 +306,6 @@ impl Search<'_> {
             };
             growth.map(|growth| Some(growth.exp()))
         });
-        margin.ok().flatten()
+        margin.ok()
     }
 }

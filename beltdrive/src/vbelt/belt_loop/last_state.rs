@@ -15,15 +15,15 @@ const BEFORE: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 /// The last state of a loop as all its torques and powers rise, from its own; `None` if that has no load, or if the limit
 /// or a state beside it is not found. The friction of its states is that of the law itself: others only lead to guesses.
 pub(crate) fn last_state(drive: &Drive, tolerance: f64) -> Option<LastState> {
+    if drive.is_idle() {
+        return None;
+    }
     let mut search = Search::new(drive, tolerance);
     let Found {
         at_rest,
         rest,
         running,
     } = search.search().ok()?;
-    if drive.is_idle() {
-        return None;
-    }
     let begin = running.followed(&mut search)?;
     let found = search.rise(&begin, DOUBLED, LARGEST_FACTOR, None).ok()?;
     let (limit, from) = found?;
