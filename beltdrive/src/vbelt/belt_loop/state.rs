@@ -69,12 +69,8 @@ impl<'a> Lying<'a> {
 struct Seen<'a> {
     solved: &'a Solved<LoopProblem>,
     rest: &'a Rest,
-    laid: Laid<f64>,
-    ends: Vec<EndAngles<f64>>,
-    touching: Vec<Touching<'a>>,
+    lying: Lying<'a>,
     integrals: Vec<Integrals>,
-    /// Tractive tension of each span, scaled.
-    tractive: Vec<f64>,
     /// Scaled angular speeds.
     omegas: Vec<f64>,
     /// Wraps, rad.
@@ -89,13 +85,8 @@ impl<'a> Seen<'a> {
         let p = solved.solution.parameters();
         let count = problem.seats.len();
         let coordinate = problem.coordinate(p);
-        let Lying {
-            laid,
-            ends,
-            touching,
-            tractive,
-        } = Lying::of(solved);
-        let integrals = touching.iter().map(|touching| match touching {
+        let lying = Lying::of(solved);
+        let integrals = lying.touching.iter().map(|touching| match touching {
             Touching::Groove(on) => on.integrate(),
             Touching::Back(on) => on.integrate(),
             Touching::Idle(_) => Integrals::default(),
@@ -103,9 +94,9 @@ impl<'a> Seen<'a> {
         let strand = problem.units.strand();
         let omegas = (0..count).map(|pulley| match problem.is_idle(pulley) {
             false => problem.omega(pulley, p),
-            true => strand.speed(strand.tension(tractive[pulley], p[FLOW]), p[FLOW]),
+            true => strand.speed(strand.tension(lying.tractive[pulley], p[FLOW]), p[FLOW]),
         });
-        let wraps = touching.iter().map(|touching| match touching {
+        let wraps = lying.touching.iter().map(|touching| match touching {
             Touching::Groove(on) => on.exit()[super::super::ANGLE],
             Touching::Back(on) => on.wrap(),
             Touching::Idle(wrap) => *wrap,
@@ -117,10 +108,7 @@ impl<'a> Seen<'a> {
             flow: p[FLOW],
             solved,
             rest,
-            laid,
-            ends,
-            touching,
-            tractive,
+            lying,
             coordinate,
         }
     }
@@ -128,13 +116,13 @@ impl<'a> Seen<'a> {
     /// Tractive tensions behind and before a pulley, scaled.
     fn around(&self, pulley: usize) -> [f64; 2] {
         let behind = self.solved.problem.plane.arriving(pulley);
-        [behind, pulley].map(|span| self.tractive[span])
+        [behind, pulley].map(|span| self.lying.tractive[span])
     }
 
     /// Belt tension of a span, scaled.
     fn tension(&self, span: usize) -> f64 {
         let strand = self.solved.problem.units.strand();
-        strand.tension(self.tractive[span], self.flow)
+        strand.tension(self.lying.tractive[span], self.flow)
     }
 
     fn pulley(&self, search: &Search<'_>, pulley: usize) -> PulleyState {
@@ -146,7 +134,7 @@ impl<'a> Seen<'a> {
             _ => self.omegas[pulley] * units.angular_speed(stated.radius),
         };
         let [behind, before] = self.around(pulley);
-        let EndAngles { entry, exit } = self.ends[pulley];
+        let EndAngles { entry, exit } = self.lying.ends[pulley];
         let torque = match stated.duty {
             Duty::Torque(torque) => torque,
             _ => (before * exit.cos() - behind * entry.cos()) * units.torque(stated.radius),
@@ -175,7 +163,7 @@ impl<'a> Seen<'a> {
             entry_strain: None,
             reference_tension: None,
             hub_load: force(
-                self.laid.hub_load(plane, pulley, [behind, before]),
+                self.lying.laid.hub_load(plane, pulley, [behind, before]),
                 units.force,
             ),
             rest_hub_load: force(
@@ -217,10 +205,10 @@ impl<'a> Seen<'a> {
     }
 
     fn groove(&self, pulley: usize) -> Option<GrooveState> {
-        let Touching::Groove(on) = &self.touching[pulley] else {
+        let Touching::Groove(on) = &self.lying.touching[pulley] else {
             return None;
         };
-        let EndAngles { entry, exit } = self.ends[pulley];
+        let EndAngles { entry, exit } = self.lying.ends[pulley];
         Some(GrooveState {
             inclination: [entry, exit],
             max_penetration: on.max_penetration(),
@@ -230,7 +218,7 @@ impl<'a> Seen<'a> {
     }
 
     fn zones(&self, pulley: usize) -> Vec<Zone> {
-        match &self.touching[pulley] {
+        match &self.lying.touching[pulley] {
             Touching::Groove(on) => on.friction_zones(),
             Touching::Back(on) => on.zones(),
             Touching::Idle(wrap) => vec![Zone {
@@ -251,15 +239,15 @@ impl<'a> Seen<'a> {
         let units = self.solved.problem.units;
         let belt = search.drive.belt;
         let tension = self.tension(span) * units.force;
-        let tractive = self.tractive[span] * units.force;
+        let tractive = self.lying.tractive[span] * units.force;
         let speed = units.strand().speed(self.tension(span), self.flow) * units.speed;
         let flow = self.flow * units.mass_flow();
-        let length = self.laid.lengths[span];
+        let length = self.lying.laid.lengths[span];
         let rest_length = self.rest.laid.lengths[span];
         let deflection = DEFLECTION * rest_length;
         SpanState {
             length,
-            direction: self.laid.directions[span].rem_euclid(std::f64::consts::TAU),
+            direction: self.lying.laid.directions[span].rem_euclid(std::f64::consts::TAU),
             tension,
             tractive_tension: tractive,
             speed,
@@ -325,8 +313,15 @@ impl<'a> Seen<'a> {
         };
         let belt = search.stiffness(at_rest, self.rest).ok_or(lost)?;
         let carried = (pulley, tensioner);
-        let tractive = self.tractive[pulley] * self.solved.problem.units.force;
-        let running = held(plane, &self.laid, carried, self.coordinate, tractive, belt);
+        let tractive = self.lying.tractive[pulley] * self.solved.problem.units.force;
+        let running = held(
+            plane,
+            &self.lying.laid,
+            carried,
+            self.coordinate,
+            tractive,
+            belt,
+        );
         let rest = self.rest;
         let at_rest = held(
             plane,
@@ -349,7 +344,12 @@ impl<'a> Seen<'a> {
             coordinate: self.coordinate,
             rest_coordinate: rest.coordinate,
             load: tensioner.load_at(self.coordinate)[0],
-            length_derivatives: length_derivatives(plane, &self.laid, carried, self.coordinate),
+            length_derivatives: length_derivatives(
+                plane,
+                &self.lying.laid,
+                carried,
+                self.coordinate,
+            ),
             stiffness: running.stiffness,
             rest_stiffness: at_rest.stiffness,
             constant: running.constant,
@@ -370,11 +370,11 @@ pub(super) fn state(
     let drive = search.drive;
     let checks = Checked {
         solved,
-        laid: &seen.laid,
-        ends: &seen.ends,
-        touching: &seen.touching,
+        laid: &seen.lying.laid,
+        ends: &seen.lying.ends,
+        touching: &seen.lying.touching,
         integrals: &seen.integrals,
-        tractive: &seen.tractive,
+        tractive: &seen.lying.tractive,
         omegas: &seen.omegas,
         wraps: &seen.wraps,
         tolerance: search.tolerance,
