@@ -315,10 +315,9 @@ fn a_v_belt_runs_up_to_the_rated_load_and_not_beyond() {
         assert_is_limit(&found, point, 2.0 * point.error + 1e-4);
     }
     // Near lift-off, at 12 960 rpm, the driver slows the belt under a rising load, which then has no largest.
-    let RatingEnd::SlipsEverMore { speed, pulley } = found.end else {
+    let RatingEnd::SlipsEverMore { speed } = found.end else {
         panic!("{:?}", found.end);
     };
-    assert_eq!(found.drive.pulleys[pulley].name, "driver");
     assert!((1080.0..1180.0).contains(&speed), "{speed}");
     assert_eq!(found.points.last().unwrap().speed, speed);
 }

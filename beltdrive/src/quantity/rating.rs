@@ -44,7 +44,7 @@ fn statement(rating: &Rating) -> Vec<Quantity> {
     let (kind, speed) = match &rating.end {
         RatingEnd::LiftsOff { speed } => ("lift-off", Some(*speed)),
         RatingEnd::NoState { speed, reason } => (reason.kind(), Some(*speed)),
-        RatingEnd::SlipsEverMore { speed, .. } => ("growing slip", Some(*speed)),
+        RatingEnd::SlipsEverMore { speed } => ("growing slip", Some(*speed)),
         RatingEnd::Given => ("given", None),
         RatingEnd::Chosen { .. } => ("none found", None),
     };
@@ -74,10 +74,10 @@ fn end(rating: &Rating) -> String {
                 shown(*speed)
             )
         }
-        RatingEnd::SlipsEverMore { speed, pulley } => {
-            let name = &rating.drive.pulleys[*pulley].name;
+        RatingEnd::SlipsEverMore { speed } => {
+            let driver = &rating.drive.pulleys[rating.drive.driver()].name;
             format!(
-                "faster than {} there is no largest load: pulley `{name}` slips ever more as it rises",
+                "faster than {} there is no largest load: pulley `{driver}` slips ever more as it rises",
                 shown(*speed)
             )
         }

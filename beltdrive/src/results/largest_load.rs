@@ -10,9 +10,9 @@ use std::borrow::Cow;
 pub enum LoadEnd {
     /// A pulley, by its index, slips on its whole contact.
     Slips(usize),
-    /// A pulley, by its index, slips by a twentieth of the speed of the driver, and ever more under more load: the belt
-    /// slows down, centrifugal force falls, and no load is the largest.
-    SlipsEverMore(usize),
+    /// A pulley, by its index, slips by a twentieth of the speed of the driver, and still slips so much under a tenth more
+    /// load: the belt slows down or sinks into its grooves, presses more, and a largest load is far or there is none.
+    GrowingSlip(usize),
     /// A V-belt overhangs itself where it leaves a pulley, by its index.
     Overhangs(usize),
     /// A pulley, by its index, stands still.
@@ -55,7 +55,7 @@ impl LoadEnd {
     pub fn kind(&self) -> &'static str {
         match self {
             Self::Slips(_) => "gross slip",
-            Self::SlipsEverMore(_) => "growing slip",
+            Self::GrowingSlip(_) => "growing slip",
             Self::Overhangs(_) => "overhang",
             Self::Stalls(_) => "stall",
             Self::NoState(error) => error.kind(),
@@ -67,11 +67,16 @@ impl LoadEnd {
     pub fn pulley(&self) -> Option<usize> {
         match self {
             Self::Slips(pulley)
-            | Self::SlipsEverMore(pulley)
+            | Self::GrowingSlip(pulley)
             | Self::Overhangs(pulley)
             | Self::Stalls(pulley) => Some(*pulley),
             Self::NoState(_) => None,
         }
+    }
+
+    /// Whether a pulley slips, and more under more load.
+    pub(crate) fn is_growing(&self) -> bool {
+        matches!(self, Self::GrowingSlip(_))
     }
 
     /// Whether it is the same reason, at the same pulley.
@@ -86,10 +91,11 @@ impl LoadEnd {
         let name = |pulley: &usize| &drive.pulleys[*pulley].name;
         match self {
             Self::Slips(pulley) => format!("pulley `{}` slips grossly", name(pulley)).into(),
-            Self::SlipsEverMore(pulley) => {
-                let name = name(pulley);
-                format!("pulley `{name}` slips by 5 %, then more with every load").into()
-            }
+            Self::GrowingSlip(pulley) => format!(
+                "pulley `{}` slips by 5 %, and more under more load",
+                name(pulley)
+            )
+            .into(),
             Self::Overhangs(pulley) => {
                 format!("the belt overhangs itself on pulley `{}`", name(pulley)).into()
             }

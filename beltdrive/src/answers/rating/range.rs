@@ -3,7 +3,7 @@
 use super::{RatedLoad, RatingQuestion};
 use crate::mechanics::root::bracketed;
 use crate::model::{NearLargest, model};
-use crate::results::largest_load::LargestLoad;
+use crate::results::largest_load::{LargestLoad, LoadEnd};
 use crate::{
     BeltKind, Drive, Duty, FrictionLaw, NormalForce, Side, SolveError, SolveOptions, flat,
 };
@@ -18,14 +18,6 @@ pub enum RatingEnd {
         /// Angular speed of the driver, rad/s, to rounding.
         speed: f64,
     },
-    /// At higher speeds no load is the largest: a pulley slips ever more under more load, since the driver slips too, the
-    /// belt slows down and centrifugal force falls. V-belts only.
-    SlipsEverMore {
-        /// Angular speed of the driver up to which a largest load was found, rad/s; to 0.005 of it.
-        speed: f64,
-        /// The index of the pulley.
-        pulley: usize,
-    },
     /// The belt runs no faster even without load, for this reason.
     NoState {
         /// Angular speed of the driver, rad/s, to rounding; of a V-belt with a tensioner, that of a belt that does not
@@ -33,6 +25,12 @@ pub enum RatingEnd {
         speed: f64,
         /// The reason.
         reason: Box<SolveError>,
+    },
+    /// At higher speeds the driver slips ever more under more load, and no load is the largest: the belt slows down, and
+    /// centrifugal force falls. V-belts only.
+    SlipsEverMore {
+        /// Angular speed of the driver up to which this was not found, rad/s; to 0.005 of it.
+        speed: f64,
     },
     /// It is the end that was asked for.
     Given,
@@ -112,6 +110,11 @@ impl<'d> Speeds<'d> {
         let model = model(flat.belt.kind);
         let (found, _) = model.largest_load(&flat, None, 1.0, self.options)?;
         Ok(found.factor)
+    }
+
+    /// Whether a load ends where the driver slips, and more under more load.
+    pub(super) fn is_of_driver(&self, end: &LoadEnd) -> bool {
+        matches!(end, LoadEnd::GrowingSlip(pulley) if *pulley == self.drive.driver())
     }
 
     /// The largest load at a speed, expected to be about a factor on that of the drive, and what others are found from.

@@ -110,7 +110,7 @@ impl Search<'_> {
         begin: Solved<LoopProblem>,
     ) -> Result<Option<Top>, SolveError> {
         let problem = begin.problem.with_torques(state.solution.parameters());
-        let mut slipping = Slipping::default();
+        let mut slipping = Slipping::judged(Judge::LimitPointOrSlip);
         let begin = Solved { problem, ..begin };
         let found = self.rise(&begin, DOUBLED, LARGEST_FACTOR, Some(&mut slipping))?;
         Ok(found.map(|(mut limit, from)| {
@@ -223,6 +223,11 @@ impl Search<'_> {
                     });
                 }
             };
+            if let Some(slipping) = slipping.as_deref_mut()
+                && slipping.ends(&here, top.is_some())
+            {
+                return Some(Climbed::Limit(Box::new(search.gross_slip(slipping, from))));
+            }
             if let Some((factor, (pulley, overhangs))) = top {
                 let top = Top {
                     factor,
@@ -233,11 +238,6 @@ impl Search<'_> {
                 };
                 let (at, below) = (here, std::mem::take(&mut below));
                 return Some(Climbed::Limit(Box::new(Limit { top, at, below })));
-            }
-            if let Some(slipping) = slipping.as_deref_mut()
-                && slipping.has_slowed(&here)
-            {
-                return Some(Climbed::Limit(Box::new(search.gross_slip(slipping, from))));
             }
             reached = factor;
             below.push(here);

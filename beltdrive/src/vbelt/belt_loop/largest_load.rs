@@ -168,8 +168,9 @@ impl Search<'_> {
         from: Solved<LoopProblem>,
         expected: f64,
     ) -> Result<(LargestLoad, NearLargestLoad), SolveError> {
-        let directed = self.with_direction_near(&Like::new(self.drive, &from), &from);
-        let directed = directed.filter(is_begin);
+        let directed = LOWER
+            .into_iter()
+            .find_map(|share| self.directed(&from, share));
         let limit = directed.and_then(|directed| self.limit(&directed, expected).ok());
         let limit = match limit {
             Some(limit) => limit,
@@ -181,15 +182,27 @@ impl Search<'_> {
         Ok((found, NearLargestLoad { below, factor }))
     }
 
+    /// A share of the load of a state with bristles, with Coulomb or EPP friction whose direction is a state.
+    fn directed(&mut self, from: &Solved<LoopProblem>, share: f64) -> Option<Solved<LoopProblem>> {
+        if self.follows_law() {
+            return None;
+        }
+        let lower = match share {
+            1.0 => from.clone(),
+            _ => self.at_factor(from, share * from.factor(), Effort::Rough)?,
+        };
+        self.with_direction_near(&Like::new(self.drive, &lower), &lower)
+            .filter(is_begin)
+    }
+
     /// The largest load of the curve on which that of a state is raised.
     fn limit(&mut self, from: &Solved<LoopProblem>, expected: f64) -> Result<Limit, SolveError> {
-        let mut slipping = Slipping::default();
+        let mut slipping = Slipping::judged(Judge::GrossSlip);
         let times = RAISED * (0.5 * expected / from.factor()).max(1.0);
         let found = self.rise(from, times, LARGEST * expected, Some(&mut slipping))?;
         let (mut limit, begin) = found.ok_or(SolveError::NotFound {
             what: "largest load",
         })?;
-        self.judge(&mut limit, &slipping, &begin, Judge::GrossSlip);
         self.without_bristles(&mut limit, &begin, Judge::GrossSlip);
         Ok(limit)
     }
@@ -247,7 +260,7 @@ fn answer(drive: &Drive, limit: &Limit) -> LargestLoad {
         end: match (top.overhangs, top.is_last) {
             (true, _) => LoadEnd::Overhangs(top.pulley),
             (false, true) => LoadEnd::Slips(top.pulley),
-            (false, false) => LoadEnd::SlipsEverMore(top.pulley),
+            (false, false) => LoadEnd::GrowingSlip(top.pulley),
         },
         driver_torque: -torque(driver),
         power_out: turns.then_some(taken),

@@ -11,6 +11,7 @@ use super::super::path::{Effort, Solved};
 use super::climb::{Limit, Top, limit_accuracy};
 use super::problem::LoopProblem;
 use super::solve::Search;
+use super::stiffening::Judge;
 use super::unknowns::FLOW;
 use crate::LeastSlip;
 use crate::mechanics::root::bracketed;
@@ -31,8 +32,9 @@ const LONG: f64 = 1.1;
 const LESS: f64 = 0.9;
 
 /// The states of a curve on which the load rises, so far.
-#[derive(Default)]
 pub(super) struct Slipping {
+    /// Where the curve ends.
+    judge: Judge,
     /// The last state in which no pulley slips grossly.
     begin: Option<Solved<LoopProblem>>,
     /// The load factor of the first state behind it, in which one does.
@@ -69,19 +71,25 @@ fn slip(state: &Solved<LoopProblem>, pulley: usize) -> f64 {
 }
 
 impl Slipping {
-    /// Whether a limit is that of a curve on which a pulley has slipped grossly for long.
-    pub(super) fn is_beyond(&self, top: &Top) -> bool {
-        top.is_last && self.slips.is_some_and(|slips| top.factor > LONG * slips)
+    /// Of a curve of which nothing is known yet.
+    pub(super) fn judged(judge: Judge) -> Self {
+        Self {
+            judge,
+            begin: None,
+            slips: None,
+        }
     }
 
-    /// Whether the load has no limit point to come, as this next state shows.
-    pub(super) fn has_slowed(&mut self, here: &Solved<LoopProblem>) -> bool {
+    /// Whether the load ends where a pulley began to slip grossly, as this next state shows, a limit or not: because it has
+    /// slipped for long, or because no limit comes.
+    pub(super) fn ends(&mut self, here: &Solved<LoopProblem>, is_limit: bool) -> bool {
         if !is_slipping(here) {
             (self.begin, self.slips) = (Some(here.clone()), None);
             return false;
         }
-        self.slips.get_or_insert(here.factor());
-        slip(here, here.problem.driver) >= SLOWED
+        let slips = *self.slips.get_or_insert(here.factor());
+        let is_long = self.judge == Judge::GrossSlip && here.factor() > LONG * slips;
+        is_long || !is_limit && slip(here, here.problem.driver) >= SLOWED
     }
 }
 
@@ -106,14 +114,19 @@ impl Search<'_> {
         };
         let last = reached(slips);
         let found = bracketed(&mut reached, places, [first, last]);
-        found.map(&mut reached);
+        let is_found = found.map(&mut reached).is_some_and(f64::is_finite);
         let (_, pulley) = most(&near);
+        let within = if is_found {
+            0.0
+        } else {
+            (slips - begin.factor()).abs() / near.factor()
+        };
         let top = Top {
             factor: near.factor(),
             pulley,
             overhangs: false,
             is_last: false,
-            error: limit_accuracy(self.tolerance),
+            error: limit_accuracy(self.tolerance) + within,
         };
         Limit {
             top,
@@ -138,6 +151,7 @@ impl Search<'_> {
             state.is_some_and(|state| is_slipping(&state))
         })?;
         let slipping = Slipping {
+            judge: Judge::GrossSlip,
             begin: Some(begin.clone()),
             slips: Some(slips),
         };

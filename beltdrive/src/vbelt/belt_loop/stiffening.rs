@@ -59,7 +59,7 @@ pub(super) enum Judge {
     LimitPoint,
     /// At a limit point, or where a pulley begins to slip grossly if none comes.
     LimitPointOrSlip,
-    /// Where a pulley begins to slip grossly, if it does so for long.
+    /// Where a pulley begins to slip grossly, if it does so for long, else at a limit point.
     GrossSlip,
 }
 
@@ -101,7 +101,7 @@ impl Stiffened {
 
 impl Search<'_> {
     /// Whether curves of states are followed with the law of the drive itself.
-    fn follows_law(&self) -> bool {
+    pub(super) fn follows_law(&self) -> bool {
         !matches!(
             self.drive.law,
             FrictionLaw::Coulomb | FrictionLaw::Epp { .. }
@@ -211,27 +211,11 @@ impl Search<'_> {
 
     /// The limit of a curve that begins at a state, up to a load factor.
     fn limit_above(&mut self, begin: &Solved<LoopProblem>, to: f64, judge: Judge) -> Option<Limit> {
-        let mut slipping = Slipping::default();
+        let mut slipping = Slipping::judged(judge);
         let watched = (judge != Judge::LimitPoint).then_some(&mut slipping);
         match self.climb(begin, to, watched) {
-            Climbed::Limit(mut limit) => {
-                self.judge(&mut limit, &slipping, begin, judge);
-                Some(*limit)
-            }
+            Climbed::Limit(limit) => Some(*limit),
             _ => None,
-        }
-    }
-
-    /// Where a curve that began at `from` and slips grossly for long ends.
-    pub(super) fn judge(
-        &mut self,
-        limit: &mut Limit,
-        slipping: &Slipping,
-        from: &Solved<LoopProblem>,
-        judge: Judge,
-    ) {
-        if judge == Judge::GrossSlip && slipping.is_beyond(&limit.top) {
-            *limit = self.gross_slip(slipping, from);
         }
     }
 }

@@ -69,6 +69,12 @@ impl Nodes {
         self.nodes.last().map_or(0.0, |node| node.load.speed)
     }
 
+    /// The largest error of the limits themselves.
+    pub(super) fn own_error(&self) -> f64 {
+        let errors = self.nodes.iter().map(|node| node.load.error);
+        errors.fold(0.0, f64::max)
+    }
+
     /// The largest error of the polynomials.
     pub(super) fn error(&self) -> f64 {
         self.runs.iter().map(|run| run.error).fold(0.0, f64::max)
