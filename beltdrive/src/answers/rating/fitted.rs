@@ -69,7 +69,7 @@ pub(super) fn rating(
         solved: Vec::new(),
         missing: Vec::new(),
     };
-    fit.first()?;
+    fit.first(stated)?;
     for _ in 0..ROUNDS {
         let nodes = fit.nodes();
         let asked = std::iter::once(fit.optimum(&nodes)?).chain(nodes.changes());
@@ -180,30 +180,42 @@ impl Fit<'_> {
         (ceiling - last > NEAR * ceiling).then(|| f64::midpoint(last, ceiling))
     }
 
-    /// The limits at Chebyshev's places in the square of the speed, from the middle one to both ends.
-    fn first(&mut self) -> Result<(), SolveError> {
+    /// The first speeds, in ascending order: Chebyshev's places in the square of the speed, and that of the drive file,
+    /// alone where it is near one of them.
+    fn places(&self, stated: f64) -> Vec<f64> {
         let [low, high] = self.range.map(|speed| speed * speed);
-        let high = match self.lifts_off {
-            true => high * NEAREST,
-            false => high,
-        };
-        let place = |index: usize| {
+        let nearest = if self.lifts_off { NEAREST } else { 1.0 };
+        let places = (0..FIRST).map(|index| {
             let angle = PI * (index as f64 + 0.5) / FIRST as f64;
-            (f64::midpoint(low, high) - 0.5 * (high - low) * angle.cos()).sqrt()
-        };
-        let middle = FIRST / 2;
-        let first = self.limit(place(middle), None, &self.nodes());
+            let high = high * nearest;
+            f64::midpoint(low, high) - 0.5 * (high - low) * angle.cos()
+        });
+        let probed = PROBED
+            .iter()
+            .filter(|_| self.lifts_off)
+            .map(|share| share * high);
+        let mut speeds: Vec<f64> = places.chain(probed).map(f64::sqrt).collect();
+        let [from, to] = self.range;
+        if (from..to).contains(&stated) {
+            speeds.retain(|speed| (speed - stated).abs() > SAME * (to - from));
+            speeds.push(stated);
+        }
+        speeds.sort_by(f64::total_cmp);
+        speeds
+    }
+
+    /// The limits at the first speeds, from a middle one to both ends.
+    fn first(&mut self, stated: f64) -> Result<(), SolveError> {
+        let speeds = self.places(stated);
+        let (below, above) = speeds.split_at(speeds.len() / 2);
+        let first = self.limit(above[0], None, &self.nodes());
         let begin = first.as_ref().ok();
         let both = each(2, |side| {
             let mut line: Vec<Solved> = begin.cloned().into_iter().collect();
-            let steps = 1..=middle;
-            let mut speeds: Vec<f64> = match side {
-                0 => steps.map(|step| place(middle - step)).collect(),
-                _ => steps.map(|step| place(middle + step)).collect(),
+            let speeds: Vec<f64> = match side {
+                0 => below.iter().rev().copied().collect(),
+                _ => above[1..].to_vec(),
             };
-            if side == 1 && self.lifts_off {
-                speeds.extend(PROBED.map(|share| share.sqrt() * self.range[1]));
-            }
             let found = speeds.into_iter().map(|speed| {
                 let nodes = Nodes::new(line.iter().map(|(node, _)| node.clone()));
                 let next = self.limit(speed, line.last(), &nodes);
