@@ -47,6 +47,11 @@ fn to(speed: f64) -> RatingQuestion {
 
 /// Whether the rated drive has a steady state at a speed with a factor on its torques.
 fn runs(rating: &Rating, speed: f64, factor: f64) -> bool {
+    solve_to(&loaded(rating, speed, factor), &OPTIONS).is_ok()
+}
+
+/// The rated drive at a speed with a factor on its torques.
+fn loaded(rating: &Rating, speed: f64, factor: f64) -> Drive {
     let mut drive = rating.drive.clone();
     for pulley in &mut drive.pulleys {
         match &mut pulley.duty {
@@ -55,7 +60,7 @@ fn runs(rating: &Rating, speed: f64, factor: f64) -> bool {
             Duty::Power(_) | Duty::Driven => panic!("a rated drive has torques"),
         }
     }
-    solve_to(&drive, &OPTIONS).is_ok()
+    drive
 }
 
 /// Asserts that there is a state just below a load and none just above it.
@@ -320,6 +325,31 @@ fn a_v_belt_runs_up_to_the_rated_load_and_not_beyond() {
     };
     assert!((1080.0..1180.0).contains(&speed), "{speed}");
     assert_eq!(found.points.last().unwrap().speed, speed);
+}
+
+/// A soft belt that sinks ever deeper has a limit point at ten times its load, and slips by an eighth on the way there.
+#[test]
+fn a_v_belt_that_slips_grossly_long_before_its_last_state_is_rated_at_gross_slip() {
+    let found = of_example("cvt-variator", &[]);
+    assert!(matches!(found.end, RatingEnd::LiftsOff { .. }));
+    for load in [&found.optimum, found.stated.as_ref().unwrap()] {
+        let LoadEnd::GrowingSlip(pulley) = load.end else {
+            panic!("{load:?}");
+        };
+        assert_eq!(found.drive.pulleys[pulley].name, "driven");
+        let slip = |factor: f64| {
+            let state = solve_to(&loaded(&found, load.speed, factor), &OPTIONS).unwrap();
+            let groove = state.pulleys[pulley].groove.as_ref().unwrap();
+            groove.least_slip.slip
+        };
+        let [below, above] = [1.0 - 1e-5, 1.0 + 1e-5].map(|share| slip(share * load.factor));
+        assert!(below < 0.05 && 0.05 < above, "{below} {above}");
+        assert!(slip(1.1 * load.factor) > above);
+    }
+    // Up to where the reason changes, near lift-off; the load falls by a tenth there.
+    let known = &found.points[..=54];
+    assert!(known.iter().all(|point| point.error < 1e-3));
+    assert!(found.error < 0.15, "{}", found.error);
 }
 
 #[test]

@@ -2,8 +2,10 @@
 //!
 //! A driver that slips grossly lets the belt run slower. Centrifugal force falls with it, and the belt presses more. Where
 //! centrifugal force takes up much of the tension, states under ever more load follow each other until the belt
-//! stands still, up to the limit of a drive that does not run. What the drive carries then ends where a pulley begins
-//! to slip grossly, which is a matter of definition; elsewhere it ends at a limit point, to which friction leads.
+//! stands still, up to the limit of a drive that does not run. So they do where a soft belt sinks ever deeper into its
+//! grooves: that of `cvt-variator` slips by an eighth on the way to ten times its load. What the drive carries then ends where
+//! a pulley begins to slip grossly, which is a matter of definition; elsewhere it ends at a limit point, to which friction
+//! leads.
 
 use super::super::belt_problem::BeltProblem;
 use super::super::groove::TENSION;
