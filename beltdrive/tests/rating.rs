@@ -6,7 +6,8 @@ use beltdrive::quantity::{UnitSystem, rating::answer};
 use beltdrive::report::{csv, json, table};
 use beltdrive::{
     Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, LoadEnd, NormalForce, Pulley, RatedLoad,
-    Rating, RatingEnd, RatingQuestion, Sense, SolveError, SolveOptions, examples, rating,
+    Rating, RatingEnd, RatingQuestion, Sense, SlipMargin, SolveError, SolveOptions, check,
+    examples, rating,
 };
 use std::f64::consts::PI;
 use std::process::{Command, Output};
@@ -327,6 +328,72 @@ fn a_v_belt_runs_up_to_the_rated_load_and_not_beyond() {
     assert_eq!(found.points.last().unwrap().speed, speed);
 }
 
+/// Asserts that a pulley slips by 5 % under a load, and by more under more.
+fn assert_slip_grows(rating: &Rating, load: &RatedLoad, pulley: usize) {
+    let slip = |factor: f64| {
+        let state = solve_to(&loaded(rating, load.speed, factor), &OPTIONS).unwrap();
+        let groove = state.pulleys[pulley].groove.as_ref().unwrap();
+        groove.least_slip.slip
+    };
+    let [below, above] = [1.0 - 1e-5, 1.0 + 1e-5].map(|share| slip(share * load.factor));
+    assert!(below < 0.05 && 0.05 < above, "{below} {above}");
+    assert!(slip(1.05 * load.factor) > above);
+}
+
+/// Three grooves whose driver slips first at every speed, and then slows the belt down: no load is the largest.
+const THREE_GROOVES: &str = r#"
+[belt]
+type="v"
+mass_per_length="0.274 kg/m"
+axial_stiffness="139.9 kN"
+radial_stiffness="21.17 N/mm^2"
+[groove]
+half_angle="16.25 deg"
+[friction]
+law="bristle"
+coefficient=0.239
+bristle_stiffness="2000 1/m"
+[[pulley]]
+name="driver"
+centre=["0.0 mm","0.0 mm"]
+radius="50.7 mm"
+speed="1500 rpm"
+[[pulley]]
+name="a"
+centre=["370.7 mm","-12.6 mm"]
+radius="67.2 mm"
+torque="4.77 N*m"
+[[pulley]]
+name="b"
+centre=["115.6 mm","205.8 mm"]
+radius="73.2 mm"
+torque="11.55 N*m"
+[layout]
+sense="counter-clockwise"
+[load]
+setup_tension="681 N"
+"#;
+
+#[test]
+fn a_driver_that_slips_ever_more_at_every_speed_is_rated_at_gross_slip() {
+    let file = DriveFile::read("three grooves", THREE_GROOVES, &[]).unwrap();
+    let drive = file.drive().unwrap();
+    let found = rated(&drive, RatingQuestion::default()).unwrap();
+    assert!(matches!(found.end, RatingEnd::LiftsOff { .. }));
+    assert!(found.error < 1e-2, "{}", found.error);
+    for load in [&found.optimum, found.stated.as_ref().unwrap()] {
+        assert!(matches!(load.end, LoadEnd::GrowingSlip(0)), "{load:?}");
+        assert_slip_grows(&found, load, 0);
+    }
+    // The margin of `check` is found from another state, and to another mesh.
+    let checked = check(&file.service().unwrap(), &OPTIONS, &mut |_, _| {}).unwrap();
+    let SlipMargin::Factor(margin) = checked.cases[0].outcome.as_ref().unwrap().slip_margin else {
+        panic!("there is a margin");
+    };
+    let ratio = margin.value / found.stated.as_ref().unwrap().factor;
+    assert!((ratio - 1.0).abs() < 2e-6, "{ratio}");
+}
+
 /// A soft belt that sinks ever deeper has a limit point at ten times its load, and slips by an eighth on the way there.
 #[test]
 fn a_v_belt_that_slips_grossly_long_before_its_last_state_is_rated_at_gross_slip() {
@@ -337,14 +404,7 @@ fn a_v_belt_that_slips_grossly_long_before_its_last_state_is_rated_at_gross_slip
             panic!("{load:?}");
         };
         assert_eq!(found.drive.pulleys[pulley].name, "driven");
-        let slip = |factor: f64| {
-            let state = solve_to(&loaded(&found, load.speed, factor), &OPTIONS).unwrap();
-            let groove = state.pulleys[pulley].groove.as_ref().unwrap();
-            groove.least_slip.slip
-        };
-        let [below, above] = [1.0 - 1e-5, 1.0 + 1e-5].map(|share| slip(share * load.factor));
-        assert!(below < 0.05 && 0.05 < above, "{below} {above}");
-        assert!(slip(1.1 * load.factor) > above);
+        assert_slip_grows(&found, load, pulley);
     }
     // Up to where the reason changes, near lift-off; the load falls by a tenth there.
     let known = &found.points[..=54];
