@@ -464,7 +464,8 @@ pub(super) fn extend(zones: &mut Vec<Zone>, kind: ZoneKind, from: f64, to: f64) 
 }
 
 /// The smallest slip: that of the parabola through the squares of the smallest sample and of its neighbours, if there is one on
-/// both sides, and their slips are no more than twice as large. The load at which a pulley slips grossly, found with the samples
+/// both sides, and their slips are no more than twice as large. Far below gross slip it is the sample, whose error is estimated
+/// from that of the state. The load at which a pulley slips grossly, found with the samples
 /// alone, changed by 1e-5 with the mesh.
 fn smallest(samples: &[Slip]) -> f64 {
     let order = |one: &&Slip, other: &&Slip| one.slip.total_cmp(&other.slip);
@@ -476,7 +477,8 @@ fn smallest(samples: &[Slip]) -> f64 {
     let (Some(behind), Some(before)) = (behind, before) else {
         return lowest.slip;
     };
-    if behind.slip.max(before.slip) > 2.0 * lowest.slip {
+    let largest = behind.slip.max(before.slip);
+    if lowest.slip < 0.2 * LeastSlip::GROSS || largest > 2.0 * lowest.slip {
         return lowest.slip;
     }
     let square = lowest.slip * lowest.slip;
