@@ -463,10 +463,16 @@ pub(super) fn extend(zones: &mut Vec<Zone>, kind: ZoneKind, from: f64, to: f64) 
     }
 }
 
-/// The smallest slip: that of the parabola through the squares of the smallest sample and of its neighbours, if there is one on
-/// both sides, and their slips are no more than twice as large. Far below gross slip it is the sample, whose error is estimated
-/// from that of the state. The load at which a pulley slips grossly, found with the samples
-/// alone, changed by 1e-5 with the mesh.
+/// The slip from which on its smallest value is sought between samples: well below gross slip, at which a load is located. The
+/// error of a smaller one is estimated from two states, of which the parabola may be that of one alone.
+const SOUGHT: f64 = 0.2 * LeastSlip::GROSS;
+
+/// How many times as large the samples beside the smallest may be: the slip between them is no parabola beyond.
+const BESIDE: f64 = 2.0;
+
+/// The smallest slip: that of the parabola through the squares of the smallest sample and of its neighbours, if it is that large
+/// and resolved, else the sample. The load at which a pulley slips grossly, found with the samples alone, changed by 1e-5 with
+/// the mesh.
 fn smallest(samples: &[Slip]) -> f64 {
     let order = |one: &&Slip, other: &&Slip| one.slip.total_cmp(&other.slip);
     let Some(lowest) = samples.iter().min_by(order) else {
@@ -477,8 +483,7 @@ fn smallest(samples: &[Slip]) -> f64 {
     let (Some(behind), Some(before)) = (behind, before) else {
         return lowest.slip;
     };
-    let largest = behind.slip.max(before.slip);
-    if lowest.slip < 0.2 * LeastSlip::GROSS || largest > 2.0 * lowest.slip {
+    if lowest.slip < SOUGHT || behind.slip.max(before.slip) > BESIDE * lowest.slip {
         return lowest.slip;
     }
     let square = lowest.slip * lowest.slip;

@@ -137,7 +137,7 @@ impl Fit<'_> {
         });
         if let Ok(mut done) = self.done.lock() {
             done.0 += 1.0;
-            // Usually there are two speeds more, the optimum, and that of the drive file.
+            // Usually there are two speeds near lift-off, that of the drive file, the optimum and one more.
             let share = done.0 / (FIRST as f64 + 5.0);
             (done.1)(share.min(1.0), "speeds");
         }
@@ -164,9 +164,9 @@ impl Fit<'_> {
     fn ceiling(&self) -> Option<f64> {
         let mut loads: Vec<&RatedLoad> = self.solved.iter().map(|(node, _)| &node.load).collect();
         loads.sort_by(|one, other| one.speed.total_cmp(&other.speed));
-        let of_driver = loads
-            .iter()
-            .position(|load| self.speeds.is_of_driver(&load.end))?;
+        let driver = Some(self.speeds.drive.driver());
+        let slows = |load: &&RatedLoad| load.end.is_growing() && load.end.pulley() == driver;
+        let of_driver = loads.iter().position(slows)?;
         let lower = loads[..=of_driver].iter().rev();
         let growing = lower.take_while(|load| load.end.is_growing());
         let lowest = growing.last().map(|load| load.speed);
@@ -182,10 +182,10 @@ impl Fit<'_> {
 
     /// The first speeds, in ascending order: Chebyshev's places in the square of the speed, and that of the drive file,
     /// alone where it is near one of them.
-    fn places(&self, stated: f64) -> Vec<f64> {
+    fn first_speeds(&self, stated: f64) -> Vec<f64> {
         let [low, high] = self.range.map(|speed| speed * speed);
         let nearest = if self.lifts_off { NEAREST } else { 1.0 };
-        let places = (0..FIRST).map(|index| {
+        let chebyshev = (0..FIRST).map(|index| {
             let angle = PI * (index as f64 + 0.5) / FIRST as f64;
             let high = high * nearest;
             f64::midpoint(low, high) - 0.5 * (high - low) * angle.cos()
@@ -194,7 +194,7 @@ impl Fit<'_> {
             .iter()
             .filter(|_| self.lifts_off)
             .map(|share| share * high);
-        let mut speeds: Vec<f64> = places.chain(probed).map(f64::sqrt).collect();
+        let mut speeds: Vec<f64> = chebyshev.chain(probed).map(f64::sqrt).collect();
         let [from, to] = self.range;
         if (from..to).contains(&stated) {
             speeds.retain(|speed| (speed - stated).abs() > SAME * (to - from));
@@ -206,7 +206,7 @@ impl Fit<'_> {
 
     /// The limits at the first speeds, from a middle one to both ends.
     fn first(&mut self, stated: f64) -> Result<(), SolveError> {
-        let speeds = self.places(stated);
+        let speeds = self.first_speeds(stated);
         let (below, above) = speeds.split_at(speeds.len() / 2);
         let first = self.limit(above[0], None, &self.nodes());
         let begin = first.as_ref().ok();

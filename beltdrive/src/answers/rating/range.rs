@@ -3,7 +3,7 @@
 use super::{RatedLoad, RatingQuestion};
 use crate::mechanics::root::bracketed;
 use crate::model::{NearLargest, model};
-use crate::results::largest_load::{LargestLoad, LoadEnd};
+use crate::results::largest_load::LargestLoad;
 use crate::{
     BeltKind, Drive, Duty, FrictionLaw, NormalForce, Side, SolveError, SolveOptions, flat,
 };
@@ -110,11 +110,6 @@ impl<'d> Speeds<'d> {
         let model = model(flat.belt.kind);
         let (found, _) = model.largest_load(&flat, None, 1.0, self.options)?;
         Ok(found.factor)
-    }
-
-    /// Whether a load ends where the driver slips, and more under more load.
-    pub(super) fn is_of_driver(&self, end: &LoadEnd) -> bool {
-        matches!(end, LoadEnd::GrowingSlip(pulley) if *pulley == self.drive.driver())
     }
 
     /// The largest load at a speed, expected to be about a factor on that of the drive, and what others are found from.

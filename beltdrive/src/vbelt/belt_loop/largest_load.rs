@@ -30,7 +30,7 @@ const SHARES: [f64; 4] = [0.25, 0.05, 0.01, 1e-3];
 /// finds the state beyond it.
 pub(super) const BELOW: f64 = 0.97;
 
-/// Parts of that share which are tried in turn at another speed. With EPP friction the largest load falls faster than the
+/// Parts of that share which are tried in turn at another speed, and of a load from which the direction of friction is found. With EPP friction the largest load falls faster than the
 /// tension: by the first alone, three of the six first speeds of `kim2009-epp` were begun from nothing, which took 14 s
 /// of 21 s.
 const LOWER: [f64; 3] = [1.0, 0.8, 0.5];
@@ -200,6 +200,9 @@ impl Search<'_> {
 
     /// The largest load with Coulomb or EPP friction whose direction is a state, from a state with bristles.
     fn directed_limit(&mut self, bristles: &Solved<LoopProblem>, expected: f64) -> Option<Limit> {
+        if self.follows_law() {
+            return None;
+        }
         let mut shares = LOWER.into_iter();
         let directed = shares.find_map(|share| self.directed(bristles, share))?;
         self.limit(&directed, expected).ok()
@@ -207,9 +210,6 @@ impl Search<'_> {
 
     /// A share of the load of a state with bristles, with Coulomb or EPP friction whose direction is a state.
     fn directed(&mut self, from: &Solved<LoopProblem>, share: f64) -> Option<Solved<LoopProblem>> {
-        if self.follows_law() {
-            return None;
-        }
         let lower = match share {
             1.0 => from.clone(),
             _ => self.at_factor(from, share * from.factor(), Effort::Rough)?,

@@ -45,7 +45,8 @@ const HIGHER: usize = 3;
 const FAR: f64 = 2.0;
 
 /// Multiples of the load at which a pulley begins to slip grossly, at one of which it does with stiffer bristles too. On
-/// the long way to where no limit point can come any more, the rating of `cvt-variator` takes three times as long.
+/// the long way to where no limit point can come any more, the rating of `cvt-variator` took three times as long when it was
+/// found with bristles.
 const AHEAD: [f64; 3] = [1.02, 1.1, 1.3];
 
 /// Each difference of three values is a tenth of the one before where 1/κ is the next term, and no more than this share of
