@@ -107,7 +107,9 @@ impl Search<'_> {
         let (places, first) = ([begin.factor(), slips], excess(&begin));
         let mut near = begin.clone();
         // Slip at a load changes with the error of a state in first order: by 2e-5 of the load where that is rough.
-        let mut reached = |to: f64| match self.at_factor(&near, to, Effort::Full) {
+        let accuracy = limit_accuracy(self.tolerance);
+        let mut accurate = Self::new(self.drive, accuracy);
+        let mut reached = |to: f64| match accurate.at_factor(&near, to, Effort::Full) {
             Some(state) => {
                 near = state;
                 excess(&near)
@@ -128,7 +130,7 @@ impl Search<'_> {
             pulley,
             overhangs: false,
             is_last: false,
-            error: limit_accuracy(self.tolerance) + within,
+            error: accuracy + within,
         };
         Limit {
             top,
