@@ -59,9 +59,11 @@ fn losses_add_up_to_power_in_less_power_out() {
     let flat = flat.iter().flat_map(|overrides| {
         ["serpentine", "conveyor", "crossed"].map(|example| (example, *overrides))
     });
-    let v = v.iter().map(|overrides| ("v-power", *overrides));
+    let v = v
+        .iter()
+        .flat_map(|overrides| ["v-power", "cvt-variator"].map(|example| (example, *overrides)));
     for (example, overrides) in flat.chain(v) {
-        let found = checked(example, overrides, 1e-9);
+        let found = checked(example, overrides, 1e-6);
         for case in &found.cases {
             let case = case.outcome.as_ref().unwrap();
             let (losses, power) = (case.losses, case.state.power_in);
