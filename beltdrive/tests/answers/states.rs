@@ -1,6 +1,7 @@
 //! The keys and columns of steady states.
 
 use super::*;
+use beltdrive::{Solved, belt_loop, solve_any};
 
 #[test]
 fn json_of_a_state_has_its_keys() {
@@ -127,4 +128,34 @@ fn csv_of_a_state_has_a_row_for_each_point() {
         pulley.profile = beltdrive::Profile::default();
     }
     assert_eq!(csv(&of_state(&blank)).lines().count(), 1);
+}
+
+/// Between 50 and 60 N·m near lift-off the tensions of the spans belong to two states, of which one has the length of the
+/// belt. What is told is that one: its powers and speeds agree.
+#[test]
+fn a_state_that_two_tensions_do_not_tell_is_that_of_the_loop() {
+    for torque in [45.0, 50.0, 52.0, 54.0, 56.0, 60.0] {
+        let torque = format!("load.torque={torque} N*m");
+        let overrides = ["pulleys.driver.speed=11000 rpm", "load.power=", &torque];
+        let example = examples::find("v-power").unwrap();
+        let overrides = overrides.map(str::to_owned);
+        let file = input::DriveFile::read(example.name, example.text, &overrides).unwrap();
+        let drive = file.drive().unwrap();
+        let (efficiency, speed) = match solve_any(&drive, &SolveOptions::default()).unwrap() {
+            Solved::Drive { state, .. } => (state.efficiency, state.driven.angular_speed),
+            Solved::Loop { state, .. } => {
+                (state.efficiency.unwrap(), state.pulleys[1].angular_speed)
+            }
+        };
+        let state = belt_loop::solve(&drive).unwrap();
+        for (found, known) in [
+            (efficiency, state.efficiency.unwrap()),
+            (speed, state.pulleys[1].angular_speed),
+        ] {
+            assert!(
+                (found / known - 1.0).abs() < 1e-5,
+                "{torque}: {found} {known}"
+            );
+        }
+    }
 }
