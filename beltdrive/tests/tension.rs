@@ -301,6 +301,66 @@ fn what_ends_below_the_answer_is_said() {
 }
 
 /// Runs the program on a text from standard input.
+/// A V-belt between fixed centres runs with less tension at rest than centrifugal force takes up of it: at rest it lies
+/// deeper. The lightly loaded one needs hardly more than that at which it lifts off.
+#[test]
+fn a_light_load_needs_the_tension_that_does_not_lift_off() {
+    let set = |load: &str| {
+        let speed = "pulleys.driver.speed=4500 rpm";
+        let overrides = [speed, "load.power=", load, "load.belt_length="];
+        let overrides = overrides.map(str::to_owned);
+        let closed = ["load.setup_tension=300 N".to_owned()];
+        set_up(
+            &service("v-power", &[&overrides[..], &closed].concat()),
+            asked(1.5),
+        )
+    };
+    let found = set("load.torque=0.01 N*m").unwrap();
+    assert!(matches!(
+        found.ends_below,
+        Some(SolveError::LiftsOff { .. })
+    ));
+    let drive = &found.checked.service.cases[0].drive;
+    let rim = drive.pulleys[0].radius * 4500.0 * PI / 30.0;
+    let centrifugal = drive.belt.mass_per_length * rim * rim;
+    let Set::Tension(tension) = found.setting else {
+        panic!("{:?}", found.setting)
+    };
+    println!("{tension} N of {centrifugal} N");
+    assert!(tension < 0.9 * centrifugal, "{tension} {centrifugal}");
+    let with = |share: f64| {
+        let mut drive = drive.clone();
+        drive.closure = Closure::SetupTension(share * tension);
+        beltdrive::belt_loop::solve(&drive)
+    };
+    assert!(with(1.0).is_ok());
+    assert!(matches!(with(1.0 - 3e-4), Err(SolveError::LiftsOff { .. })));
+}
+
+/// Where a first tension would press the belt through its grooves it is sought from a lower one. The margin of this soft belt
+/// jumps from 0.8 to 1.7, and with less friction no tension is enough.
+#[test]
+fn a_start_that_presses_the_belt_through_its_grooves_is_lowered() {
+    let soft = "belt.radial_stiffness=1.7 N/mm^2".to_owned();
+    let found = set_up(&service("v-power", &[soft]), asked(1.2)).unwrap();
+    let shown = table(&answer(&found), UnitSystem::Engineering);
+    for text in [
+        "with less tension it slips below 1.2 times the load",
+        "pressed through groove",
+    ] {
+        assert!(shown.contains(text), "{shown}");
+    }
+    let drive = &found.checked.service.cases[0].drive;
+    let margin = |share: f64| {
+        let mut drive = drive.clone();
+        drive.closure = Closure::SetupTension(share * found.tension);
+        let state = beltdrive::belt_loop::solve_with_margins(&drive, &SolveOptions::default());
+        state.map(|state| state.load_limit.unwrap().factor)
+    };
+    assert!(margin(1.0).unwrap() > 1.6);
+    assert!(margin(1.0 - 1e-5).map_or(true, |margin| margin < 1.0));
+}
+
 fn run(arguments: &[&str], text: &str) -> Output {
     use std::io::Write;
     let mut program = Command::new(env!("CARGO_BIN_EXE_beltdrive"))

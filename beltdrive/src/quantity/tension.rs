@@ -9,6 +9,9 @@ use super::{belt_loop, warning};
 use crate::belt_loop::LoopState;
 use crate::{CaseState, Drive, Set, Setup};
 
+/// A margin that is larger than the asked one by more than this share has not been met by more tension: it jumps there.
+const JUMPS: f64 = 1e-4;
+
 /// A load case of a drive that is set up: its name, the drive and its state.
 type Case<'s> = (&'s str, &'s Drive, &'s CaseState);
 
@@ -77,16 +80,24 @@ fn decided(found: &Setup, drive: &Drive) -> String {
         format!("pulley `{}`", drive.pulleys[pulley].name)
     });
     let asked = six_digits(found.question.slip_margin);
+    let margin = deciding(found).and_then(slips_at);
+    if margin.is_some_and(|margin| margin.value > found.question.slip_margin * (1.0 + JUMPS)) {
+        return format!(
+            "{pulley} decides{of_case}: with less tension it slips below {asked} times the load"
+        );
+    }
     format!("{pulley} decides{of_case}: it slips at {asked} times the load")
+}
+
+/// The case that decides.
+fn deciding(found: &Setup) -> Option<&CaseState> {
+    let outcome = &found.checked.cases[found.deciding_case].outcome;
+    outcome.as_deref().ok()
 }
 
 /// The pulley that slips first in the case that decides.
 fn slips_first(found: &Setup) -> Option<usize> {
-    let state = found.checked.cases[found.deciding_case]
-        .outcome
-        .as_ref()
-        .ok()?;
-    Some(slips_at(state)?.pulley)
+    Some(slips_at(deciding(found)?)?.pulley)
 }
 
 /// A tension of the belt at rest and its share of a rib.

@@ -2,7 +2,8 @@
 
 use super::setting::Setting;
 use crate::answers::check::{SlipMargin, slip_margin};
-use crate::{Drive, SolveError, SolveOptions};
+use crate::model::model;
+use crate::{Closure, Drive, SolveError, SolveOptions};
 
 /// Most states of one search: a bracket of any width that is halved ends below rounding within these.
 const STATES: usize = 100;
@@ -12,6 +13,13 @@ const LARGEST_STEP: f64 = 8.0;
 
 /// Step where nothing is known but its direction, as a factor.
 const STEP: f64 = 2.0;
+
+/// So many places at which the margin is not found are left in a row, each for the middle between it and the last one.
+const MISSED: usize = 4;
+
+/// A belt whose tension is above that at which it lifts off by no more than this share is about to lift off: nearer, by
+/// 1e-5, states of two random loops were not found.
+const NEAREST: f64 = 1e-4;
 
 /// What a search for a margin is made of.
 #[derive(Clone, Copy)]
@@ -75,7 +83,7 @@ impl Search<'_> {
     /// in its load cases.
     pub(super) fn of_all(&self, drives: &[Drive], start: f64) -> Result<Found, SolveError> {
         let mut found: Option<Found> = None;
-        let mut value = start;
+        let mut value = self.borne(drives, start);
         let mut margin_at_start = None;
         loop {
             let mut worst = (f64::INFINITY, 0);
@@ -107,6 +115,19 @@ impl Search<'_> {
         }
     }
 
+    /// A value no higher than a first one with which the grooves bear the belt at rest, if there is one.
+    fn borne(&self, drives: &[Drive], start: f64) -> f64 {
+        let is_borne = |value: &f64| {
+            drives.iter().all(|drive| {
+                let drive = self.setting.applied(drive, *value);
+                let at_rest = model(drive.belt.kind).at_rest(&drive, self.options);
+                !matches!(at_rest, Err(SolveError::PressedThrough { .. }))
+            })
+        };
+        let mut lower = (0..STATES as i32).map(|times| start * STEP.powi(-times));
+        lower.find(is_borne).unwrap_or(start)
+    }
+
     /// The logarithm of the margin over the asked one, and why there is no state if the belt is too slack.
     fn excess(&self, drive: &Drive, value: f64) -> Result<(f64, Option<SolveError>), SolveError> {
         let judged = judge(&self.setting.applied(drive, value), self.options)?;
@@ -117,12 +138,46 @@ impl Search<'_> {
         })
     }
 
-    /// The tension that centrifugal force takes up; what is varied counts from there.
-    fn taken_up(&self, drive: &Drive) -> f64 {
-        match self.setting {
-            Setting::SetupTension => drive.belt.mass_per_length * drive.rim_speed().powi(2),
-            Setting::Preload { .. } => 0.0,
+    /// The value at which a belt between fixed centres lifts off without load; what is varied counts from there. A belt
+    /// that lifts off lies on its pitch line with a tractive tension of zero, at rest one of its length sinks into its
+    /// grooves:
+    ///
+    /// ```text
+    /// EA ε = m v²/(1 + ε)          L = L_pitch/(1 + ε)
+    /// ```
+    fn lifts_off(&self, drive: &Drive) -> f64 {
+        if self.setting != Setting::SetupTension || drive.tensioner().is_some() {
+            return 0.0;
         }
+        let belt = &drive.belt;
+        let centrifugal = belt.mass_per_length * drive.rim_speed().powi(2);
+        let strain = 0.5 * ((1.0 + 4.0 * centrifugal / belt.axial_stiffness).sqrt() - 1.0);
+        let layout = drive.layout(drive.start_coordinate());
+        let at_rest = layout.ok().and_then(|layout| {
+            let mut drive = drive.clone();
+            drive.closure = Closure::UnstretchedLength(layout.length() / (1.0 + strain));
+            model(belt.kind).at_rest(&drive, self.options).ok()
+        });
+        at_rest.map_or(0.0, |rest| rest.tension)
+    }
+
+    /// The excess at the last of two places or, where it is not found there, at one nearer to the first, and that place.
+    fn near(
+        &self,
+        drive: &Drive,
+        [from, asked]: [f64; 2],
+        value_of: impl Fn(f64) -> f64,
+    ) -> Result<(f64, (f64, Option<SolveError>)), SolveError> {
+        let mut place = asked;
+        let mut found = self.excess(drive, value_of(place));
+        for _ in 0..MISSED {
+            if found.is_ok() {
+                break;
+            }
+            place = f64::midpoint(place, from);
+            found = self.excess(drive, value_of(place));
+        }
+        found.map(|found| (place, found))
     }
 
     /// The smallest value with which one drive has the margin, from a value and the excess there.
@@ -132,29 +187,34 @@ impl Search<'_> {
         case: usize,
         (start, at_start): (f64, f64),
     ) -> Result<Found, SolveError> {
-        let taken_up = self.taken_up(drive);
-        let value_of = |place: f64| taken_up + place.exp();
+        let lifts_off = self.lifts_off(drive);
+        let value_of = |place: f64| lifts_off + place.exp();
         let aim = 0.5 * self.accuracy;
-        let mut here: End = ((start - taken_up).ln(), at_start);
-        // A start below what centrifugal force takes up is none.
+        let found = |place, ends_below| Found {
+            value: value_of(place),
+            case,
+            margin_at_start: None,
+            ends_below,
+        };
+        let mut here: End = ((start - lifts_off).ln(), at_start);
+        // A start below lift-off is none.
         if !here.0.is_finite() {
             here = (start.ln(), f64::NAN);
         }
         if here.1.is_nan() {
             here.1 = self.excess(drive, value_of(here.0))?.0;
         }
+        let lowest = (NEAREST * lifts_off).ln();
         let (mut low, mut high): (Option<End>, Option<End>) = (None, None);
         let (mut before, mut ends_below): (Option<End>, _) = (None, None);
         for _ in 0..STATES {
             let (place, excess) = here;
             if (0.0..=self.accuracy).contains(&excess) {
-                let value = value_of(place);
-                return Ok(Found {
-                    value,
-                    case,
-                    margin_at_start: None,
-                    ends_below: None,
-                });
+                return Ok(found(place, None));
+            }
+            if excess > 0.0 && place <= lowest {
+                let (_, below) = self.excess(drive, (1.0 - NEAREST) * lifts_off)?;
+                return Ok(found(place, below));
             }
             if excess < 0.0 {
                 low = Some(here);
@@ -164,16 +224,11 @@ impl Search<'_> {
             if let (Some(low), Some(high)) = (low, high)
                 && high.0 - low.0 <= aim
             {
-                return Ok(Found {
-                    value: value_of(high.0),
-                    case,
-                    margin_at_start: None,
-                    ends_below,
-                });
+                return Ok(found(high.0, ends_below));
             }
-            let next = next(here, before, [low, high], aim);
+            let asked = next(here, before, [low, high], aim).max(lowest);
+            let (next, (excess, why)) = self.near(drive, [place, asked], value_of)?;
             before = Some(here);
-            let (excess, why) = self.excess(drive, value_of(next))?;
             ends_below = why.or(ends_below.filter(|_| excess >= 0.0));
             here = (next, excess);
         }

@@ -3,17 +3,18 @@
 use crate::quantity::{Measure, Quantity, Subject};
 use crate::{OtherFriction, Setup, SolveError};
 
-/// A tension of a band, or why there is none.
+/// A tension of a band, or why there is none; a table explains that if one of the tensions beside it has to be.
 fn of_band(
     accuracy: f64,
     [key, error_key]: [&'static str; 2],
     label: &'static str,
     tension: &Result<f64, SolveError>,
+    is_explained: bool,
 ) -> [Quantity; 2] {
     let value = tension.as_ref().ok().copied();
     let error = accuracy * value.unwrap_or(0.0).abs();
     let why = tension.as_ref().err().map(|error| error.kind().to_owned());
-    let why_label = if why.is_some() { "  because" } else { "" };
+    let why_label = if is_explained { "  because" } else { "" };
     [
         Quantity::number(key, label, Measure::Force, value, error),
         Quantity::word(error_key, why_label, why),
@@ -22,6 +23,8 @@ fn of_band(
 
 /// What friction other than stated asks for.
 pub(super) fn friction(found: &Setup) -> Vec<Subject> {
+    let mut tensions = found.other_friction.iter().map(|other| &other.tension);
+    let is_explained = tensions.any(Result::is_err);
     let column = |other: &OtherFriction| {
         let change = 100.0 * (other.factor - 1.0);
         let sign = if change < 0.0 { '−' } else { '+' };
@@ -30,6 +33,7 @@ pub(super) fn friction(found: &Setup) -> Vec<Subject> {
             ["tension", "error"],
             "belt tension at rest that is needed",
             &other.tension,
+            is_explained,
         );
         Subject::new(
             format!("friction {sign}{:.0} %", change.abs()),
@@ -70,6 +74,7 @@ pub(super) fn elongation(found: &Setup) -> Vec<Quantity> {
         ["tension", "error"],
         "belt tension at rest that it leaves",
         &elongated.tension,
+        elongated.tension.is_err(),
     ));
     quantities.push(margin(
         found,
@@ -81,6 +86,7 @@ pub(super) fn elongation(found: &Setup) -> Vec<Quantity> {
         ["tension_before", "error_before"],
         "belt tension at rest to set with it in mind",
         &elongated.tension_before,
+        elongated.tension_before.is_err(),
     ));
     quantities
 }

@@ -84,7 +84,8 @@ pub(super) fn tractive_tensions(
                 moment += span * offsets[index] + (arc + sinking) * mean;
             }
             // A belt that lifts off does not sink: its pitch line is where centrifugal force takes up all.
-            let unsunk = belt.axial_stiffness * (layout.length() - length) / length;
+            let strain = (layout.length() - length) / length;
+            let unsunk = belt.axial_stiffness * strain * (1.0 + strain);
             rest.tension * (1.0 - centrifugal / unsunk) - moment / (by_tension + by_pressure)
         }
     };
