@@ -124,8 +124,8 @@ impl Search<'_> {
                 !matches!(at_rest, Err(SolveError::PressedThrough { .. }))
             })
         };
-        let mut lower = (0..STATES as i32).map(|times| start * STEP.powi(-times));
-        lower.find(is_borne).unwrap_or(start)
+        let lower = std::iter::successors(Some(start), |value| Some(value / STEP));
+        lower.take(STATES).find(is_borne).unwrap_or(start)
     }
 
     /// The logarithm of the margin over the asked one, and why there is no state if the belt is too slack.
