@@ -213,8 +213,8 @@ impl Search<'_> {
                 return Ok(found(place, None));
             }
             if excess > 0.0 && place <= lowest {
-                let (_, below) = self.excess(drive, (1.0 - NEAREST) * lifts_off)?;
-                return Ok(found(place, below));
+                let below = self.excess(drive, (1.0 - NEAREST) * lifts_off);
+                return Ok(found(place, below.ok().and_then(|(_, why)| why)));
             }
             if excess < 0.0 {
                 low = Some(here);
