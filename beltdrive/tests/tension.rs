@@ -300,22 +300,19 @@ fn what_ends_below_the_answer_is_said() {
     assert!(with(weight * (1.0 - 1e-8)).is_err());
 }
 
-/// Runs the program on a text from standard input.
 /// A V-belt between fixed centres runs with less tension at rest than centrifugal force takes up of it: at rest it lies
 /// deeper. The lightly loaded one needs hardly more than that at which it lifts off.
 #[test]
 fn a_light_load_needs_the_tension_that_does_not_lift_off() {
-    let set = |load: &str| {
-        let speed = "pulleys.driver.speed=4500 rpm";
-        let overrides = [speed, "load.power=", load, "load.belt_length="];
-        let overrides = overrides.map(str::to_owned);
-        let closed = ["load.setup_tension=300 N".to_owned()];
-        set_up(
-            &service("v-power", &[&overrides[..], &closed].concat()),
-            asked(1.5),
-        )
-    };
-    let found = set("load.torque=0.01 N*m").unwrap();
+    let overrides = [
+        "pulleys.driver.speed=4500 rpm",
+        "load.power=",
+        "load.torque=0.01 N*m",
+        "load.belt_length=",
+        "load.setup_tension=300 N",
+    ];
+    let light = service("v-power", &overrides.map(str::to_owned));
+    let found = set_up(&light, asked(1.5)).unwrap();
     assert!(matches!(
         found.ends_below,
         Some(SolveError::LiftsOff { .. })
@@ -361,6 +358,7 @@ fn a_start_that_presses_the_belt_through_its_grooves_is_lowered() {
     assert!(margin(1.0 - 1e-5).map_or(true, |margin| margin < 1.0));
 }
 
+/// Runs the program on a text from standard input.
 fn run(arguments: &[&str], text: &str) -> Output {
     use std::io::Write;
     let mut program = Command::new(env!("CARGO_BIN_EXE_beltdrive"))

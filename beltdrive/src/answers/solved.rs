@@ -29,7 +29,7 @@ pub enum Solved {
 const SAME: f64 = 1e-4;
 
 /// The steady state of a drive with any number of pulleys and any closure. One with two pulleys, of which the second
-/// takes power, is told as such, unless its tensions belong to another state, too, and that is found in its place.
+/// takes power, is told as such, unless its tensions belong to another state, too, and that is found in its place, or none.
 ///
 /// # Errors
 /// Those of [`solve`](crate::solve) and of [`belt_loop::solve`](crate::belt_loop::solve).
@@ -41,20 +41,20 @@ pub fn solve_any(drive: &Drive, options: &SolveOptions) -> Result<Solved, SolveE
         });
     }
     let state = solve_with_margins(drive, options)?;
-    let as_two = as_drive(drive, &state).and_then(|two| drive::solve(&two, options).ok());
+    let as_two = as_drive(drive, &state)
+        .and_then(|two| drive::solve(&two, options).ok())
+        .filter(|two| is_same(two, drive, &state, options));
     let drive = drive.clone();
-    Ok(
-        match as_two.filter(|two| is_same(two, &drive, &state, options)) {
-            Some(two) => Solved::Drive {
-                state: Box::new(two),
-                as_loop: Some(Box::new((drive, state))),
-            },
-            None => Solved::Loop {
-                drive: Box::new(drive),
-                state: Box::new(state),
-            },
+    Ok(match as_two {
+        Some(two) => Solved::Drive {
+            state: Box::new(two),
+            as_loop: Some(Box::new((drive, state))),
         },
-    )
+        None => Solved::Loop {
+            drive: Box::new(drive),
+            state: Box::new(state),
+        },
+    })
 }
 
 /// Whether two pulleys turn as those of a loop do.

@@ -146,7 +146,7 @@ impl Search<'_> {
     /// EA ε = m v²/(1 + ε)          L = L_pitch/(1 + ε)
     /// ```
     fn lifts_off(&self, drive: &Drive) -> f64 {
-        if self.setting != Setting::SetupTension || drive.tensioner().is_some() {
+        if drive.tensioner().is_some() {
             return 0.0;
         }
         let belt = &drive.belt;

@@ -3,18 +3,18 @@
 use crate::quantity::{Measure, Quantity, Subject};
 use crate::{OtherFriction, Setup, SolveError};
 
-/// A tension of a band, or why there is none; a table explains that if one of the tensions beside it has to be.
+/// A tension of a band, or why there is none, which may have a line of a table.
 fn of_band(
     accuracy: f64,
     [key, error_key]: [&'static str; 2],
     label: &'static str,
     tension: &Result<f64, SolveError>,
-    is_explained: bool,
+    has_line: bool,
 ) -> [Quantity; 2] {
     let value = tension.as_ref().ok().copied();
     let error = accuracy * value.unwrap_or(0.0).abs();
     let why = tension.as_ref().err().map(|error| error.kind().to_owned());
-    let why_label = if is_explained { "  because" } else { "" };
+    let why_label = if has_line { "  because" } else { "" };
     [
         Quantity::number(key, label, Measure::Force, value, error),
         Quantity::word(error_key, why_label, why),
@@ -23,8 +23,6 @@ fn of_band(
 
 /// What friction other than stated asks for.
 pub(super) fn friction(found: &Setup) -> Vec<Subject> {
-    let mut tensions = found.other_friction.iter().map(|other| &other.tension);
-    let is_explained = tensions.any(Result::is_err);
     let column = |other: &OtherFriction| {
         let change = 100.0 * (other.factor - 1.0);
         let sign = if change < 0.0 { '−' } else { '+' };
@@ -33,7 +31,7 @@ pub(super) fn friction(found: &Setup) -> Vec<Subject> {
             ["tension", "error"],
             "belt tension at rest that is needed",
             &other.tension,
-            is_explained,
+            true,
         );
         Subject::new(
             format!("friction {sign}{:.0} %", change.abs()),

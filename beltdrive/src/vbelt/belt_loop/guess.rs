@@ -44,6 +44,15 @@ pub(super) fn groove_compliances(drive: &Drive, layout: &Layout) -> Vec<f64> {
     compliances.collect()
 }
 
+/// Tension and tractive tension of a running belt of an unstretched length that does not sink, without torques, N.
+pub(super) fn on_pitch_line(drive: &Drive, layout: &Layout, length: f64) -> [f64; 2] {
+    let (belt, rim) = (drive.belt, drive.rim_speed());
+    let strain = (layout.length() - length) / length;
+    let tension = belt.axial_stiffness * strain;
+    let flow = belt.mass_per_length * rim / (1.0 + strain);
+    [tension, tension - flow * rim]
+}
+
 /// Tractive tensions of the spans of a loop that the friction of its pulleys does not limit, N.
 pub(super) fn tractive_tensions(
     drive: &Drive,
@@ -84,9 +93,8 @@ pub(super) fn tractive_tensions(
                 moment += span * offsets[index] + (arc + sinking) * mean;
             }
             // A belt that lifts off does not sink: its pitch line is where centrifugal force takes up all.
-            let strain = (layout.length() - length) / length;
-            let unsunk = belt.axial_stiffness * strain * (1.0 + strain);
-            rest.tension * (1.0 - centrifugal / unsunk) - moment / (by_tension + by_pressure)
+            let [tension, tractive] = on_pitch_line(drive, layout, length);
+            rest.tension * tractive / tension - moment / (by_tension + by_pressure)
         }
     };
     offsets.iter().map(|offset| level + offset).collect()

@@ -31,9 +31,9 @@ const SHARES: [f64; 4] = [0.25, 0.05, 0.01, 1e-3];
 /// finds the state beyond it.
 pub(super) const BELOW: f64 = 0.97;
 
-/// Parts of that share which are tried in turn at another speed, and of a load from which the direction of friction is found. With EPP friction the largest load falls faster than the
-/// tension: by the first alone, three of the six first speeds of `kim2009-epp` were begun from nothing, which took 14 s
-/// of 21 s.
+/// Parts of that share which are tried in turn at another speed, and of a load from which the direction of friction is
+/// found. With EPP friction the largest load falls faster than the tension: by the first alone, three of the six first speeds
+/// of `kim2009-epp` were begun from nothing, which took 14 s of 21 s.
 const LOWER: [f64; 3] = [1.0, 0.8, 0.5];
 
 /// The same of a state with bristles from which exact Coulomb or EPP friction is found, in turn: soft bristles carry a few

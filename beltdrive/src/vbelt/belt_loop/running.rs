@@ -6,7 +6,7 @@ use super::super::groove::TENSION;
 use super::super::laws::Asked;
 use super::super::path::{Effort, Solved};
 use super::climb::{Climbed, Top};
-use super::guess::tractive_tensions;
+use super::guess::{on_pitch_line, tractive_tensions};
 use super::like::Like;
 use super::problem::LoopProblem;
 use super::rest::Rest;
@@ -214,15 +214,12 @@ pub(super) fn presses(
     let (Target::Length(length), None) = (target, search.drive.tensioner()) else {
         return Ok(None);
     };
-    let (belt, rim) = (search.drive.belt, search.drive.rim_speed());
-    let strain = (layout.length() - length) / length;
-    let flow = belt.mass_per_length * rim / (1.0 + strain);
-    let tractive_tension = belt.axial_stiffness * strain - flow * rim;
+    let [_, tractive_tension] = on_pitch_line(search.drive, layout, length);
     match tractive_tension > 0.0 {
         true => Ok(Some(tractive_tension)),
         false => Err(SolveError::LiftsOff {
             tractive_tension,
-            speed: rim,
+            speed: search.drive.rim_speed(),
             is_loaded: false,
         }),
     }

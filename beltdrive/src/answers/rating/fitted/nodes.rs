@@ -132,10 +132,8 @@ impl Nodes {
     /// where an eighth of the tension is left, was expected 13 % too high, and took twice as long.
     fn beyond(&self, nearest: usize, tension: f64) -> Predicted<'_> {
         let node = &self.nodes[nearest];
-        let neighbours = self.nodes.iter().enumerate().filter(|(place, other)| {
-            place.abs_diff(nearest) == 1 && other.load.end.is_like(&node.load.end)
-        });
-        let neighbour = neighbours.map(|(_, other)| other).next();
+        let neighbour = self.nodes.get(if nearest == 0 { 1 } else { nearest - 1 });
+        let neighbour = neighbour.filter(|other| other.load.end.is_like(&node.load.end));
         let at = |of: fn(&RatedLoad) -> f64| {
             let powers = neighbour.map(|other| {
                 let [loads, tensions] = [
