@@ -101,6 +101,32 @@ impl Problem for Arbitrary<'_> {
     }
 }
 
+/// The defect relative to 1 + |f|, root mean square over an interval, by the midpoint rule at 100 places
+/// that lie denser at the ends.
+fn mean_defect(problem: &Arbitrary<'_>, solution: &Solution, interval: &[f64]) -> f64 {
+    let (mut y, mut slope, mut f) = ([0.0; 2], [0.0; 2], [0.0; 2]);
+    let mut square = 0.0;
+    for place in 0..100 {
+        let t = (f64::from(place) + 0.5) / 100.0;
+        let s = interval[0] + (interval[1] - interval[0]) * t * t * (3.0 - 2.0 * t);
+        solution.state(0, s, &mut y);
+        solution.derivative(0, s, &mut slope);
+        problem.rhs(0, s, &y, solution.parameters(), &mut f);
+        let defects = slope
+            .iter()
+            .zip(f)
+            .map(|(slope, f)| (slope - f).abs() / (1.0 + f.abs()));
+        square += defects.fold(0.0, f64::max).powi(2) * 6.0 * t * (1.0 - t) / 100.0;
+    }
+    square.sqrt()
+}
+
+/// The largest mean, in tolerances, of a solution that is accepted with one of 1 seen at m + 1 places of an
+/// interval. A defect with a peak between them is larger than it is seen: of 72 000 random problems 0.04 %
+/// have a mean above 1.1, the worst of 130 000 has 1.45. The largest value on an interval has no such bound
+/// (10.5 times the tolerance where y₁ nearly touches the end of the square root's domain); none is promised.
+const SEEN: f64 = 2.0;
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
@@ -134,17 +160,9 @@ proptest! {
         ends.extend(p);
         let scale = 20.0 * (1.0 + ends.iter().map(|y| y.abs()).sum::<f64>());
         prop_assert!(r.iter().all(|r| r.abs() <= scale * options.tolerance), "{r:?}");
-        let (mut y, mut slope, mut f) = ([0.0; 2], [0.0; 2], [0.0; 2]);
-        for i in 0..=1000 {
-            let s = -1.0 + 3e-3 * f64::from(i);
-            solution.state(0, s, &mut y);
-            solution.derivative(0, s, &mut slope);
-            problem.rhs(0, s, &y, p, &mut f);
-            for (slope, f) in slope.iter().zip(f) {
-                // A maximum where the solver bounds the mean over an interval.
-                let defect = (slope - f).abs() / (1.0 + f.abs());
-                prop_assert!(defect <= 10.0 * options.tolerance, "{defect:e} at {s}");
-            }
+        for interval in solution.mesh(0).windows(2) {
+            let defect = mean_defect(&problem, &solution, interval);
+            prop_assert!(defect <= SEEN * options.tolerance, "{defect:e} on {interval:?}");
         }
     }
 
