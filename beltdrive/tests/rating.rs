@@ -315,7 +315,9 @@ fn a_v_belt_runs_up_to_the_rated_load_and_not_beyond() {
     let allowed = 1.0 + 2.0 * found.error;
     assert!(largest <= allowed * found.optimum.power && found.optimum.power <= allowed * largest);
     // Between the speeds that were solved, within the stated error.
-    assert!(found.error < 3e-3, "{}", found.error);
+    let (last, inner) = found.points.split_last().unwrap();
+    assert!(inner.iter().all(|point| point.error < 5e-3));
+    assert!(last.error < 0.02 && last.error == found.error);
     for index in [12, 40, 52] {
         let point = &found.points[index];
         assert_is_limit(&found, point, 2.0 * point.error + 1e-4);
@@ -380,7 +382,8 @@ fn a_driver_that_slips_ever_more_at_every_speed_is_rated_at_gross_slip() {
     let drive = file.drive().unwrap();
     let found = rated(&drive, RatingQuestion::default()).unwrap();
     assert!(matches!(found.end, RatingEnd::LiftsOff { .. }));
-    assert!(found.error < 1e-2, "{}", found.error);
+    // Up to where two thirds of the tension are left.
+    assert!(found.points[..40].iter().all(|point| point.error < 3e-3));
     for load in [&found.optimum, found.stated.as_ref().unwrap()] {
         assert!(matches!(load.end, LoadEnd::GrowingSlip(0)), "{load:?}");
         assert_slip_grows(&found, load, 0);
@@ -510,5 +513,56 @@ fn every_example_is_rated_or_refused_with_a_reason() {
             };
             println!("{} {law:?}: {told}", example.name);
         }
+    }
+}
+
+/// Belts that lock in their grooves overhang at a load that hardly depends on the tension. As a share of that, which ends
+/// at lift-off, it is no polynomial: torques between the speeds that were solved were negative, by 0.001.
+#[test]
+fn an_overhang_is_rated_between_the_speeds_that_were_solved() {
+    for friction in ["0.6", "0.8"] {
+        let overrides = [format!("friction.coefficient={friction}")];
+        let found = of_example("spb-fan", &[&overrides[0]]);
+        let loads = found.points.iter();
+        let overhanging: Vec<_> = loads
+            .filter(|load| matches!(load.end, LoadEnd::Overhangs(0)))
+            .collect();
+        assert!(overhanging.len() > 50, "{}", overhanging.len());
+        let solved = found.stated.as_ref().unwrap().torque;
+        // It falls slowly with speed.
+        for load in &overhanging[..50] {
+            assert!(load.error < 1e-2, "{load:?}");
+            let ratio = load.torque / solved;
+            assert!((0.97..1.01).contains(&ratio), "{load:?}");
+        }
+    }
+}
+
+/// Near lift-off polynomials through the limits at other speeds are off by far more than elsewhere, and say so.
+#[test]
+fn ratings_near_lift_off_are_within_their_errors() {
+    for name in ["kim2009-bristle", "kim2009-epp"] {
+        let found = of_example(name, &[]);
+        let last = found.points.len() - 1;
+        for index in [last - 1, last - 3, last - 6] {
+            let point = &found.points[index];
+            // The rating of the same belt where it is solved at this speed.
+            let mut drive = found.drive.clone();
+            let mut pulleys = drive.pulleys.iter_mut();
+            let driver = pulleys.find(|pulley| matches!(pulley.duty, Duty::Driver(_)));
+            driver.unwrap().duty = Duty::Driver(point.speed);
+            let question = RatingQuestion {
+                from: Some(0.999 * point.speed),
+                to: Some(1.0001 * point.speed),
+            };
+            let solved = rated(&drive, question).unwrap().stated.unwrap();
+            let off = (point.factor / solved.factor - 1.0).abs();
+            assert!(
+                off <= 2.0 * point.error,
+                "{name} {index}: {off:e} {point:?}"
+            );
+        }
+        // Where most of the tension is left they are known well.
+        assert!(found.points[..40].iter().all(|point| point.error < 3e-3));
     }
 }

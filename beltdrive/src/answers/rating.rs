@@ -42,7 +42,7 @@ pub struct Rating {
     pub stretches: Vec<RatingStretch>,
     /// Why the range of speeds ends where it does.
     pub end: RatingEnd,
-    /// Estimated relative error of the loads in `points`; that of `optimum` and `stated` is no larger.
+    /// Estimated relative error of the loads in `points`, `optimum` and `stated`: the largest of all.
     pub error: f64,
     /// Speeds at which no limit was found, and why.
     pub missing: Vec<(f64, SolveError)>,
@@ -92,8 +92,8 @@ const LOCATED: f64 = 1e-7;
 /// of the drive file, as without creep. Where the tensions of both spans close a drive, the length of the belt that has them
 /// at that speed is kept. At each speed the torques are raised until no steady state carries more. Flat belts are
 /// solved at every speed, to rounding. The limit of a V-belt is solved at some speeds; the others follow by a polynomial
-/// of the limit over the tension that centrifugal force leaves, in the square of the speed, whose error is measured at
-/// further speeds. The speed with the largest power is found by maximisation, its load solved. `progress` is called
+/// of the limit over the tension that centrifugal force leaves, in the square of the speed, or of the limit itself where the
+/// belt overhangs. Its error is measured at further speeds, and by leaving out the nearest. The speed with the largest power is found by maximisation, its load solved. `progress` is called
 /// with the share of the work that is done.
 ///
 /// ```

@@ -94,16 +94,21 @@ pub(super) fn rating(
         None => (range, end),
     };
     let [optimum, stated] = fit.loads(&nodes, [fit.optimum(&nodes)?, stated]);
-    let optimum = optimum?;
-    let own = nodes.own_error();
+    let optimum = match optimum {
+        Ok(optimum) => optimum,
+        // Beyond the last speed with a limit the power may seem to grow.
+        Err(error) => fit.strongest().cloned().ok_or(error)?,
+    };
     let points = places(range).filter_map(|speed| match &end {
         RatingEnd::LiftsOff { speed: last } if speed == *last => Some(at_lift_off(speed, speeds)),
-        _ => fit.load(&nodes, speed, own),
+        _ => fit.load(&nodes, speed),
     });
     let points: Vec<_> = points.collect();
+    let solved = std::iter::once(&optimum).chain(stated.as_ref().ok());
+    let errors = points.iter().chain(solved).map(|point| point.error);
     Ok(Rating {
         drive: speeds.drive.clone(),
-        error: points.iter().map(|point| point.error).fold(own, f64::max),
+        error: errors.fold(0.0, f64::max),
         points,
         optimum_at_end: is_at_end(&optimum, range),
         optimum,
@@ -295,8 +300,14 @@ impl Fit<'_> {
         })
     }
 
-    /// The limit at a speed by the nodes, whose own relative error is this.
-    fn load(&self, nodes: &Nodes, speed: f64, own: f64) -> Option<RatedLoad> {
+    /// The solved limit with the largest power.
+    fn strongest(&self) -> Option<&RatedLoad> {
+        let loads = self.solved.iter().map(|(node, _)| &node.load);
+        loads.max_by(|one, other| one.power.total_cmp(&other.power))
+    }
+
+    /// The limit at a speed by the nodes.
+    fn load(&self, nodes: &Nodes, speed: f64) -> Option<RatedLoad> {
         let tension = self.speeds.pressing(speed).ok()?;
         let predicted = nodes.at(speed, tension);
         Some(RatedLoad {
@@ -306,7 +317,7 @@ impl Fit<'_> {
             power: speed * predicted.torque,
             power_out: None,
             end: predicted.end.clone(),
-            error: predicted.error.max(own),
+            error: predicted.error,
         })
     }
 }
