@@ -93,8 +93,8 @@ const LOCATED: f64 = 1e-7;
 /// at that speed is kept. At each speed the torques are raised until no steady state carries more. Flat belts are
 /// solved at every speed, to rounding. The limit of a V-belt is solved at some speeds; the others follow by a polynomial
 /// of the limit over the tension that centrifugal force leaves, in the square of the speed, or of the limit itself where the
-/// belt overhangs. Its error is measured at further speeds, and by leaving out the nearest. The speed with the largest power is found by maximisation, its load solved. `progress` is called
-/// with the share of the work that is done.
+/// belt overhangs. Its error is measured at further speeds, and by leaving out the nearest. The speed with the largest power
+/// is found by maximisation, its load solved. `progress` is called with the share of the work that is done.
 ///
 /// ```
 /// use beltdrive::input::DriveFile;

@@ -223,9 +223,16 @@ fn notes(rating: &Rating) -> Vec<String> {
     if let (FrictionLaw::Epp { .. }, BeltKind::V(_)) = (rating.drive.law, rating.drive.belt.kind) {
         notes.push(SCALAR.to_owned());
     }
-    let error = rating.error;
+    let mut errors: Vec<f64> = rating.points.iter().map(|point| point.error).collect();
+    errors.sort_by(f64::total_cmp);
+    let half = errors.get(errors.len() / 2).copied().unwrap_or_default();
+    let [half, most] = [half, rating.error].map(|error| format!("{error:.0e}"));
+    let told = match half == most {
+        true => most,
+        false => format!("{half} at half of the speeds, {most} at most"),
+    };
     notes.push(format!(
-        "estimated relative error of torques and powers: {error:.0e}"
+        "estimated relative error of torques and powers: {told}"
     ));
     notes
 }
