@@ -39,8 +39,9 @@ struct Run {
     per: Per,
     /// Whether the polynomial says anything between the nodes.
     is_smooth: bool,
-    /// The relative error of the polynomial: what the last one solved shows of that through the others, and no less than
-    /// those of the limits themselves.
+    /// The relative error of the limits themselves.
+    own: f64,
+    /// That of the polynomial: what the last one solved, or a node that is left out, shows of those through the others.
     error: f64,
 }
 
@@ -114,7 +115,7 @@ impl Node {
     }
 }
 
-/// So many nodes have a polynomial that holds beyond the last of them.
+/// So many nodes have a polynomial that holds beyond the last of them, and without one of them.
 const ENOUGH: usize = 4;
 
 impl Nodes {
@@ -141,11 +142,16 @@ impl Nodes {
                 LoadEnd::Overhangs(_) => Per::One,
                 _ => Per::Tension,
             };
+            let missed = per.missed(run);
             Run {
                 places,
                 per,
-                is_smooth: per.missed(run) <= WILD,
-                error: own_error(run).max(last),
+                is_smooth: missed <= WILD,
+                own: own_error(run),
+                error: match run.len() >= ENOUGH {
+                    true => last.min(missed),
+                    false => last,
+                },
             }
         });
         Self {
@@ -188,11 +194,16 @@ impl Nodes {
             true => (first - at.0) / (last - first),
             false => 1.0,
         };
+        let shown = share * (without / factor - 1.0).abs();
+        let shown = match nodes.len() >= ENOUGH {
+            true => shown,
+            false => shown.max(run.error),
+        };
         Predicted {
             factor,
             torque: value(|load| load.torque),
             end: &nodes[0].load.end,
-            error: run.error.max(share * (without / factor - 1.0).abs()),
+            error: shown.max(run.own),
         }
     }
 
