@@ -28,7 +28,7 @@ use crate::FrictionLaw;
 const STIFFER: f64 = 10.0;
 
 /// How often bristles are made stiffer: the first time tells b, the second one how well.
-const TIMES: usize = 2;
+pub(super) const TIMES: usize = 2;
 
 /// Relative error of a limit that is that of one smoothed law alone: the one with soft bristles of a small pulley was
 /// 3 % too low.
@@ -125,7 +125,7 @@ impl Search<'_> {
     }
 
     /// The same loop with stiffer bristles.
-    fn stiffer(&mut self, state: &Solved<LoopProblem>) -> Option<Solved<LoopProblem>> {
+    pub(super) fn stiffer(&mut self, state: &Solved<LoopProblem>) -> Option<Solved<LoopProblem>> {
         let to = STIFFER.ln();
         let soft = state.problem.clone();
         let member = |_: &LoopProblem, t: f64| soft.clone().with_stiffer_bristles(t.exp());
