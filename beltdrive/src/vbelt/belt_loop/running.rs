@@ -176,15 +176,18 @@ fn over_bristles(search: &mut Search<'_>, share: &Start<'_>) -> Option<Solved<Lo
     let is_safe = |solved: &Solved<LoopProblem>| is_drive(solved) && !may_be_beyond(solved);
     let mut bristles = search.enter_bristles(share).ok().filter(is_safe)?;
     for _ in 0..=TIMES {
-        match search.climb(&bristles, 1.0, None) {
+        let stiffer = match search.climb(&bristles, 1.0, None) {
             Climbed::Reached(raised) => {
                 let near = Like::new(search.drive, &raised);
-                let directed = search.with_direction_near(&near, &raised)?;
-                return search.finish_obeying(directed).ok().filter(is_safe);
+                if let Some(directed) = search.with_direction_near(&near, &raised) {
+                    return search.finish_obeying(directed).ok().filter(is_safe);
+                }
+                search.stiffer(&raised)
             }
-            Climbed::Limit(_) => bristles = search.stiffer(&bristles).filter(is_safe)?,
-            Climbed::Lost { .. } => return None,
-        }
+            Climbed::Limit(_) => search.stiffer(&bristles),
+            Climbed::Lost { .. } => None,
+        };
+        bristles = stiffer.filter(is_safe)?;
     }
     None
 }
