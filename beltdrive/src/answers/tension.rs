@@ -11,6 +11,7 @@ pub use setting::{Set, Setting};
 pub use travel::Travel;
 
 use super::check::{CheckedService, check};
+use super::shares::each;
 use crate::model::model;
 use crate::vbelt::belt_loop::limit_accuracy;
 use crate::{BeltKind, Closure, Drive, LoadCase, Mount, Service, SolveError, SolveOptions};
@@ -27,10 +28,9 @@ pub struct Setup {
     pub setting: Set,
     /// Belt tension at rest, N.
     pub tension: f64,
-    /// Relative accuracy: the setting is larger than the smallest one by about this at most.
+    /// Relative accuracy: the setting is larger than the smallest one by about this at most, where the margin jumps by a
+    /// thousandth.
     pub accuracy: f64,
-    /// The same of the tensions for other friction.
-    pub band_accuracy: f64,
     /// Length of the unstretched belt that has this tension, m.
     pub unstretched_length: f64,
     /// The load case that decides, by its index: the others have larger margins, or the same.
@@ -40,7 +40,7 @@ pub struct Setup {
     /// The drive so set up in all load cases, judged by the asked slip margin and the other requirements.
     pub checked: CheckedService,
     /// The same with the coefficients of friction of all pulleys times 0.8 and times 1.2.
-    pub other_friction: [OtherFriction; 2],
+    pub other_friction: Vec<OtherFriction>,
     /// The same with a belt that has grown.
     pub elongated: Elongated,
     /// How far a centre is moved; none with a tensioner, and where it is not said which of more than two pulleys.
@@ -55,6 +55,8 @@ pub struct OtherFriction {
     pub factor: f64,
     /// The setup tension that has the asked margin, N, or why none was found.
     pub tension: Result<f64, SolveError>,
+    /// Its relative accuracy, as [`Setup::accuracy`].
+    pub accuracy: f64,
     /// The smallest slip margin of all cases at the tension that was set; below 1 where a case is not carried, and
     /// none without a state.
     pub slip_margin: Option<f64>,
@@ -75,8 +77,7 @@ pub struct Elongated {
 /// Factors on the coefficients of friction of a band.
 const FRICTION_BAND: [f64; 2] = [0.8, 1.2];
 
-/// Accuracy of the tensions of a band of a V-belt, relative: of the SPB belt that ships as an example the load limit
-/// jumps with the tension where friction is 20 % larger, and halving the jump to 1e-6 took half a minute more.
+/// Accuracy of the tensions of a band of a V-belt, relative: a band of friction is known to two digits.
 const BAND: f64 = 1e-4;
 
 /// The smallest setup tension at which a drive has the asked slip margin in all of its load cases.
@@ -111,9 +112,7 @@ pub fn tension(
 ) -> Result<Setup, SolveError> {
     progress(0.0, "tension");
     let (cases, search, found) = sought(service, question, options)?;
-    let Search {
-        setting, accuracy, ..
-    } = search;
+    let (setting, accuracy) = (search.setting, found.accuracy);
     let drives: Vec<_> = cases.iter().map(|case| case.drive.clone()).collect();
     progress(0.5, "load cases");
     let set: Vec<_> = { cases.iter() }
@@ -131,7 +130,7 @@ pub fn tension(
     let here = &asked.cases[0].drive;
     let rest = model(here.belt.kind).at_rest(here, options)?;
     let of_length = |drive: &Drive, length: f64| with_length(drive, length, rest.coordinate);
-    let band_accuracy = accuracy.max(match here.belt.kind {
+    let band_accuracy = search.accuracy.max(match here.belt.kind {
         BeltKind::V(_) => BAND,
         BeltKind::Flat { .. } => 0.0,
     });
@@ -139,24 +138,25 @@ pub fn tension(
         accuracy: band_accuracy,
         ..search
     };
-    let other_friction = FRICTION_BAND.map(|factor| {
-        progress(0.6 + 0.5 * (factor - FRICTION_BAND[0]), "other friction");
+    progress(0.6, "other friction");
+    let other_friction = each(FRICTION_BAND.len(), |index| {
+        let factor = FRICTION_BAND[index];
         let others: Vec<_> = { drives.iter() }
             .map(|drive| with_friction(drive, factor))
             .collect();
         let needed = of_band.of_all(&others, found.value);
-        let slip_margin = match &needed {
-            Ok(needed) => needed.margin_at_start,
-            Err(_) => None,
-        };
-        let tension = needed.and_then(|needed| {
+        let tension = |needed: &Found| {
             let drive = setting.applied(&others[0], needed.value);
             Ok(model(drive.belt.kind).at_rest(&drive, options)?.tension)
-        });
+        };
         OtherFriction {
             factor,
-            tension,
-            slip_margin,
+            slip_margin: needed
+                .as_ref()
+                .ok()
+                .and_then(|needed| needed.margin_at_start),
+            accuracy: needed.as_ref().map_or(0.0, |needed| needed.accuracy),
+            tension: needed.and_then(|needed| tension(&needed)),
         }
     });
     progress(0.9, "longer belt");
@@ -177,7 +177,6 @@ pub fn tension(
         setting: setting.set(here, found.value),
         tension: rest.tension,
         accuracy,
-        band_accuracy,
         unstretched_length: rest.unstretched_length,
         deciding_case: found.case,
         ends_below: found.ends_below,

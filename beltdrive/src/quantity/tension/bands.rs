@@ -27,7 +27,7 @@ pub(super) fn friction(found: &Setup) -> Vec<Subject> {
         let change = 100.0 * (other.factor - 1.0);
         let sign = if change < 0.0 { '−' } else { '+' };
         let [tension, error] = of_band(
-            found.band_accuracy,
+            other.accuracy,
             ["tension", "error"],
             "belt tension at rest that is needed",
             &other.tension,
