@@ -181,18 +181,15 @@ fn over_bristles<'s>(
     let mut bristles =
         shares.find_map(|share| search.enter_bristles(share).ok().filter(is_safe))?;
     for _ in 0..=TIMES {
-        let stiffer = match search.climb(&bristles, 1.0, None) {
+        match search.climb(&bristles, 1.0, None) {
             Climbed::Reached(raised) => {
                 let near = Like::new(search.drive, &raised);
-                if let Some(directed) = search.with_direction_near(&near, &raised) {
-                    return search.finish_obeying(directed).ok().filter(is_safe);
-                }
-                search.stiffer(&raised)
+                let directed = search.with_direction_near(&near, &raised)?;
+                return search.finish_obeying(directed).ok().filter(is_safe);
             }
-            Climbed::Limit(_) => search.stiffer(&bristles),
-            Climbed::Lost { .. } => None,
-        };
-        bristles = stiffer.filter(is_safe)?;
+            Climbed::Limit(_) => bristles = search.stiffer(&bristles).filter(is_safe)?,
+            Climbed::Lost { .. } => return None,
+        }
     }
     None
 }
