@@ -161,7 +161,7 @@ proptest! {
         let scale = 20.0 * (1.0 + ends.iter().map(|y| y.abs()).sum::<f64>());
         prop_assert!(r.iter().all(|r| r.abs() <= scale * options.tolerance), "{r:?}");
         for interval in solution.mesh(0).windows(2) {
-            let defect = mean_defect(&problem, &solution, interval);
+            let defect = mean_defect(&problem, solution, interval);
             prop_assert!(defect <= SEEN * options.tolerance, "{defect:e} on {interval:?}");
         }
     }
