@@ -547,10 +547,7 @@ fn ratings_near_lift_off_are_within_their_errors() {
         for index in [last - 1, last - 3, last - 6] {
             let point = &found.points[index];
             // The rating of the same belt where it is solved at this speed.
-            let mut drive = found.drive.clone();
-            let mut pulleys = drive.pulleys.iter_mut();
-            let driver = pulleys.find(|pulley| matches!(pulley.duty, Duty::Driver(_)));
-            driver.unwrap().duty = Duty::Driver(point.speed);
+            let drive = loaded(&found, point.speed, 1.0);
             let question = RatingQuestion {
                 from: Some(0.999 * point.speed),
                 to: Some(1.0001 * point.speed),

@@ -323,7 +323,6 @@ fn a_light_load_needs_the_tension_that_does_not_lift_off() {
     let Set::Tension(tension) = found.setting else {
         panic!("{:?}", found.setting)
     };
-    println!("{tension} N of {centrifugal} N");
     assert!(tension < 0.9 * centrifugal, "{tension} {centrifugal}");
     let with = |share: f64| {
         let mut drive = drive.clone();

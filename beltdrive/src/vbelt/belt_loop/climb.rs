@@ -36,9 +36,8 @@ pub(super) const DOUBLED: f64 = 2.0;
 /// Largest load factor that is tried: beyond it the torques are but rounding errors of the driver's.
 pub(super) const LARGEST_FACTOR: f64 = 1e9;
 
-/// Relative error of a limit point with vector EPP friction, which is followed without zones: two ways to the same one of a
-/// random loop were apart by 8e-4.
-const WITHOUT_ZONES: f64 = 1e-3;
+/// Relative error of a limit point with vector EPP friction: two ways to the same one of a random loop were apart by 8e-4.
+const OF_LIMIT_WITHOUT_ZONES: f64 = 1e-3;
 
 /// Where a climb ends.
 pub(super) enum Climbed {
@@ -85,6 +84,15 @@ impl Top {
 /// Relative accuracy of a limit of the equations as they are, if states are solved to this tolerance.
 pub(crate) fn limit_accuracy(tolerance: f64) -> f64 {
     OF_LIMIT * tolerance.max(ROUGH)
+}
+
+/// What a curve adds to the relative error of its limit: nothing, but for vector EPP friction, which is followed without
+/// zones.
+pub(super) fn without_zones(law: Law, error: f64) -> f64 {
+    match law {
+        Law::Vector { .. } => error,
+        _ => 0.0,
+    }
 }
 
 impl Search<'_> {
@@ -209,10 +217,7 @@ impl Search<'_> {
         let watched: Vec<_> = moving.iter().map(|&(_, index)| index).collect();
         let (mut levelling, mut below) = (Levelling::default(), Vec::new());
         let mut reached = from.factor();
-        let without_zones = match from.problem.law() {
-            Law::Vector { .. } => WITHOUT_ZONES,
-            _ => 0.0,
-        };
+        let without_zones = without_zones(from.problem.law(), OF_LIMIT_WITHOUT_ZONES);
         let error = limit_accuracy(self.tolerance) + without_zones;
         let climbed = self.along(from, [0.0, to], &watched, |search, place, point, here| {
             let factor = point.lambda();

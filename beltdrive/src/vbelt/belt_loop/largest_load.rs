@@ -15,7 +15,7 @@ use super::like::Like;
 use super::pieces::ROUGH;
 use super::problem::LoopProblem;
 use super::round::Target;
-use super::running::{SLOW, is_drive, may_be_beyond, presses};
+use super::running::{SLOW, is_safe, presses};
 use super::slipping::{Slipping, is_slipping};
 use super::solve::{Search, lost};
 use super::start::Start;
@@ -269,7 +269,7 @@ impl Search<'_> {
 
 /// Whether the load can be raised from a state to the largest: one of a drive, below it.
 pub(super) fn is_begin(state: &Solved<LoopProblem>) -> bool {
-    is_drive(state) && !may_be_beyond(state) && !is_slipping(state)
+    is_safe(state) && !is_slipping(state)
 }
 
 /// The largest load as it is told.

@@ -89,7 +89,6 @@ pub(super) fn running<'l>(
         true => search.seek(&whole).map_err(|stuck| Some(stuck.cause)),
         false => Err(None),
     };
-    let is_safe = |solved: &Solved<LoopProblem>| is_drive(solved) && !may_be_beyond(solved);
     let found = |start, solved, raised| Running {
         solved,
         start,
@@ -157,7 +156,6 @@ enum Along {
 
 /// The whole load, raised from a share of it with Coulomb or EPP friction whose direction is a state.
 fn along_direction(search: &mut Search<'_>, share: &Start<'_>) -> Along {
-    let is_safe = |solved: &Solved<LoopProblem>| is_drive(solved) && !may_be_beyond(solved);
     let bristles = search.enter_bristles(share).ok().filter(is_safe);
     let begin = bristles.and_then(|bristles| search.with_direction_near(share, &bristles));
     match begin.map(|begin| search.climb(&begin, 1.0, None)) {
@@ -177,7 +175,6 @@ fn over_bristles<'s>(
     search: &mut Search<'_>,
     mut shares: impl Iterator<Item = &'s Start<'s>>,
 ) -> Option<Solved<LoopProblem>> {
-    let is_safe = |solved: &Solved<LoopProblem>| is_drive(solved) && !may_be_beyond(solved);
     let mut bristles =
         shares.find_map(|share| search.enter_bristles(share).ok().filter(is_safe))?;
     for _ in 0..=TIMES {
@@ -227,7 +224,6 @@ pub(super) fn neighbouring<'s>(
         let guess = Extrapolated { last, before };
         search.attempt(problem.clone(), &guess, Effort::Final).ok()
     });
-    let is_safe = |solved: &Solved<LoopProblem>| is_drive(solved) && !may_be_beyond(solved);
     by_both.filter(is_safe).or_else(|| {
         let by_last = search.attempt(problem, &Carried(last), Effort::Final);
         by_last.ok().filter(is_safe)
@@ -290,12 +286,17 @@ pub(super) fn overloaded(drive: &Drive, top: &Top) -> SolveError {
 }
 
 /// Whether the state may lie beyond the largest load.
-pub(super) fn may_be_beyond(solved: &Solved<LoopProblem>) -> bool {
+fn may_be_beyond(solved: &Solved<LoopProblem>) -> bool {
     let p = solved.solution.parameters();
     let ends = solved.round(|round| round.end_angles());
     let mut pulleys = 0..solved.problem.pulleys();
     ends.iter().any(|ends| ends.exit > STEEP)
         || pulleys.any(|pulley| solved.problem.omega(pulley, p) < SLOW)
+}
+
+/// Whether it is the state of a drive that cannot lie beyond the largest load.
+pub(super) fn is_safe(solved: &Solved<LoopProblem>) -> bool {
+    is_drive(solved) && !may_be_beyond(solved)
 }
 
 /// Whether the belt pulls in all spans, turns every pulley forwards and touches it.

@@ -8,9 +8,9 @@
 //! leads.
 
 use super::super::belt_problem::BeltProblem;
-use super::super::groove::{Law, TENSION};
+use super::super::groove::TENSION;
 use super::super::path::{Effort, Solved};
-use super::climb::{Limit, Top, limit_accuracy};
+use super::climb::{Limit, Top, limit_accuracy, without_zones};
 use super::problem::LoopProblem;
 use super::solve::Search;
 use super::stiffening::Judge;
@@ -30,9 +30,8 @@ const SLOWED: f64 = 0.2;
 /// passes the largest load so closely that a step leads over it.
 const LONG: f64 = 1.1;
 
-/// Relative error of the load at which a pulley begins to slip grossly with vector EPP friction, which is followed without
-/// zones: states with zones of random loops had 5 % of slip at up to 0.3 % more load, and two ways to it were apart by 1 %.
-const WITHOUT_ZONES: f64 = 0.01;
+/// Relative error of the load at which a pulley begins to slip grossly with vector EPP friction: states with zones of random loops had 5 % of slip at up to 0.3 % more load, and two ways to it were apart by 1 %.
+const GROSS_WITHOUT_ZONES: f64 = 0.01;
 
 /// Factor between loads at which a state without gross slip is sought.
 const LESS: f64 = 0.9;
@@ -129,10 +128,7 @@ impl Search<'_> {
         } else {
             (slips - begin.factor()).abs() / near.factor()
         };
-        let without_zones = match near.problem.law() {
-            Law::Vector { .. } => WITHOUT_ZONES,
-            _ => 0.0,
-        };
+        let without_zones = without_zones(near.problem.law(), GROSS_WITHOUT_ZONES);
         let top = Top {
             factor: near.factor(),
             pulley,

@@ -26,7 +26,7 @@ pub(super) struct Predicted<'n> {
 /// The nodes in the order of their speeds. Between neighbours with the same reason factor and torque follow by the
 /// polynomial in the square of the speed through all neighbours with that reason, of what they are per tension without
 /// load, which the square of the speed changes in proportion, or of themselves, as that of an overhang, which hardly
-/// depends on the tension. They are straight between neighbours with two reasons, and where that is nearer.
+/// depends on the tension. They are straight between neighbours with two reasons, and where that polynomial is none.
 pub(super) struct Nodes {
     nodes: Vec<Node>,
     /// The neighbours with one reason.
@@ -123,21 +123,14 @@ impl Nodes {
     pub(super) fn new(solved: impl Iterator<Item = Node>) -> Self {
         let mut nodes: Vec<(usize, Node)> = solved.enumerate().collect();
         nodes.sort_by(|(_, one), (_, other)| one.load.speed.total_cmp(&other.load.speed));
-        let is_like = |(_, one): &(usize, Node), (_, other): &(usize, Node)| {
-            one.load.end.is_like(&other.load.end)
-        };
-        let last: Vec<f64> = { nodes.chunk_by(is_like) }
-            .map(|run| {
-                let last = run.iter().max_by_key(|(order, _)| *order);
-                last.map_or(f64::INFINITY, |(_, node)| node.off)
-            })
-            .collect();
-        let nodes: Vec<Node> = nodes.into_iter().map(|(_, node)| node).collect();
+        let (orders, nodes): (Vec<usize>, Vec<Node>) = nodes.into_iter().unzip();
         let is_like = |one: &Node, other: &Node| one.load.end.is_like(&other.load.end);
         let mut from = 0;
-        let runs = nodes.chunk_by(is_like).zip(last).map(|(run, last)| {
+        let runs = nodes.chunk_by(is_like).map(|run| {
             let places = from..from + run.len();
             from = places.end;
+            let last = places.clone().max_by_key(|index| orders[*index]);
+            let last = last.map_or(f64::INFINITY, |index| nodes[index].off);
             let per = match run[0].load.end {
                 LoadEnd::Overhangs(_) => Per::One,
                 _ => Per::Tension,
