@@ -34,8 +34,13 @@ pub struct Options {
     pub angle: f64,
     /// Points are on the branch when the next Newton correction would be shorter than this, or than a
     /// hundredth of [`System::tolerance`](crate::System::tolerance), in the arclength norm; default
-    /// 1e-9. Labelled points are always corrected down to rounding.
+    /// 1e-9.
     pub accuracy: f64,
+    /// Limit points, cusps and events are located and corrected to this length in the arclength norm; 0, the default,
+    /// stands for down to rounding, which is what branch points and points with a prescribed λ are corrected to always.
+    /// Away from a limit point λ changes with the square of the distance.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub location: f64,
     /// Largest number of Newton corrections per step; default 8.
     pub corrections: usize,
     /// Largest number of steps; default 1000.
@@ -79,6 +84,7 @@ impl Options {
             smallest_step: 1e-8,
             angle: 0.35,
             accuracy: 1e-9,
+            location: 0.0,
             corrections: 8,
             steps: 1000,
             parameterisation: Parameterisation::Pseudoarclength,
@@ -103,6 +109,10 @@ impl Options {
             if !(value > 0.0 && value.is_finite()) {
                 return Err(Error::Setting { name, value });
             }
+        }
+        if !(self.location >= 0.0 && self.location.is_finite()) {
+            let (name, value) = ("location", self.location);
+            return Err(Error::Setting { name, value });
         }
         if self.corrections == 0 {
             let (name, value) = ("corrections", 0.0);

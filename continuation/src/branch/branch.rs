@@ -163,8 +163,10 @@ impl<'a, S: System> Branch<'a, S> {
         }
         system.set_bounds(options.bounds);
         let metric = Metric::new(system, options, z);
+        let mut curve = Curve::new(system, metric, options.bounds);
+        curve.location = options.location;
         Ok(Self {
-            curve: Curve::new(system, metric, options.bounds),
+            curve,
             events: Events::none(),
             progress: Progress::at(Node::new(z.to_vec(), vec![0.0; unknowns])),
             options: options.clone(),

@@ -15,6 +15,8 @@ pub(crate) struct Curve<'a, S> {
     pub(crate) system: &'a mut S,
     pub(crate) metric: Metric,
     pub(crate) corrector: Corrector,
+    /// Points between two others are located to this length; 0 stands for down to rounding.
+    pub(crate) location: f64,
     /// The bordering vector b of the test function for branch points.
     pub(crate) border: Vec<f64>,
     /// Another bordering vector, whose second vector turns at branch points that b overlooks: those at which it
@@ -28,6 +30,7 @@ impl<'a, S: System> Curve<'a, S> {
             system,
             metric,
             corrector: Corrector::within(bounds),
+            location: 0.0,
             border: Vec::new(),
             witness: Vec::new(),
         }

@@ -46,10 +46,10 @@ impl<S: System> Span<'_, '_, S> {
         near: &Located,
         shift: f64,
         condition: &Condition,
+        accuracy: Accuracy,
     ) -> Result<Located, Difficulty> {
         let pairs = near.z.iter().zip(&near.tangent);
         let mut z: Vec<f64> = pairs.map(|(z, t)| z + shift * t).collect();
-        let accuracy = Accuracy::Rounding;
         self.curve
             .correct(&mut z, condition, accuracy, CORRECTIONS)?;
         self.complete(z)
@@ -131,12 +131,14 @@ impl<S: System> Span<'_, '_, S> {
         tolerance: f64,
     ) -> Result<Located, Difficulty> {
         let mut known: Vec<Located> = self.ends().into();
+        let (location, length) = (self.curve.location, self.curve.metric.norm(&self.secant()));
         let search = |u: f64| -> Result<f64, Difficulty> {
             let found = self.at(u, nearest(&known, u))?;
             let value = test(self.curve.system, &found.z, &found.tangent);
             known.push(found);
             Ok(value)
         };
+        let tolerance = tolerance.max(location / length);
         let u = root(search, (0.0, values[0]), (1.0, values[1]), tolerance)?;
         Ok(nearest(&known, u).clone())
     }
@@ -149,7 +151,11 @@ impl<S: System> Span<'_, '_, S> {
         let plane = Condition::plane(&self.curve.metric, &secant, &target);
         let unit = self.curve.metric.dot(&secant, &secant);
         let shift = (u - near.u) * unit / self.curve.metric.dot(&secant, &near.tangent);
-        let found = self.correct(near, shift, &plane)?;
+        let accuracy = match self.curve.location {
+            0.0 => Accuracy::Rounding,
+            length => Accuracy::Length(length),
+        };
+        let found = self.correct(near, shift, &plane, accuracy)?;
         Ok(Located { u, ..found })
     }
 
@@ -165,8 +171,9 @@ impl<S: System> Span<'_, '_, S> {
         let along = (lambda - near.z[n]) / rate;
         let length = self.curve.metric.norm(&self.secant());
         let condition = Condition::lambda(n + 1, lambda);
+        let accuracy = Accuracy::Rounding;
         let attempt = if along.abs() <= length {
-            self.correct(&near, along, &condition)
+            self.correct(&near, along, &condition, accuracy)
         } else {
             Err(Difficulty::Singular)
         };
@@ -176,7 +183,8 @@ impl<S: System> Span<'_, '_, S> {
                 let mut distance = |_: &mut S, z: &[f64], _: &[f64]| z[n] - lambda;
                 let near = self.zero(&mut distance, [low - lambda, high - lambda], RESOLVED)?;
                 // At a limit point λ does not determine the point, and is met to rounding.
-                self.correct(&near, 0.0, &condition).unwrap_or(near)
+                self.correct(&near, 0.0, &condition, accuracy)
+                    .unwrap_or(near)
             }
         };
         found.z[n] = lambda;

@@ -127,6 +127,32 @@ fn a_limit_point_takes_a_few_linearisations() {
 }
 
 #[test]
+fn limit_points_to_a_location_take_less_work_and_have_their_lambda_to_its_square() {
+    let located = |location: f64| {
+        let mut system = Counting::new(tank(18.0));
+        let options = Options {
+            location,
+            ..Options::within(0.0, 0.3)
+        };
+        let branch = Branch::new(&mut system, &[0.0; 3], Increasing, &options);
+        let points: Vec<Point> = branch.unwrap().collect();
+        let limits = of(&points, Kind::LimitPoint);
+        let lambdas: Vec<f64> = limits.iter().map(|point| point.lambda()).collect();
+        (lambdas, system.counts)
+    };
+    let (exact, most) = located(0.0);
+    assert_eq!(exact.len(), 2);
+    for location in [1e-6, 1e-4] {
+        let (lambdas, counts) = located(location);
+        println!("{location:e}: {counts:?} in place of {most:?}");
+        // The second derivative of λ with the arclength is below 100 there.
+        assert_close(&lambdas, &exact, 100.0 * location * location + 1e-14);
+        assert!(counts.residuals + 10 < most.residuals);
+        assert!(counts.linearisations + 2 < most.linearisations);
+    }
+}
+
+#[test]
 fn a_long_branch_keeps_as_many_vectors_as_a_short_one() {
     let kept = |steps: usize| {
         let mut system = Counting::new(tank(14.0));

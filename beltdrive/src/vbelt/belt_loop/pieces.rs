@@ -7,7 +7,7 @@ use super::super::BeltProblem;
 use super::super::groove::Law;
 use super::super::laws::{WRONG_WAY, power_gained};
 use super::super::path::{Effort, Solved};
-use super::super::piece::{ACCURACY, ACCURACY_OF_DIRECTION, MAX_REFINEMENTS, REFINEMENT};
+use super::super::piece::{ACCURACY, ACCURACY_OF_DIRECTION, LOCATION, MAX_REFINEMENTS, REFINEMENT};
 use super::super::tracer::MAX_PIECES;
 use super::super::zones::Refused;
 use super::rising::Rising;
@@ -265,6 +265,7 @@ fn followed(
         first_step: usual.first_step / shorter,
         largest_step: usual.largest_step / shorter,
         accuracy: accuracy * options.tolerance,
+        location: LOCATION,
         ..usual
     }
 }
