@@ -72,12 +72,21 @@ fn csv(readings: &[[f64; 2]], has_deviations: bool) -> String {
 }
 
 fn found(file: &DriveFile, text: &str, free: &[&str]) -> Result<Calibration, Error> {
+    found_to(SolveOptions::default().tolerance, file, text, free)
+}
+
+fn found_to(
+    tolerance: f64,
+    file: &DriveFile,
+    text: &str,
+    free: &[&str],
+) -> Result<Calibration, Error> {
     let free: Vec<_> = free.iter().map(|path| (*path).to_owned()).collect();
     let keys = file
         .free_keys(&free)
         .unwrap_or_else(|error| panic!("{error}"));
     let data = Measurements::read("rows.csv", text, file).unwrap_or_else(|error| panic!("{error}"));
-    calibrate(&keys, &data, &SolveOptions::default(), &mut |_, _| {})
+    calibrate(&keys, &data, &SolveOptions { tolerance }, &mut |_, _| {})
 }
 
 #[test]
@@ -278,9 +287,15 @@ fn bristles_of_a_v_belt_are_found() {
     let calibration = found(&file, &rows, &free).unwrap();
     for (parameter, truth) in calibration.parameters.iter().zip([0.4, 1620.0]) {
         assert!(
-            (parameter.value / truth - 1.0).abs() < 1e-4,
+            (parameter.value / truth - 1.0).abs() < 3e-6,
             "{parameter:?}"
         );
+    }
+    // Those who ask for less get the same intervals.
+    let less = found_to(1e-4, &file, &rows, &free).unwrap();
+    for (parameter, known) in less.parameters.iter().zip(&calibration.parameters) {
+        let [error, other] = [parameter, known].map(|found| found.standard_error.unwrap());
+        assert!((error / other - 1.0).abs() < 1e-3, "{error} {other}");
     }
 }
 

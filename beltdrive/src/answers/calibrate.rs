@@ -35,6 +35,7 @@ mod least_squares;
 mod model;
 mod quantile;
 
+use super::members::Varied;
 use crate::SolveOptions;
 use crate::input::{FileKey, Measurements};
 use crate::results::measured::Measured;
@@ -164,7 +165,8 @@ pub fn calibrate(
         let path = key.path().to_owned();
         return Err(Error::Set { path });
     }
-    let model = Model::new(keys, data, options);
+    let varied: Vec<_> = keys.iter().cloned().map(Varied::Key).collect();
+    let model = Model::new(keys, &varied, data, options);
     let (readings, parameters) = (model.readings(), keys.len());
     if readings < parameters {
         return Err(Error::TooFew {

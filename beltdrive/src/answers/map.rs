@@ -213,7 +213,7 @@ pub fn map(
     let drive = file.drive()?;
     let given = file.service()?.given_losses;
     let file = file.with_sense();
-    let family = Family::new(&file, vec![&x.varied, &y.varied], options, given)?;
+    let family = Family::new(&file, vec![&x.varied, &y.varied], *options, given)?;
     let along = family.along([&x.values, &y.values]);
     let axes = [&x, &y];
     let [marched, across] = [axes[along], axes[1 - along]].map(|axis| &axis.values[..]);

@@ -142,7 +142,7 @@ impl Sweep {
     ) -> Vec<T> {
         let varied = self.varied.iter().collect();
         let given = self.service.given_losses;
-        let family = Family::new(&self.file, varied, &self.options, given);
+        let family = Family::new(&self.file, varied, self.options, given);
         let family = family.expect("a file that has been read");
         let lines = lines::lines(rows);
         let told = &told;

@@ -38,7 +38,7 @@ pub(crate) fn nearest_path<'c>(
     nearest(path, near.map(|candidate| (candidate, candidate)))
 }
 
-/// The key of a drive file nearest to `path`: by all of its names, or else by the last one.
+/// The key of a drive file nearest to `path`: by all of its names, by its letters alone, or else by the last name.
 pub(crate) fn nearest_key<'c, C>(path: &str, candidates: impl Fn() -> C) -> Option<&'c str>
 where
     C: Iterator<Item = &'c str>,
@@ -47,7 +47,11 @@ where
         let names = candidates().map(|path| (path.rsplit('.').next().unwrap_or(path), path));
         nearest(path, names)
     };
-    nearest_path(path, candidates()).or_else(by_name)
+    let letters = |path: &str| path.replace(['.', '_', '-', ' '], "").to_lowercase();
+    let by_letters = || candidates().find(|candidate| letters(candidate) == letters(path));
+    nearest_path(path, candidates())
+        .or_else(by_letters)
+        .or_else(by_name)
 }
 
 /// The line of a message that proposes a spelling, after those before it; empty without one.
@@ -59,7 +63,16 @@ pub(crate) fn hint(nearest: Option<&str>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{nearest, nearest_path};
+    use super::{nearest, nearest_key, nearest_path};
+
+    #[test]
+    fn points_and_underscores_may_be_mixed_up() {
+        let keys = || ["friction.stiffness", "friction.bristle_stiffness"].into_iter();
+        let meant = Some("friction.bristle_stiffness");
+        for written in ["friction.bristle.stiffness", "friction_bristle-stiffness"] {
+            assert_eq!(nearest_key(written, keys), meant, "{written}");
+        }
+    }
 
     #[test]
     fn every_name_of_a_path_is_near() {

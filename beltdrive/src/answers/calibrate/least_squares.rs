@@ -2,7 +2,8 @@
 //! derivatives, from which every damped step of a place follows.
 
 use super::Error;
-use super::model::{Evaluated, Model, Predictions, RowFailure};
+use super::model::{At, Evaluated, Model, Predictions, RowFailure};
+use crate::answers::map::line::Near;
 use faer::Mat;
 
 /// Most steps, tried ones included: with good starts four to eight are enough, and a factor of ten in a stiffness
@@ -68,15 +69,15 @@ pub(super) fn fit(model: &Model<'_>, progress: &mut dyn FnMut(f64, &str)) -> Res
     let rows = model.readings();
     let mut place = vec![0.0; count];
     let mut states = 0;
-    let mut evaluate = |places: &[Vec<f64>]| {
+    let mut evaluate = |places: &[Vec<f64>], near: &[Near]| {
         states += places.len();
-        model.at(places)
+        model.at(places, near)
     };
-    let first = evaluate(std::slice::from_ref(&place)).remove(0);
-    let (mut predictions, mut error) = first.map_err(Error::Start)?;
-    let mut residuals = model.residuals(&predictions);
+    let first = evaluate(std::slice::from_ref(&place), &[]).remove(0);
+    let mut at = first.map_err(Error::Start)?;
+    let mut residuals = model.residuals(&at.predictions);
     let mut derivatives =
-        differences(model, &mut evaluate, &place, &residuals, error).map_err(Error::Start)?;
+        differences(model, &mut evaluate, &place, &residuals, &at.near).map_err(Error::Start)?;
     let mut damping = DAMPING;
     let mut failure = "the sum of squares does not fall".to_owned();
     for step in 1..=STEPS {
@@ -91,10 +92,10 @@ pub(super) fn fit(model: &Model<'_>, progress: &mut dyn FnMut(f64, &str)) -> Res
         let is_settled = gain <= SETTLED * scatter || gain <= 4.0 * f64::EPSILON * sum;
         let longest = change.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         // Residuals that vanish leave nothing to compare a gain with.
-        if is_settled || longest <= error {
+        if is_settled || longest <= at.error {
             return Ok(Fit {
                 place,
-                predictions,
+                predictions: at.predictions,
                 residuals,
                 derivatives,
                 steps: step,
@@ -105,17 +106,15 @@ pub(super) fn fit(model: &Model<'_>, progress: &mut dyn FnMut(f64, &str)) -> Res
         let next: Vec<_> = place
             .iter()
             .zip(&change)
-            .map(|(at, by)| at + shorter * by)
+            .map(|(from, by)| from + shorter * by)
             .collect();
-        let tried = evaluate(std::slice::from_ref(&next)).remove(0);
-        let better = tried.map(|(found, error)| (model.residuals(&found), found, error));
-        match better {
-            Ok((found, at, found_error)) if squares(&found) < sum => {
-                let known = differences(model, &mut evaluate, &next, &found, found_error);
-                match known {
+        let tried = evaluate(std::slice::from_ref(&next), &at.near).remove(0);
+        let tried = tried.map(|found| (model.residuals(&found.predictions), found));
+        match tried {
+            Ok((left, found)) if squares(&left) < sum => {
+                match differences(model, &mut evaluate, &next, &left, &found.near) {
                     Ok(known) => {
-                        (place, residuals, predictions) = (next, found, at);
-                        (derivatives, error) = (known, found_error);
+                        (place, residuals, at, derivatives) = (next, left, found, known);
                         damping /= FACTOR;
                         continue;
                     }
@@ -125,7 +124,7 @@ pub(super) fn fit(model: &Model<'_>, progress: &mut dyn FnMut(f64, &str)) -> Res
             Ok(_) if gain <= STALLED * scatter => {
                 return Ok(Fit {
                     place,
-                    predictions,
+                    predictions: at.predictions,
                     residuals,
                     derivatives,
                     steps: step,
@@ -151,16 +150,15 @@ fn squares(residuals: &[f64]) -> f64 {
     residuals.iter().map(|residual| residual * residual).sum()
 }
 
-/// The derivatives at a place by central differences: over a step h they err by h², relatively, and by the error of the
-/// states over h, which the cube root of that error balances.
+/// The derivatives at a place by central differences, from the states there.
 fn differences(
     model: &Model<'_>,
-    evaluate: &mut dyn FnMut(&[Vec<f64>]) -> Vec<Evaluated>,
+    evaluate: &mut dyn FnMut(&[Vec<f64>], &[Near]) -> Vec<Evaluated>,
     place: &[f64],
     residuals: &[f64],
-    error: f64,
+    near: &[Near],
 ) -> Result<Derivatives, RowFailure> {
-    let step = error.cbrt();
+    let step = model.step();
     let places: Vec<_> = (0..place.len())
         .flat_map(|index| {
             [1.0, -1.0].map(|side| {
@@ -170,13 +168,22 @@ fn differences(
             })
         })
         .collect();
-    let found = evaluate(&places);
+    let found = evaluate(&places, near);
     let mut columns = Vec::new();
+    let mut error = step * step;
     for pair in found.chunks(2) {
         let residuals_at = |side: &Evaluated| match side {
-            Ok((predictions, _)) => Ok(model.residuals(predictions)),
+            Ok(At { predictions, .. }) => Ok(model.residuals(predictions)),
             Err(row) => Err(row.clone()),
         };
+        for side in pair {
+            let of_side = match side {
+                Ok(at) => at.error / step,
+                // A difference on one side errs by h.
+                Err(_) => step,
+            };
+            error = error.max(of_side);
+        }
         // On one side where the other has no answer, as at the limit of a load.
         let (above, below, width) = match (residuals_at(&pair[0]), residuals_at(&pair[1])) {
             (Ok(above), Ok(below)) => (above, below, 2.0 * step),
@@ -191,7 +198,7 @@ fn differences(
             .collect();
         columns.push(column);
     }
-    Ok(Derivatives::new(&columns, residuals, step * step))
+    Ok(Derivatives::new(&columns, residuals, error))
 }
 
 impl Derivatives {

@@ -1,13 +1,18 @@
 //! What the steady states of measured rows have, and how it changes with the free numbers.
 
-use crate::belt_loop::{LoopState, solve_to};
-use crate::input::{FileKey, MeasuredRow, Measurements, Reading, Variants};
-use crate::{BeltKind, SolveOptions};
+use crate::answers::map::line::{Family, Near};
+use crate::answers::members::Varied;
+use crate::input::{FileKey, MeasuredRow, Measurements, Reading};
+use crate::{BeltKind, GivenLosses, SolveOptions};
 use std::num::NonZero;
 use std::thread;
 
 /// Relative error of states in closed form, and least one of others: what their differences are made from.
 const ROUNDING: f64 = 1e-13;
+
+/// Tolerance of the states of V-belts, at most, whose differences stand for derivatives. With 1e-8 the standard errors of
+/// three numbers of a V-belt were off by 3e-4, with 1e-9 by 5e-5.
+const TOLERANCE: f64 = 1e-9;
 
 /// A row without an answer.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,31 +31,55 @@ pub(super) struct Model<'d> {
     keys: &'d [FileKey],
     starts: Vec<f64>,
     data: &'d Measurements,
-    /// The drives of the rows.
-    variants: Vec<Result<Variants<'d>, RowFailure>>,
-    options: &'d SolveOptions,
+    /// The drives of the rows, solved to this tolerance and to the one that is asked for.
+    rows: Vec<Result<[Family<'d>; 2], RowFailure>>,
+    tolerance: f64,
     is_flat: bool,
 }
 
-/// The model at a place: for each row what it has for each reading.
+/// For each row what the model has for each reading.
 pub(super) type Predictions = Vec<Vec<Option<f64>>>;
 
-/// The model at a place with its relative error, or the first row without an answer there.
-pub(super) type Evaluated = Result<(Predictions, f64), RowFailure>;
+/// The model at a place.
+pub(super) struct At {
+    pub(super) predictions: Predictions,
+    /// Its relative error.
+    pub(super) error: f64,
+    /// The states of the rows, from which those beside them are found.
+    pub(super) near: Vec<Near>,
+}
+
+/// The model at a place, or the first row without an answer there.
+pub(super) type Evaluated = Result<At, RowFailure>;
+
+/// What a row has for each reading, its relative error, and its state.
+type OfRow = (Vec<Option<f64>>, f64, Near);
 
 impl<'d> Model<'d> {
+    /// `varied` are the keys.
     pub(super) fn new(
         keys: &'d [FileKey],
+        varied: &'d [Varied],
         data: &'d Measurements,
-        options: &'d SolveOptions,
+        options: &SolveOptions,
     ) -> Self {
         let first = data.rows.first().map(|row| &row.file);
         let start = |key| first.and_then(|file| file.value(key));
         let drive = first.and_then(|file| file.drive().ok());
         let kind = drive.map(|drive| drive.belt.kind);
-        let paths: Vec<_> = keys.iter().collect();
-        let variants = data.rows.iter().map(|row| {
-            Variants::new(&row.file, &paths).map_err(|error| row_failure(row, error.message()))
+        let tolerance = options.tolerance.min(TOLERANCE);
+        let rows = data.rows.iter().map(|row| {
+            let to = |tolerance| {
+                let options = SolveOptions { tolerance };
+                Family::new(
+                    &row.file,
+                    varied.iter().collect(),
+                    options,
+                    GivenLosses::default(),
+                )
+                .map_err(|error| row_failure(row, error.message()))
+            };
+            Ok([to(tolerance)?, to(options.tolerance)?])
         });
         Self {
             starts: keys
@@ -59,8 +88,8 @@ impl<'d> Model<'d> {
                 .collect(),
             keys,
             data,
-            variants: variants.collect(),
-            options,
+            rows: rows.collect(),
+            tolerance,
             is_flat: matches!(kind, Some(BeltKind::Flat { .. })),
         }
     }
@@ -113,10 +142,20 @@ impl<'d> Model<'d> {
         }
     }
 
-    /// The model at several places, and how accurate it is; the first failure for a place without an answer.
+    /// The step of a coordinate in differences: over h they err by h², relatively, and by the error of the states over h,
+    /// which its cube root balances.
+    pub(super) fn step(&self) -> f64 {
+        let error = match self.is_flat {
+            true => ROUNDING,
+            false => self.tolerance,
+        };
+        error.cbrt()
+    }
+
+    /// The model at several places, from the states `near` of the rows; the first failure for a place without an answer.
     ///
     /// Rows and places are shared among threads.
-    pub(super) fn at(&self, places: &[Vec<f64>]) -> Vec<Evaluated> {
+    pub(super) fn at(&self, places: &[Vec<f64>], near: &[Near]) -> Vec<Evaluated> {
         let tasks: Vec<_> = places
             .iter()
             .flat_map(|place| {
@@ -132,7 +171,9 @@ impl<'d> Model<'d> {
         let share = tasks.len().div_ceil(threads).max(1);
         let solve = |tasks: &[(usize, Vec<f64>)]| -> Vec<_> {
             let tasks = tasks.iter();
-            tasks.map(|(row, values)| self.row(*row, values)).collect()
+            tasks
+                .map(|(row, values)| self.row(*row, values, near.get(*row)))
+                .collect()
         };
         let solved: Vec<_> = match tasks.len() <= share {
             true => solve(&tasks),
@@ -150,27 +191,30 @@ impl<'d> Model<'d> {
             .iter()
             .map(|_| {
                 let of_place: Vec<_> = solved.by_ref().take(rows).collect();
-                let mut error: f64 = ROUNDING;
-                let mut predictions = Vec::with_capacity(rows);
+                let mut at = At {
+                    predictions: Vec::with_capacity(rows),
+                    error: ROUNDING,
+                    near: Vec::with_capacity(rows),
+                };
                 for row in of_place {
-                    let (values, row_error) = row?;
-                    error = error.max(row_error);
-                    predictions.push(values);
+                    let (values, error, near) = row?;
+                    at.error = at.error.max(error);
+                    at.predictions.push(values);
+                    at.near.push(near);
                 }
-                Ok((predictions, error))
+                Ok(at)
             })
             .collect()
     }
 
-    /// What a row has with values of the free numbers, and its relative error.
-    fn row(&self, index: usize, values: &[f64]) -> Result<(Vec<Option<f64>>, f64), RowFailure> {
+    /// A row with values of the free numbers.
+    fn row(&self, index: usize, values: &[f64], near: Option<&Near>) -> Result<OfRow, RowFailure> {
         let row = &self.data.rows[index];
-        let variants = self.variants[index].as_ref().map_err(RowFailure::clone)?;
-        let drive = variants
-            .drive(values.iter().copied())
-            .map_err(|error| row_failure(row, error.message()))?;
-        let state =
-            solve_to(&drive, self.options).map_err(|error| row_failure(row, &error.to_string()))?;
+        let [finer, asked] = self.rows[index].as_ref().map_err(RowFailure::clone)?;
+        let found = finer.point(near, values);
+        // Not every state is found to a smaller tolerance.
+        let found = found.or_else(|_| asked.point(near, values));
+        let (near, state) = found.map_err(|refusal| row_failure(row, &refusal.to_string()))?;
         let read = |(index, reading): (usize, &Option<Reading>)| {
             reading.as_ref()?;
             self.data.measured[index].of(&state)
@@ -185,7 +229,7 @@ impl<'d> Model<'d> {
                 let reason = format!("the state has no `{}`", measured.name());
                 Err(row_failure(row, &reason))
             }
-            None => Ok((found, error(&state))),
+            None => Ok((found, state.relative_error().max(ROUNDING), near)),
         }
     }
 
@@ -218,11 +262,4 @@ fn row_failure(row: &MeasuredRow, reason: &str) -> RowFailure {
         line: row.line,
         reason: reason.to_owned(),
     }
-}
-
-/// Relative error of a state.
-fn error(state: &LoopState) -> f64 {
-    state.convergence.as_ref().map_or(ROUNDING, |convergence| {
-        convergence.error_estimate.max(ROUNDING)
-    })
 }

@@ -15,7 +15,7 @@ use crate::{Drive, Duty, GivenLosses, SolveOptions, SteadyState};
 pub(in crate::answers) struct Family<'f> {
     variants: Variants<'f>,
     axes: Vec<&'f Varied>,
-    options: &'f SolveOptions,
+    options: SolveOptions,
     given: GivenLosses,
 }
 
@@ -36,7 +36,7 @@ impl<'f> Family<'f> {
     pub(in crate::answers) fn new(
         file: &'f DriveFile,
         axes: Vec<&'f Varied>,
-        options: &'f SolveOptions,
+        options: SolveOptions,
         given: GivenLosses,
     ) -> Result<Self, Diagnostic> {
         let keys = axes.iter().filter_map(|axis| match axis {
@@ -99,7 +99,7 @@ impl<'f> Family<'f> {
         near: Option<&Near>,
         (stated, factor): (Drive, f64),
     ) -> Result<(Near, LoopState), Refusal> {
-        let options = self.options;
+        let options = &self.options;
         let (mut closed, state_of_two) = match stated.two_pulleys() {
             Some(_) => {
                 let near = near.and_then(|near| near.state_of_two.as_deref());
