@@ -2,7 +2,7 @@
 //! derivatives, from which every damped step of a place follows.
 
 use super::Error;
-use super::model::{At, Evaluated, Model, Predictions, RowFailure};
+use super::model::{At, Model, Predictions, RowFailure};
 use crate::answers::map::line::Near;
 use faer::Mat;
 
@@ -68,16 +68,12 @@ pub(super) fn fit(model: &Model<'_>, progress: &mut dyn FnMut(f64, &str)) -> Res
     let count = model.keys().len();
     let rows = model.readings();
     let mut place = vec![0.0; count];
-    let mut states = 0;
-    let mut evaluate = |places: &[Vec<f64>], near: &[Near]| {
-        states += places.len();
-        model.at(places, near)
-    };
-    let first = evaluate(std::slice::from_ref(&place), &[]).remove(0);
+    let (of_place, of_differences) = (model.row_count(), 2 * count * model.row_count());
+    let mut states = of_place + of_differences;
+    let first = model.at(std::slice::from_ref(&place), &[]).remove(0);
     let mut at = first.map_err(Error::Start)?;
     let mut residuals = model.residuals(&at.predictions);
-    let mut derivatives =
-        differences(model, &mut evaluate, &place, &residuals, &at.near).map_err(Error::Start)?;
+    let mut derivatives = differences(model, &place, &residuals, &at.near).map_err(Error::Start)?;
     let mut damping = DAMPING;
     let mut failure = "the sum of squares does not fall".to_owned();
     for step in 1..=STEPS {
@@ -99,7 +95,7 @@ pub(super) fn fit(model: &Model<'_>, progress: &mut dyn FnMut(f64, &str)) -> Res
                 residuals,
                 derivatives,
                 steps: step,
-                states: states * model.row_count(),
+                states,
             });
         }
         let shorter = (LONGEST / longest).min(1.0);
@@ -108,11 +104,13 @@ pub(super) fn fit(model: &Model<'_>, progress: &mut dyn FnMut(f64, &str)) -> Res
             .zip(&change)
             .map(|(from, by)| from + shorter * by)
             .collect();
-        let tried = evaluate(std::slice::from_ref(&next), &at.near).remove(0);
+        let tried = model.at(std::slice::from_ref(&next), &at.near).remove(0);
+        states += of_place;
         let tried = tried.map(|found| (model.residuals(&found.predictions), found));
         match tried {
             Ok((left, found)) if squares(&left) < sum => {
-                match differences(model, &mut evaluate, &next, &left, &found.near) {
+                states += of_differences;
+                match differences(model, &next, &left, &found.near) {
                     Ok(known) => {
                         (place, residuals, at, derivatives) = (next, left, found, known);
                         damping /= FACTOR;
@@ -128,7 +126,7 @@ pub(super) fn fit(model: &Model<'_>, progress: &mut dyn FnMut(f64, &str)) -> Res
                     residuals,
                     derivatives,
                     steps: step,
-                    states: states * model.row_count(),
+                    states,
                 });
             }
             Ok(_) => {}
@@ -153,7 +151,6 @@ fn squares(residuals: &[f64]) -> f64 {
 /// The derivatives at a place by central differences, from the states there.
 fn differences(
     model: &Model<'_>,
-    evaluate: &mut dyn FnMut(&[Vec<f64>], &[Near]) -> Vec<Evaluated>,
     place: &[f64],
     residuals: &[f64],
     near: &[Near],
@@ -168,7 +165,7 @@ fn differences(
             })
         })
         .collect();
-    let found = evaluate(&places, near);
+    let found = model.at(&places, near);
     let mut columns = Vec::new();
     let mut error = step * step;
     for pair in found.chunks(2) {
