@@ -2,7 +2,7 @@
 //! derivatives, from which every damped step of a place follows.
 
 use super::Error;
-use super::model::{At, Model, Predictions, RowFailure};
+use super::model::{At, Evaluated, Model, Predictions, RowFailure};
 use crate::answers::map::line::Near;
 use faer::Mat;
 
