@@ -3,7 +3,6 @@
 
 use super::Error;
 use super::model::{At, Evaluated, Model, Predictions, RowFailure};
-use crate::answers::map::line::Near;
 use faer::Mat;
 
 /// Most steps, tried ones included: with good starts four to eight are enough, and a factor of ten in a stiffness
@@ -73,7 +72,7 @@ pub(super) fn fit(model: &Model<'_>, progress: &mut dyn FnMut(f64, &str)) -> Res
     let first = model.at(std::slice::from_ref(&place), &[]).remove(0);
     let mut at = first.map_err(Error::Start)?;
     let mut residuals = model.residuals(&at.predictions);
-    let mut derivatives = differences(model, &place, &residuals, &at.near).map_err(Error::Start)?;
+    let mut derivatives = differences(model, &place, &residuals, &at).map_err(Error::Start)?;
     let mut damping = DAMPING;
     let mut failure = "the sum of squares does not fall".to_owned();
     for step in 1..=STEPS {
@@ -110,7 +109,7 @@ pub(super) fn fit(model: &Model<'_>, progress: &mut dyn FnMut(f64, &str)) -> Res
         match tried {
             Ok((left, found)) if squares(&left) < sum => {
                 states += of_differences;
-                match differences(model, &next, &left, &found.near) {
+                match differences(model, &next, &left, &found) {
                     Ok(known) => {
                         (place, residuals, at, derivatives) = (next, left, found, known);
                         damping /= FACTOR;
@@ -148,24 +147,25 @@ fn squares(residuals: &[f64]) -> f64 {
     residuals.iter().map(|residual| residual * residual).sum()
 }
 
-/// The derivatives at a place by central differences, from the states there.
+/// The derivatives at a place by central differences, from what is known there: over a step h they err by h², relatively,
+/// and by the error of the states over h, which the cube root of that error balances.
 fn differences(
     model: &Model<'_>,
     place: &[f64],
     residuals: &[f64],
-    near: &[Near],
+    at: &At,
 ) -> Result<Derivatives, RowFailure> {
-    let step = model.step();
+    let step = at.error.cbrt();
     let places: Vec<_> = (0..place.len())
         .flat_map(|index| {
             [1.0, -1.0].map(|side| {
-                let mut at = place.to_vec();
-                at[index] += side * step;
-                at
+                let mut beside = place.to_vec();
+                beside[index] += side * step;
+                beside
             })
         })
         .collect();
-    let found = model.at(&places, near);
+    let found = model.at(&places, &at.near);
     let mut columns = Vec::new();
     let mut error = step * step;
     for pair in found.chunks(2) {

@@ -3,16 +3,16 @@
 use crate::answers::map::line::{Family, Near};
 use crate::answers::members::Varied;
 use crate::input::{FileKey, MeasuredRow, Measurements, Reading};
-use crate::{BeltKind, GivenLosses, SolveOptions};
+use crate::{BeltKind, FrictionLaw, GivenLosses, SolveOptions};
 use std::num::NonZero;
 use std::thread;
 
 /// Relative error of states in closed form, and least one of others: what their differences are made from.
 const ROUNDING: f64 = 1e-13;
 
-/// Tolerance of the states of V-belts, at most, whose differences stand for derivatives. With 1e-8 the standard errors of
-/// three numbers of a V-belt were off by 3e-4, with 1e-9 by 5e-5.
-const TOLERANCE: f64 = 1e-9;
+/// Tolerance of the states of V-belts with bristles, at most, whose differences stand for derivatives: standard errors of
+/// three numbers of one are then off by 1e-5, with 1e-6 by 4e-4.
+const TOLERANCE: f64 = 1e-8;
 
 /// A row without an answer.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,9 +31,8 @@ pub(super) struct Model<'d> {
     keys: &'d [FileKey],
     starts: Vec<f64>,
     data: &'d Measurements,
-    /// The drives of the rows, solved to this tolerance and to the one that is asked for.
-    rows: Vec<Result<[Family<'d>; 2], RowFailure>>,
-    tolerance: f64,
+    /// The drives of the rows.
+    rows: Vec<Result<Family<'d>, RowFailure>>,
     is_flat: bool,
 }
 
@@ -66,20 +65,16 @@ impl<'d> Model<'d> {
         let first = data.rows.first().map(|row| &row.file);
         let start = |key| first.and_then(|file| file.value(key));
         let drive = first.and_then(|file| file.drive().ok());
-        let kind = drive.map(|drive| drive.belt.kind);
-        let tolerance = options.tolerance.min(TOLERANCE);
+        let kind = drive.as_ref().map(|drive| drive.belt.kind);
+        let tolerance = match drive.as_ref().map(|drive| drive.law) {
+            Some(FrictionLaw::Bristle { .. }) => options.tolerance.min(TOLERANCE),
+            // Zones are sought anew for every state, to 1e-9 in fifty times the time.
+            _ => options.tolerance,
+        };
         let rows = data.rows.iter().map(|row| {
-            let to = |tolerance| {
-                let options = SolveOptions { tolerance };
-                Family::new(
-                    &row.file,
-                    varied.iter().collect(),
-                    options,
-                    GivenLosses::default(),
-                )
+            let (varied, options) = (varied.iter().collect(), SolveOptions { tolerance });
+            Family::new(&row.file, varied, options, GivenLosses::default())
                 .map_err(|error| row_failure(row, error.message()))
-            };
-            Ok([to(tolerance)?, to(options.tolerance)?])
         });
         Self {
             starts: keys
@@ -89,7 +84,6 @@ impl<'d> Model<'d> {
             keys,
             data,
             rows: rows.collect(),
-            tolerance,
             is_flat: matches!(kind, Some(BeltKind::Flat { .. })),
         }
     }
@@ -140,16 +134,6 @@ impl<'d> Model<'d> {
             0.0 => 1.0,
             start => start.abs(),
         }
-    }
-
-    /// The step of a coordinate in differences: over h they err by h², relatively, and by the error of the states over h,
-    /// which its cube root balances.
-    pub(super) fn step(&self) -> f64 {
-        let error = match self.is_flat {
-            true => ROUNDING,
-            false => self.tolerance,
-        };
-        error.cbrt()
     }
 
     /// The model at several places, from the states `near` of the rows; the first failure for a place without an answer.
@@ -210,10 +194,8 @@ impl<'d> Model<'d> {
     /// A row with values of the free numbers.
     fn row(&self, index: usize, values: &[f64], near: Option<&Near>) -> Result<OfRow, RowFailure> {
         let row = &self.data.rows[index];
-        let [finer, asked] = self.rows[index].as_ref().map_err(RowFailure::clone)?;
-        let found = finer.point(near, values);
-        // Not every state is found to a smaller tolerance.
-        let found = found.or_else(|_| asked.point(near, values));
+        let family = self.rows[index].as_ref().map_err(RowFailure::clone)?;
+        let found = family.point(near, values);
         let (near, state) = found.map_err(|refusal| row_failure(row, &refusal.to_string()))?;
         let read = |(index, reading): (usize, &Option<Reading>)| {
             reading.as_ref()?;
