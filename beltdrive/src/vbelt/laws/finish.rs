@@ -1,6 +1,8 @@
 //! The end of the way: zones of the right kind, the tolerance, and a smoothing without effect.
 
 use super::GREAT_STEP;
+use super::obeyed::{GAINED, power_gained};
+use super::sliding::{SAME_WAY, WRONG_WAY};
 use crate::vbelt::carried::Carried;
 use crate::vbelt::path::{Effort, Path, Solved, Stuck};
 use crate::vbelt::zones::Cut;
@@ -152,8 +154,11 @@ impl Path<'_> {
 
     /// Shortens ℓ until its effect is below the tolerance. That is told to first order, which on the drive of Kim (2009) is
     /// right to 1 % from 105 to 5000 N and takes a fifth of the time of a solution with a shorter one.
+    ///
+    /// A traction that lags behind a slip that turns within a length of about ℓ pulls with it for a while, with a shorter ℓ
+    /// for less; one that has turned the wrong way round gains as much power with every ℓ.
     fn shorten_lag<P: BeltProblem>(&mut self, solved: Solved<P>) -> Result<Solved<P>, Stuck<P>> {
-        let mut here = solved;
+        let (mut here, mut gained_before) = (solved, f64::INFINITY);
         loop {
             let lag = here.problem.smoothing();
             let shorter = here.problem.clone().with_smoothing(SHORTER * lag);
@@ -163,9 +168,14 @@ impl Path<'_> {
             };
             self.smoothing_effect = here.change_to(&corrected) / (1.0 - SHORTER);
             let share = if lag < SHORT { EFFECT_SHARE } else { LAG_SHARE };
-            if self.smoothing_effect <= share * self.tolerance || lag <= SHORTEST {
+            let gained = power_gained(&here);
+            let lags_behind = gained > GAINED * self.tolerance
+                && gained <= WRONG_WAY.min(SAME_WAY * gained_before);
+            let has_effect = self.smoothing_effect > share * self.tolerance;
+            if !(has_effect || lags_behind) || lag <= SHORTEST {
                 return Ok(here);
             }
+            gained_before = gained;
             here = self.smooth_less(here, SHORTER * lag, Effort::Close)?;
         }
     }

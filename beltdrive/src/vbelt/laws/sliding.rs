@@ -29,7 +29,7 @@ pub(in crate::vbelt) const WRONG_WAY: f64 = 1e-4;
 /// If the belt gains more than this share of that without a lead, it does not do so because of the lead, and a shorter ℓ
 /// leads to the same state: on a loop of three pulleys three such ways took 150 to 170 Newton steps each, and the gain
 /// stayed the same to 1 % along each of them.
-const SAME_WAY: f64 = 0.5;
+pub(super) const SAME_WAY: f64 = 0.5;
 
 impl Path<'_> {
     /// Coulomb friction by way of bristles, if it is found so and friction obeys its law.
