@@ -55,7 +55,7 @@ pub(super) const ACCURACY: f64 = 1e-3;
 pub(super) const ACCURACY_OF_DIRECTION: f64 = 1e-6;
 /// Limit points, gross slip and changes of zones are located to this, where the range of the entry counts as one. Down to
 /// rounding, `rating` of `kim2009-epp` takes a fifth more time.
-pub(super) const LOCATION: f64 = 1e-8;
+pub(super) const LOCATION: f64 = 1e-10;
 
 /// How a piece ends.
 pub(super) enum PieceEnd {
