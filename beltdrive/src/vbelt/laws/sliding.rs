@@ -7,13 +7,15 @@ use super::Asked;
 use super::astray::Astray;
 use super::obeyed::{Gains, power_gained};
 use crate::FrictionLaw;
-use crate::vbelt::BeltProblem;
 use crate::vbelt::carried::Carried;
 use crate::vbelt::path::{Effort, Path, Solved};
 use crate::vbelt::zones::Cut;
+use crate::vbelt::{BeltProblem, Law};
 
-/// Lengths ℓ/R with which Coulomb friction is entered, the first that works.
-const FIRST_LAGS: [f64; 2] = [1e-3, 1e-2];
+/// Lengths ℓ with which Coulomb friction is entered, as multiples of the length over which bristles develop friction, the first
+/// that works: 1e-3 and 1e-2 of the smallest radius for the softest bristles. A belt that locks with stiff bristles only
+/// slips with these.
+const FIRST_LAGS: [f64; 2] = [1.0, 10.0];
 /// Lengths ℓ/R at which a lead is tried, in this order. On the drive of Kim (2009) the first works from
 /// 1.006 times the slack tension on.
 const LED_LAGS: [f64; 3] = [1e-5, 1e-6, 1e-7];
@@ -39,8 +41,9 @@ impl Path<'_> {
         bristles: &Solved<A::Problem>,
     ) -> Option<Solved<A::Problem>> {
         let cut = Cut::of(bristles);
-        let entered = FIRST_LAGS.into_iter().find_map(|lag| {
-            let problem = asked.problem(FrictionLaw::Coulomb, lag);
+        let developed = developed_after(&bristles.problem);
+        let entered = FIRST_LAGS.into_iter().find_map(|times| {
+            let problem = asked.problem(FrictionLaw::Coulomb, times * developed);
             let problem = cut.apply(problem.led(false));
             self.attempt(problem, &cut, Effort::Rough).ok()
         });
@@ -118,6 +121,18 @@ impl Path<'_> {
             false => Unled::Failed(astray),
         })
     }
+}
+
+/// The length μ/κ over which bristles develop friction on a pulley, over its radius, where that is largest.
+fn developed_after<P: BeltProblem>(bristles: &P) -> f64 {
+    let grooves = (0..bristles.pulleys()).filter_map(|pulley| bristles.in_groove(pulley));
+    let lengths = grooves.map(|groove| match groove.law {
+        Law::Bristle { stiffness, .. } => groove.friction_coefficient / stiffness,
+        Law::Normalised { .. } | Law::Sliding { .. } | Law::Vector { .. } => {
+            panic!("bristles were expected")
+        }
+    });
+    lengths.fold(0.0, f64::max)
 }
 
 /// Why a direction is not led.
