@@ -28,7 +28,7 @@ use crate::FrictionLaw;
 const STIFFER: f64 = 10.0;
 
 /// How often bristles are made stiffer: the first time tells b, the second one how well.
-pub(super) const TIMES: usize = 2;
+const TIMES: usize = 2;
 
 /// Relative error of a limit that is that of one smoothed law alone: the one with soft bristles of a small pulley was
 /// 3 % too low.
@@ -115,7 +115,7 @@ impl Search<'_> {
         let mut states = vec![rough.clone()];
         if !is_of_law && has_bristles(rough) {
             for _ in 0..TIMES {
-                let Some(next) = self.stiffer(&states[states.len() - 1]) else {
+                let Some(next) = self.stiffer(&states[states.len() - 1], STIFFER) else {
                     break;
                 };
                 states.push(next);
@@ -124,9 +124,13 @@ impl Search<'_> {
         Stiffened { states, is_of_law }
     }
 
-    /// The same loop with stiffer bristles.
-    pub(super) fn stiffer(&mut self, state: &Solved<LoopProblem>) -> Option<Solved<LoopProblem>> {
-        let to = STIFFER.ln();
+    /// The same loop with bristles this many times as stiff.
+    pub(super) fn stiffer(
+        &mut self,
+        state: &Solved<LoopProblem>,
+        times: f64,
+    ) -> Option<Solved<LoopProblem>> {
+        let to = times.ln();
         let soft = state.problem.clone();
         let member = |_: &LoopProblem, t: f64| soft.clone().with_stiffer_bristles(t.exp());
         let found = self.follow(state.clone(), [0.0, to], to, Effort::Rough, member);
@@ -199,7 +203,7 @@ impl Search<'_> {
         let count = limit.below.len();
         let higher = (1..=HIGHER).filter_map(|part| limit.below.get(count * part / (HIGHER + 1)));
         std::iter::once(from).chain(higher).find_map(|soft| {
-            let begin = self.stiffer(soft).filter(is_drive)?;
+            let begin = self.stiffer(soft, STIFFER).filter(is_drive)?;
             let next = match (judge, limit.top.is_last) {
                 (Judge::GrossSlip, false) => {
                     self.gross_slip_above(&begin, AHEAD.map(|share| share * top))
