@@ -107,12 +107,6 @@ pub(super) fn running<'l>(
     let shares = SHARES.map(start);
     let shares = || shares.iter().filter(|share| share.is_taut());
     let has_direction = matches!(drive.law, FrictionLaw::Coulomb | FrictionLaw::Epp { .. });
-    // The limit of scalar EPP friction is often another one than that of stiff bristles, by which it took six times as long.
-    if drive.law == FrictionLaw::Coulomb
-        && let Some(solved) = over_bristles(search, shares())
-    {
-        return Ok(found(whole, solved, None));
-    }
     for share in shares().filter(|_| has_direction) {
         match along_direction(search, share) {
             Along::Carries(solved) => return Ok(found(whole, *solved, None)),
@@ -123,6 +117,12 @@ pub(super) fn running<'l>(
             Along::Ends(_) => break,
             Along::Lost => {}
         }
+    }
+    // The limit of scalar EPP friction is often another one than that of stiff bristles, by which it took six times as long.
+    if drive.law == FrictionLaw::Coulomb
+        && let Some(solved) = over_bristles(search, shares())
+    {
+        return Ok(found(whole, solved, None));
     }
     for share in shares() {
         match search.enter(share) {
@@ -176,8 +176,7 @@ fn along_direction(search: &mut Search<'_>, share: &Start<'_>) -> Along {
 
 /// The whole load with Coulomb friction, from that with bristles raised from the first of some shares of it at which they
 /// are found: with stiffer ones where soft ones end before. Those of `spb-fan` with μ = 0.6 and 40 N slip grossly at 0.12 of the
-/// load, and ones that are ten times as stiff lock in the grooves, as Coulomb friction does. Of eleven setup tensions from
-/// 25 to 50 N five were refused where the load was raised with Coulomb friction first, which also took ten times as long.
+/// load, and ones that are ten times as stiff lock in the grooves, as Coulomb friction does.
 fn over_bristles<'s>(
     search: &mut Search<'_>,
     mut shares: impl Iterator<Item = &'s Start<'s>>,
