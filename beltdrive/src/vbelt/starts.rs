@@ -5,9 +5,9 @@ use crate::Drive;
 use crate::input::Key;
 
 /// How far a load is lowered, as powers of its ratio to the slack tension: the nearer, the shorter the way, but not all
-/// states are found. Without 0.5 two of 10 000 overloaded drives with Coulomb friction were not refused. The last are for
-/// soft elastic friction on a stiff belt, which carries 3 % and 0.3 % more than no load where Coulomb friction carries eight
-/// times as much.
+/// states are found. Of 10 000 drives with Coulomb friction two that are overloaded were not refused without 0.5. The last
+/// are for soft elastic friction on a stiff belt, which carries 3 % and 0.3 % more than no load where Coulomb friction carries
+/// eight times as much.
 const LIGHTER: [f64; 10] = [0.8, 0.6, 0.5, 0.4, 0.25, 0.15, 0.08, 0.03, 0.01, 1e-3];
 /// Multiples of the slack tension at which a branch may begin in place of the load of the drive, and first does if that
 /// is less than the last of them: nearer to no load the belt hardly slips, and states are hard to find and to follow.
