@@ -63,8 +63,8 @@
 //!    chapter 5; Allgower & Georg 1990, chapter 6). It is repeated shorter where Newton's method
 //!    fails, G is not finite or the tangent turns too much.
 //! 5. **Special points** between two points are recognised by the sign of a function, and located on the
-//!    branch down to rounding, or as far as [`Options::location`] asks for; branch points, where that does not determine them, by a regular extended
-//!    system.
+//!    branch down to rounding, or as far as [`Options::location`] asks for; branch points, where that does
+//!    not determine them, by a regular extended system.
 //! 6. **Branch switching** starts along the tangent of the other branch, known from the second
 //!    derivatives at the branch point, and verifies that the first point lies there
 //!    ([`Branch::switch`]).

@@ -38,7 +38,7 @@ pub struct Options {
     pub accuracy: f64,
     /// Limit points, cusps and events are located and corrected to this length in the arclength norm; 0, the default,
     /// stands for down to rounding, which is what branch points and points with a prescribed λ are corrected to always.
-    /// Away from a limit point λ changes with the square of the distance.
+    /// At a limit point λ is then off by about the square of it.
     #[cfg_attr(feature = "serde", serde(default))]
     pub location: f64,
     /// Largest number of Newton corrections per step; default 8.

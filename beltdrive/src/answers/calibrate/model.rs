@@ -7,7 +7,7 @@ use crate::{BeltKind, FrictionLaw, GivenLosses, SolveOptions};
 use std::num::NonZero;
 use std::thread;
 
-/// Relative error of states in closed form, and least one of others: what their differences are made from.
+/// Least relative error of states, from which the step of their differences follows.
 const ROUNDING: f64 = 1e-13;
 
 /// Tolerance of the states of V-belts with bristles, at most, whose differences stand for derivatives: standard errors of
@@ -55,7 +55,7 @@ pub(super) type Evaluated = Result<At, RowFailure>;
 type OfRow = (Vec<Option<f64>>, f64, Near);
 
 impl<'d> Model<'d> {
-    /// `varied` are the keys.
+    /// With `varied` the keys as they vary.
     pub(super) fn new(
         keys: &'d [FileKey],
         varied: &'d [Varied],
