@@ -4,6 +4,7 @@ use super::carried::{Carried, Member};
 use super::cubic::lowest_between;
 use super::curve::Curve;
 use super::family::{DriveFamily, Entry};
+use super::laws::obeys_friction;
 use super::path::{Effort, Path, Solved};
 use super::state::describe;
 use super::tracer::{Tracer, Until};
@@ -130,10 +131,14 @@ impl Tracer<'_> {
         let drive = self.drive_at(value);
         let smoothing = smoothing(&solved.problem);
         let mut path = Path::new(&drive, self.tolerance);
-        // With another ℓ, ε or τ the zones may not be those of the state.
+        let is_longer = smoothing > solved.problem.smoothing();
+        // With another ℓ, ε or τ the zones may not be those of the state, and with a longer one traction may lag too far
+        // behind a slip that turns.
         let solved = path
             .smooth_less(solved.clone(), smoothing, Effort::Full)
-            .unwrap_or_else(|_| solved.clone());
+            .ok()
+            .filter(|found| !is_longer || obeys_friction(found, self.tolerance))
+            .unwrap_or_else(|| solved.clone());
         let smoothing = solved.problem.smoothing();
         self.convergence.slip_normalisation = self.convergence.slip_normalisation.max(smoothing);
         let entry = Entry {

@@ -29,7 +29,7 @@ use std::f64::consts::LN_10;
 
 pub(super) use astray::Astray;
 use finish::RESOLVED;
-pub(super) use obeyed::{ALLOWED, GAINED, power_gained, wrong_friction};
+pub(super) use obeyed::{ALLOWED, GAINED, obeys_friction, power_gained, wrong_friction};
 pub(super) use sliding::WRONG_WAY;
 
 /// Bristle stiffness of the start, κ R/μ: friction is fully developed after a thousandth of a

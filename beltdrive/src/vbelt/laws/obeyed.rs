@@ -22,7 +22,7 @@ fn grooves<P: BeltProblem>(solved: &Solved<P>) -> impl Iterator<Item = (usize, O
 }
 
 /// Whether friction is against the slip, and elastic or at its limit where it is taken to be.
-pub(super) fn obeys_friction<P: BeltProblem>(solved: &Solved<P>, tolerance: f64) -> bool {
+pub(in crate::vbelt) fn obeys_friction<P: BeltProblem>(solved: &Solved<P>, tolerance: f64) -> bool {
     Gains::of(solved).obey_friction(solved, tolerance)
 }
 
