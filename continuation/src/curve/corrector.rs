@@ -57,7 +57,7 @@ impl Condition {
 pub(crate) struct Correction {
     /// Length of the first correction: the error of the prediction.
     pub(crate) first: f64,
-    /// The second over the first, zero if there was none.
+    /// The second over the first; zero if there was none, or the first was so short that the second may be rounding.
     pub(crate) contraction: f64,
     /// Distance from the last linearisation to the point found.
     pub(crate) drift: f64,
@@ -126,6 +126,7 @@ impl Corrector {
             Accuracy::Length(length) => length,
             Accuracy::Rounding => 0.0,
         };
+        let rounding = ROUNDING.max(ROUNDING_FACTOR * wanted);
         // The length of the correction before, unless it is no measure for the next one.
         let (mut before, mut keep) = (None, false);
         // A correction by an old linearisation that may be rounding.
@@ -138,7 +139,7 @@ impl Corrector {
             }
             let length = self.solve(system, metric, condition, z)?;
             let ratio = before.map(|before: f64| length / before);
-            if step == 1 {
+            if step == 1 && report.first > rounding {
                 report.contraction = ratio.unwrap_or(1.0);
             }
             if let Some(chord) = doubted.take() {
@@ -152,7 +153,7 @@ impl Corrector {
             if let Some(last) = before
                 && length > CONTRACTION * last
             {
-                let small = last <= ROUNDING.max(ROUNDING_FACTOR * wanted);
+                let small = last <= rounding;
                 if keep {
                     // The linearisation may be too old: another one at the same point.
                     doubted = small.then(|| self.particular.clone());

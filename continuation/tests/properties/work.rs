@@ -5,7 +5,7 @@ use crate::counting::{Counting, Counts};
 use crate::systems::tank;
 use crate::{assert_close, of, steps};
 use continuation::Direction::Increasing;
-use continuation::{Branch, Kind, Options, Point, System};
+use continuation::{Branch, DenseSystem, Kind, Options, Point, System};
 
 /// The limit points of the differences with 9, 39, 99 and 399 interior points.
 const DIFFERENCES: [(usize, f64); 4] = [
@@ -150,6 +150,26 @@ fn limit_points_to_a_location_take_less_work_and_have_their_lambda_to_its_square
         assert!(counts.residuals + 10 < most.residuals);
         assert!(counts.linearisations + 2 < most.linearisations);
     }
+}
+
+#[test]
+fn rounding_of_a_system_does_not_shorten_steps() {
+    // Noise of 2e-9 in equations that are asked for to 1e-9.
+    let steps_with = |noise: f64| {
+        let mut system = DenseSystem::new(1, &[0.0], 0, move |x, p, g| {
+            let irregular = (1e13 * x[0] * p[0]).sin();
+            g[0] = p[0] - 0.1 * x[0].powi(3) - x[0] + noise * irregular;
+        })
+        .with_jacobian(|x, _, j| j.copy_from_slice(&[-0.3 * x[0] * x[0] - 1.0, 1.0]));
+        let options = Options {
+            largest_step: 0.02,
+            ..Options::within(0.0, 1.0)
+        };
+        let branch = Branch::new(&mut system, &[0.0, 0.0], Increasing, &options);
+        steps(&branch.unwrap().collect::<Vec<_>>())
+    };
+    let [smooth, noisy] = [0.0, 2e-9].map(steps_with);
+    assert!(noisy <= smooth + 2, "{noisy} steps in place of {smooth}");
 }
 
 #[test]
