@@ -41,6 +41,11 @@ pub struct Options {
     /// At a limit point λ is then off by about the square of it.
     #[cfg_attr(feature = "serde", serde(default))]
     pub location: f64,
+    /// Whether branch points are looked for; default true. For that a second null vector is followed, and steps are
+    /// shortened where it turns. Without it branch points are passed unseen, and a start at one is not refused: for systems
+    /// that have none, or nearly singular ones, on which that vector turns in steps a thousandth as long as the tangent.
+    #[cfg_attr(feature = "serde", serde(default = "yes"))]
+    pub branch_points: bool,
     /// Largest number of Newton corrections per step; default 8.
     pub corrections: usize,
     /// Largest number of steps; default 1000.
@@ -72,6 +77,12 @@ pub enum Predictor {
     Polynomial,
 }
 
+/// The default where saved settings do not say.
+#[cfg(feature = "serde")]
+fn yes() -> bool {
+    true
+}
+
 impl Options {
     /// The defaults for λ between `low` and `high`.
     pub fn within(low: f64, high: f64) -> Self {
@@ -85,6 +96,7 @@ impl Options {
             angle: 0.35,
             accuracy: 1e-9,
             location: 0.0,
+            branch_points: true,
             corrections: 8,
             steps: 1000,
             parameterisation: Parameterisation::Pseudoarclength,

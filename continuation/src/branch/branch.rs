@@ -165,6 +165,7 @@ impl<'a, S: System> Branch<'a, S> {
         let metric = Metric::new(system, options, z);
         let mut curve = Curve::new(system, metric, options.bounds);
         curve.location = options.location;
+        curve.branch_points = options.branch_points;
         Ok(Self {
             curve,
             events: Events::none(),

@@ -83,7 +83,7 @@ impl<'a, S: System> Labels<'_, 'a, S> {
     /// A branch point, where the orientation of the null vector changes. On the shortest steps
     /// also one of even multiplicity, where it does not but the second vector turns over.
     fn branch_points(&mut self, to: &Node, share: f64) -> Result<Vec<Found>, Difficulty> {
-        if self.progress.unoriented {
+        if self.progress.unoriented || !self.curve.branch_points {
             return Ok(Vec::new());
         }
         let kind = Kind::BranchPoint;

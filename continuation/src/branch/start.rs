@@ -43,7 +43,7 @@ pub(crate) fn correct_start<S: System>(
     curve.metric.reach(&node.tangent, FARTHEST);
     curve.metric.normalise(&mut node.tangent);
     choose_border(curve, node).map_err(Error::Start)?;
-    if node.eta().abs() < SINGULAR {
+    if curve.branch_points && node.eta().abs() < SINGULAR {
         return Err(Error::SingularStart);
     }
     Ok(())

@@ -292,7 +292,7 @@ impl<S: System> Stepper<'_, '_, S> {
     /// away: over it η changes by about the same share as over the step, three times that to be sure.
     fn near_crossing(&self, node: &Node, share: f64) -> bool {
         let [before, after] = [&self.progress.node, node].map(Node::eta);
-        after.abs() <= 3.0 * share * (after - before).abs()
+        self.curve.branch_points && after.abs() <= 3.0 * share * (after - before).abs()
     }
 
     /// Turns the null vector of a node into the unit tangent in the direction of travel.
@@ -333,7 +333,7 @@ impl<S: System> Stepper<'_, '_, S> {
     /// The angle by which the second null vector turns on a step h: by too much, or with an η that turns
     /// back before zero, the step may have passed two branch points.
     fn second_angle(&self, node: &Node, h: f64) -> Result<f64, Difficulty> {
-        if self.progress.unoriented {
+        if self.progress.unoriented || !self.curve.branch_points {
             return Ok(0.0);
         }
         let last = &self.progress.node;

@@ -17,6 +17,8 @@ pub(crate) struct Curve<'a, S> {
     pub(crate) corrector: Corrector,
     /// Points between two others are located to this length; 0 stands for down to rounding.
     pub(crate) location: f64,
+    /// Whether branch points are looked for.
+    pub(crate) branch_points: bool,
     /// The bordering vector b of the test function for branch points.
     pub(crate) border: Vec<f64>,
     /// Another bordering vector, whose second vector turns at branch points that b overlooks: those at which it
@@ -31,6 +33,7 @@ impl<'a, S: System> Curve<'a, S> {
             metric,
             corrector: Corrector::within(bounds),
             location: 0.0,
+            branch_points: true,
             border: Vec::new(),
             witness: Vec::new(),
         }

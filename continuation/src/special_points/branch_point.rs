@@ -102,11 +102,14 @@ pub(crate) fn bordering_vector<S: System>(
 }
 
 /// Gives a node with its unit tangent the second null vectors of \[J b\] for both bordering vectors, where the
-/// system was linearised last.
+/// system was linearised last, if branch points are looked for.
 pub(crate) fn find_seconds<S: System>(
     curve: &mut Curve<'_, S>,
     node: &mut Node,
 ) -> Result<(), Difficulty> {
+    if !curve.branch_points {
+        return Ok(());
+    }
     let mut second =
         |border: &[f64]| NullSpace::second(curve.system, &curve.metric, &node.tangent, border);
     let both = second(&curve.border).zip(second(&curve.witness));
@@ -131,11 +134,14 @@ pub(crate) fn set_borders<S: System>(
 }
 
 /// Chooses the bordering vectors for a node, where the system was linearised last, and gives the node its
-/// second vectors.
+/// second vectors, if branch points are looked for.
 pub(crate) fn choose_border<S: System>(
     curve: &mut Curve<'_, S>,
     node: &mut Node,
 ) -> Result<(), Difficulty> {
+    if !curve.branch_points {
+        return Ok(());
+    }
     set_borders(curve, &node.z)?;
     find_seconds(curve, node)?;
     lengthen(&mut curve.border, &node.second);

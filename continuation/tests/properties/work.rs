@@ -2,7 +2,7 @@
 
 use crate::bratu::bratu;
 use crate::counting::{Counting, Counts};
-use crate::systems::tank;
+use crate::systems::{tank, transcritical};
 use crate::{assert_close, of, steps};
 use continuation::Direction::Increasing;
 use continuation::{Branch, DenseSystem, Kind, Options, Point, System};
@@ -150,6 +150,27 @@ fn limit_points_to_a_location_take_less_work_and_have_their_lambda_to_its_square
         assert!(counts.residuals + 10 < most.residuals);
         assert!(counts.linearisations + 2 < most.linearisations);
     }
+}
+
+#[test]
+fn branch_points_that_are_not_looked_for_are_passed_in_less_work() {
+    let passed = |branch_points: bool| {
+        let mut system = Counting::new(transcritical());
+        let options = Options {
+            branch_points,
+            ..Options::within(-1.0, 1.0)
+        };
+        let branch = Branch::new(&mut system, &[-0.3, -1.0], Increasing, &options);
+        let points: Vec<Point> = branch.unwrap().collect();
+        let end = points.last().unwrap();
+        assert_eq!(end.kind, Kind::Bound);
+        assert_close(&end.z, &[0.3, 1.0], 1e-12);
+        (of(&points, Kind::BranchPoint).len(), system.counts)
+    };
+    let [(found, most), (none, counts)] = [true, false].map(passed);
+    println!("{counts:?} in place of {most:?}");
+    assert_eq!([found, none], [1, 0]);
+    assert!(counts.residuals < most.residuals && counts.linearisations < most.linearisations);
 }
 
 #[test]
