@@ -283,6 +283,6 @@ impl<'d> Statement<'d> {
     fn contact(&self, loaded: &Loaded, pulley: usize) -> Option<Contact> {
         let arc = loaded.arc[pulley];
         let law = self.drive.law;
-        law.row().contact(arc, loaded.speed, law.parameter())
+        law.contact(arc, loaded.speed, law.parameter().unwrap_or_default())
     }
 }

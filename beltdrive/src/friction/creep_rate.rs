@@ -16,9 +16,10 @@ use super::rim::contact::{Arc, Contact, Place};
 use super::rim::zone::{ContactZone, Developing, Friction, Law};
 use super::row::OnRims;
 use super::{Parameter, Row};
-use crate::mechanics::root::{bracketed, near_with_slope};
+use crate::mechanics::implicit::{Implicit, bracketed, near_with_slope};
 use crate::quantity::Measure;
 use crate::{FrictionLaw, NormalForce, ZoneKind};
+use bvp::Real;
 
 /// The last step of the secant method for the logarithm of the slip velocity at the entry. Its error is about this
 /// times the step before.
@@ -44,7 +45,6 @@ pub(super) const ROW: Row = Row {
     with: |velocity| FrictionLaw::CreepRate { velocity },
     in_grooves: false,
     on_rims: Some(OnRims {
-        solve,
         convention: Some(NormalForce::Inertia),
     }),
 };
@@ -52,7 +52,7 @@ pub(super) const ROW: Row = Row {
 /// The contact of an arc on which friction is fully developed from the slip velocity `saturation`
 /// `v_s` on, m/s, for a belt whose unstretched parts move at `speed` c, m/s; `None` if the load is not
 /// below the capacity of the arc.
-pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
+pub(crate) fn solve<S: Implicit>(arc: Arc<S>, speed: S, saturation: S) -> Option<Contact<S>> {
     let load = arc.load();
     if load >= arc.capacity() {
         return None;
@@ -61,18 +61,18 @@ pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
     // The unknown is the logarithm of the slip velocity at the entry, which may be less than 1e-308.
     let entry = match load > 0.0 {
         true => {
-            let mut residual = |logarithm: f64| {
+            let mut residual = |logarithm: S| {
                 evaluations += 1;
                 Creep::with_logarithm(&arc, speed, saturation, logarithm).load(&arc) - load
             };
             let [guess, slope] = guess(&arc, speed, saturation, load);
-            let range = [f64::MIN, saturation.ln()];
+            let range = [f64::MIN, saturation.value().ln()];
             let near = near_with_slope(|place| Some(residual(place)), guess, slope, range, NEAR);
             let most = saturation.ln();
             let unit = speed * arc.entry() / arc.belt.stiffness;
             // The slip velocity grows at most by exp(a L (B ± v_s)/v_s) over the arc.
-            let growth = arc.capacity() * (unit + 2.0 * saturation) / saturation;
-            let least = (unit * load.min(1.0)).ln() - growth - LEAST;
+            let growth = arc.capacity() * (unit + saturation * 2.0) / saturation;
+            let least = (unit * load.min(S::ONE)).ln() - growth - LEAST;
             let ends = [least.min(most - 1.0), most];
             let found = || {
                 let values = [residual(ends[0]), arc.capacity() - load];
@@ -80,13 +80,13 @@ pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
             };
             near.or_else(found)?
         }
-        false => f64::NEG_INFINITY,
+        false => S::from_f64(f64::NEG_INFINITY),
     };
     let creep = Creep::with_logarithm(&arc, speed, saturation, entry);
     let start = Place {
-        arc_length: 0.0,
+        arc_length: S::ZERO,
         traction: arc.entry(),
-        displacement: 0.0,
+        displacement: S::ZERO,
         friction: arc.slip_rate * arc.entry() * creep.entry / saturation,
     };
     let saturated = creep.end;
@@ -120,45 +120,45 @@ pub(crate) fn solve(arc: Arc, speed: f64, saturation: f64) -> Option<Contact> {
 ///
 /// With x of [`Creep`] at both ends of the zone of creep, whose last slip velocity Y follows from the load or is
 /// `v_s`, it is y(0) = q Y/(B ± Y) exp(−a B s/`v_s`), of which the right side hardly depends on y(0).
-fn guess(arc: &Arc, speed: f64, saturation: f64, load: f64) -> [f64; 2] {
+fn guess<S: Real>(arc: &Arc<S>, speed: S, saturation: S, load: S) -> [S; 2] {
     let sense = arc.sense;
     let unit = speed * arc.entry() / arc.belt.stiffness;
-    let gained = sense * (sense * load).exp_m1() * unit;
-    let (mut logarithm, mut slope) = (f64::NEG_INFINITY, f64::NAN);
+    let gained = (load * sense).exp_m1() * sense * unit;
+    let [mut logarithm, mut slope] = [f64::NEG_INFINITY, f64::NAN].map(S::from_f64);
     for _ in 0..TURNS {
         let entry = logarithm.exp();
-        let b = unit - sense * entry;
+        let b = unit - entry * sense;
         let mut length = arc.length;
         let mut last = gained + entry;
-        slope = last / unit * (-sense * load).exp();
+        slope = last / unit * (load * -sense).exp();
         if last >= saturation {
             last = saturation;
-            let creeping = sense * (sense * (last - entry) / unit).ln_1p();
+            let creeping = ((last - entry) * sense / unit).ln_1p() * sense;
             length -= (load - creeping) / arc.slip_rate;
             slope = last / unit;
         }
         let decayed = arc.slip_rate * b * length / saturation;
-        logarithm = (unit * last / (b + sense * last)).ln() - decayed;
+        logarithm = (unit * last / (b + last * sense)).ln() - decayed;
     }
     [logarithm, slope]
 }
 
 /// Friction a P y/`v_s` with the slip velocity y below `v_s`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Creeping {
-    creep: Creep,
+pub(crate) struct Creeping<S = f64> {
+    creep: Creep<S>,
     /// Speed c of the unstretched belt, m/s.
-    speed: f64,
+    speed: S,
     /// Slip velocity `v_s` of full friction, m/s.
-    saturation: f64,
+    saturation: S,
 }
 
-impl Developing for Creeping {
+impl<S: Real> Developing<S> for Creeping<S> {
     fn kind(&self) -> ZoneKind {
         ZoneKind::Creep
     }
 
-    fn at(&self, contact: &Contact, zone: &ContactZone, share: f64) -> Place {
+    fn at(&self, contact: &Contact<S>, zone: &ContactZone<S>, share: S) -> Place<S> {
         let Self {
             creep,
             speed,
@@ -166,10 +166,10 @@ impl Developing for Creeping {
         } = *self;
         let arc = &contact.arc;
         let extent = zone.end - zone.start.arc_length;
-        let distance = (1.0 - share) * extent;
+        let distance = (S::ONE - share) * extent;
         let velocity = creep.velocity(distance);
         let load = creep.load_before(distance);
-        let traction = arc.entry() * (arc.sense * load).exp();
+        let traction = arc.entry() * (load * arc.sense).exp();
         Place {
             arc_length: zone.start.arc_length + share * extent,
             traction,
@@ -178,11 +178,11 @@ impl Developing for Creeping {
         }
     }
 
-    fn decay_lengths(&self, contact: &Contact, zone: &ContactZone) -> f64 {
+    fn decay_lengths(&self, contact: &Contact<S>, zone: &ContactZone<S>) -> S {
         let (arc, saturation) = (&contact.arc, self.saturation);
         let unit = self.speed * arc.entry() / arc.belt.stiffness;
         let extent = zone.end - zone.start.arc_length;
-        arc.slip_rate * extent * (unit + 2.0 * saturation) / saturation
+        arc.slip_rate * extent * (unit + saturation * 2.0) / saturation
     }
 
     /// With ds = `v_s` D/(a c) dP/(P (P − `P_o`)) that of `P_o` times the length and, with S of
@@ -191,7 +191,7 @@ impl Developing for Creeping {
     /// ```text
     /// v_s D²/(a c S (S + P_o)) ln( P₁ (S + P₀)/(P₀ (S + P₁)) )
     /// ```
-    fn elongation(&self, contact: &Contact, zone: &ContactZone) -> f64 {
+    fn elongation(&self, contact: &Contact<S>, zone: &ContactZone<S>) -> S {
         let (arc, belt) = (&contact.arc, contact.arc.belt);
         let (reference, offset) = (contact.reference(), belt.offset());
         let (from, to) = (zone.start.traction, contact.end(zone).traction);
@@ -214,25 +214,25 @@ impl Developing for Creeping {
 /// Where `v_s` is small, x is the small difference of large numbers, so that it is counted from the end,
 /// where it is ln(B/`v_s` ± 1) if friction is fully developed there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Creep {
+struct Creep<S = f64> {
     /// Sense of the friction force, as [`Arc::sense`].
     sense: f64,
     /// Rate a/`v_s`, s/m².
-    rate: f64,
+    rate: S,
     /// Slip velocity at the entry, m/s.
-    entry: f64,
+    entry: S,
     /// Velocities q and B, m/s.
-    unit: f64,
-    b: f64,
+    unit: S,
+    b: S,
     /// Where friction is fully developed or the arc ends, m.
-    end: f64,
+    end: S,
     /// Slip velocity and x there.
-    last: [f64; 2],
+    last: [S; 2],
 }
 
-impl Creep {
+impl<S: Real> Creep<S> {
     /// The slip velocity that begins with a given logarithm.
-    fn with_logarithm(arc: &Arc, speed: f64, saturation: f64, logarithm: f64) -> Self {
+    fn with_logarithm(arc: &Arc<S>, speed: S, saturation: S, logarithm: S) -> Self {
         let (sense, rate) = (arc.sense, arc.slip_rate / saturation);
         let entry = logarithm.exp();
         let unit = speed * arc.entry() / arc.belt.stiffness;
@@ -241,15 +241,15 @@ impl Creep {
             rate,
             entry,
             unit,
-            b: unit - sense * entry,
-            end: f64::INFINITY,
-            last: [saturation, f64::NAN],
+            b: unit - entry * sense,
+            end: S::from_f64(f64::INFINITY),
+            last: [saturation, S::from_f64(f64::NAN)],
         };
         let first = unit.ln() - logarithm;
         // B/v_s ± 1, which is negative if the driver never slips so fast.
         let rest = creep.b / saturation + sense;
         if creep.is_degenerate() {
-            creep.end = (entry.recip() - saturation.recip()) / rate;
+            creep.end = (S::ONE / entry - S::ONE / saturation) / rate;
         } else if rest > 0.0 {
             creep.last[1] = rest.ln();
             creep.end = (first - creep.last[1]) / (creep.b * rate);
@@ -258,8 +258,8 @@ impl Creep {
             creep.end = arc.length;
             creep.last[1] = first - creep.b * rate * arc.length;
             creep.last[0] = match creep.is_degenerate() {
-                true => (entry.recip() - rate * arc.length).recip(),
-                false => creep.velocity(0.0),
+                true => S::ONE / (S::ONE / entry - rate * arc.length),
+                false => creep.velocity(S::ZERO),
             };
         }
         creep
@@ -267,14 +267,14 @@ impl Creep {
 
     /// Whether B is zero to rounding.
     fn is_degenerate(&self) -> bool {
-        self.b.abs() < 1e-8 * self.unit
+        self.b.abs() < self.unit * 1e-8
     }
 
     /// The slip velocity y at a distance before the end, m/s.
-    fn velocity(&self, distance: f64) -> f64 {
+    fn velocity(&self, distance: S) -> S {
         let [velocity, exponent] = self.last;
         if self.is_degenerate() {
-            return (velocity.recip() + self.rate * distance).recip();
+            return S::ONE / (S::ONE / velocity + self.rate * distance);
         }
         let exponent = exponent + self.b * self.rate * distance;
         match self.sense > 0.0 {
@@ -290,14 +290,14 @@ impl Creep {
     /// ```
     ///
     /// of which the first form loses no digits for x > 0, the second for x < 0.
-    fn load_before(&self, distance: f64) -> f64 {
+    fn load_before(&self, distance: S) -> S {
         let Self { sense, unit, .. } = *self;
         if self.is_degenerate() {
             return ((self.velocity(distance) - self.entry) / unit).ln_1p();
         }
         let [_, last] = self.last;
         let exponent = last + self.b * self.rate * distance;
-        let logarithm = |value: f64| sense * (-sense * value).ln_1p();
+        let logarithm = |value: S| (value * -sense).ln_1p() * sense;
         match exponent > 0.0 {
             true => logarithm(self.entry / unit) - logarithm((-exponent).exp()),
             false => {
@@ -308,7 +308,7 @@ impl Creep {
     }
 
     /// The load |ln(P(L)/P(0))| of an arc.
-    fn load(&self, arc: &Arc) -> f64 {
-        self.load_before(0.0) + arc.slip_rate * (arc.length - self.end)
+    fn load(&self, arc: &Arc<S>) -> S {
+        self.load_before(S::ZERO) + arc.slip_rate * (arc.length - self.end)
     }
 }

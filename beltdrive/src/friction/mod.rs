@@ -12,6 +12,9 @@ mod row;
 
 pub(crate) use row::{Parameter, Row};
 
+use crate::mechanics::implicit::Implicit;
+use rim::contact::{Arc, Contact};
+
 /// How the friction force depends on slip. The coefficient μ is common to all laws.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -77,6 +80,25 @@ impl FrictionLaw {
             Self::VectorEpp { stiffness } => (&epp::VECTOR, Some(stiffness)),
             Self::Bristle { stiffness } => (&bristle::ROW, Some(stiffness)),
             Self::CreepRate { velocity } => (&creep_rate::ROW, Some(velocity)),
+        }
+    }
+
+    /// The contact of a flat belt on an arc, for a belt whose unstretched parts move at `speed` in m/s and a value of the
+    /// parameter of the law; `None` if the load is not below the capacity of the arc.
+    ///
+    /// # Panics
+    /// If it is no law for flat belts.
+    pub(crate) fn contact<S: Implicit>(
+        self,
+        arc: Arc<S>,
+        speed: S,
+        parameter: S,
+    ) -> Option<Contact<S>> {
+        match self {
+            Self::Coulomb => coulomb::solve(arc),
+            Self::Epp { .. } => epp::solve(arc, parameter),
+            Self::CreepRate { .. } => creep_rate::solve(arc, speed, parameter),
+            Self::VectorEpp { .. } | Self::Bristle { .. } => panic!("a law for flat belts"),
         }
     }
 }

@@ -1,6 +1,5 @@
 //! What there is to know of a friction law.
 
-use super::rim::contact::{Arc, Contact};
 use crate::quantity::Measure;
 use crate::{BeltKind, FrictionLaw, NormalForce};
 
@@ -54,9 +53,6 @@ pub(crate) struct Parameter {
 /// A law on the rim of a pulley.
 #[derive(Debug)]
 pub(crate) struct OnRims {
-    /// The contact of an arc, for a belt whose unstretched parts move at a speed in m/s, with the value of the
-    /// parameter of the law; `None` if the load is not below the capacity of the arc.
-    pub(crate) solve: fn(Arc, f64, f64) -> Option<Contact>,
     /// The convention in whose equations the law is stated, if one serves them all: friction that depends on
     /// speeds and forces alone is the same with small and with finite strains.
     pub(crate) convention: Option<NormalForce>,
@@ -96,14 +92,5 @@ impl Row {
             )),
             _ => None,
         }
-    }
-
-    /// The contact of a flat belt on an arc, as [`OnRims::solve`].
-    ///
-    /// # Panics
-    /// If it is no law for flat belts.
-    pub(crate) fn contact(&self, arc: Arc, speed: f64, parameter: Option<f64>) -> Option<Contact> {
-        let on_rims = self.on_rims.as_ref().expect("a law for flat belts");
-        (on_rims.solve)(arc, speed, parameter.unwrap_or_default())
     }
 }

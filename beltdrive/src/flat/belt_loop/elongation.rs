@@ -37,7 +37,7 @@ pub(super) fn elongation(contact: &Contact) -> f64 {
                 let grown = from * (arc.sense * extent).exp_m1();
                 slipped(arc, arc.slip_rate, extent, [from, grown])
             }
-            Friction::Developing(law) => law.elongation(contact, zone),
+            Friction::Developing(law) => law.own().elongation(contact, zone),
         }
     });
     zones.sum()

@@ -179,10 +179,10 @@ impl<'p> Running<'p> {
         let arc = self.arc(pulley, moving);
         match self.law == FrictionLaw::Coulomb || arc.change == 0.0 {
             true => Some(coulomb::carried(arc)),
-            false => self
-                .law
-                .row()
-                .contact(arc, moving.speed, self.law.parameter()),
+            false => {
+                let parameter = self.law.parameter().unwrap_or_default();
+                self.law.contact(arc, moving.speed, parameter)
+            }
         }
     }
 

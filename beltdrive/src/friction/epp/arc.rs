@@ -3,7 +3,7 @@
 use super::zone::Elastic;
 use crate::friction::rim::contact::{Arc, Contact, Place};
 use crate::friction::rim::zone::{ContactZone, Friction, Law};
-use crate::mechanics::root::{bracketed, near_with_slope};
+use crate::mechanics::implicit::{Implicit, bracketed, near_with_slope};
 use std::cell::Cell;
 
 /// The last step of the secant method for the place where slip begins, relative to the arc. Its error is about this
@@ -11,25 +11,25 @@ use std::cell::Cell;
 const NEAR: f64 = 1e-11;
 
 /// An arc with elastic friction.
-pub(super) struct ElasticArc {
-    arc: Arc,
-    stiffness: f64,
+pub(super) struct ElasticArc<S = f64> {
+    arc: Arc<S>,
+    stiffness: S,
     /// Rate w, 1/m.
-    rate: f64,
+    rate: S,
     evaluations: Cell<usize>,
 }
 
 /// The belt where it begins to slip.
 #[derive(Clone, Copy)]
-struct Transition {
+struct Transition<S = f64> {
     /// Coordinate σ₁, m.
-    coordinate: f64,
+    coordinate: S,
     /// The belt there.
-    place: Place,
+    place: Place<S>,
 }
 
-impl ElasticArc {
-    pub(super) fn new(arc: Arc, stiffness: f64) -> Self {
+impl<S: Implicit> ElasticArc<S> {
+    pub(super) fn new(arc: Arc<S>, stiffness: S) -> Self {
         let rate = (stiffness / arc.belt.stiffness).sqrt();
         Self {
             arc,
@@ -41,19 +41,19 @@ impl ElasticArc {
 
     /// The belt that begins to slip at the coordinate σ₁; `None` if friction does not reach its limit
     /// there at any load.
-    fn transition(&self, coordinate: f64) -> Option<Transition> {
+    fn transition(&self, coordinate: S) -> Option<Transition<S>> {
         self.evaluations.set(self.evaluations.get() + 1);
         let Arc { belt, sense, .. } = self.arc;
         let decayed = (-self.rate * coordinate).exp_m1();
         // tanh(w σ/2)
-        let share = -decayed / (2.0 + decayed);
-        let reach = sense * self.arc.slip_rate / self.rate * share;
+        let share = -decayed / (decayed + 2.0);
+        let reach = self.arc.slip_rate * sense / self.rate * share;
         let square = reach * belt.stretch_slope();
-        let linear = 1.0 - reach * belt.stretch_offset();
-        let root = (linear * linear - 4.0 * square * self.arc.entry()).sqrt();
-        let traction = 2.0 * self.arc.entry() / (linear + root);
+        let linear = S::ONE - reach * belt.stretch_offset();
+        let root = (linear * linear - square * 4.0 * self.arc.entry()).sqrt();
+        let traction = self.arc.entry() * 2.0 / (linear + root);
         // Not a number included.
-        if !(traction > 0.0 && traction.is_finite()) {
+        if !(traction > 0.0 && traction.value().is_finite()) {
             return None;
         }
         let displacement = self.arc.friction_limit(traction) / self.stiffness;
@@ -69,17 +69,17 @@ impl ElasticArc {
     }
 
     /// The strain e = w |u|/sinh(w σ) at the entry of an elastic zone that ends at σ with |u|.
-    fn strain(&self, coordinate: f64, displacement: f64) -> f64 {
+    fn strain(&self, coordinate: S, displacement: S) -> S {
         let exponent = -self.rate * coordinate;
         let decay = exponent.exp();
-        -2.0 * self.rate * displacement * decay / (exponent.exp_m1() * (1.0 + decay))
+        self.rate * -2.0 * displacement * decay / (exponent.exp_m1() * (decay + 1.0))
     }
 
     /// Arc length s at σ from the entry, where the displacement is |u|: with `P_o = P(0) ∓ D e`,
     /// s = (α + β `P_o`) σ ± β D |u|.
-    fn arc_length(&self, coordinate: f64, displacement: f64) -> f64 {
+    fn arc_length(&self, coordinate: S, displacement: S) -> S {
         let Arc { belt, sense, .. } = self.arc;
-        let slope = sense * belt.stretch_slope() * belt.stiffness;
+        let slope = belt.stretch_slope() * sense * belt.stiffness;
         let entered = belt.stretch(self.arc.entry()) * coordinate;
         match slope == 0.0 || coordinate == 0.0 {
             true => entered,
@@ -97,17 +97,17 @@ impl ElasticArc {
     }
 
     /// Slope of elastic friction less that of its limit where slip begins, over `k_f` |u₁|.
-    fn gap(&self, transition: &Transition) -> f64 {
+    fn gap(&self, transition: &Transition<S>) -> S {
         let Arc { belt, sense, .. } = self.arc;
         let traction = transition.place.traction;
         let steepening = belt.stretch_slope() * traction;
         let limit = self.arc.slip_rate * (belt.stretch(traction) + steepening);
-        self.rate / (self.rate * transition.coordinate).tanh() - sense * limit
+        self.rate / (self.rate * transition.coordinate).tanh() - limit * sense
     }
 
     /// The contact with a load, if it is found at once from a belt that slips where elastic friction would need no
     /// room to develop.
-    pub(super) fn near(&self, load: f64) -> Option<Contact> {
+    pub(super) fn near(&self, load: S) -> Option<Contact<S>> {
         let Arc {
             belt,
             slip_rate,
@@ -117,8 +117,9 @@ impl ElasticArc {
         let stretch = belt.stretch(self.arc.entry());
         let (guess, slope) = ((length - load / slip_rate) / stretch, -slip_rate * stretch);
         let residual = |coordinate| Some(self.load(coordinate)? - load);
-        let range = [0.0, 2.0 * length / stretch];
-        let coordinate = near_with_slope(residual, guess, slope, range, NEAR * length)?;
+        let range = [0.0, (length * 2.0 / stretch).value()];
+        let within = NEAR * length.value();
+        let coordinate = near_with_slope(residual, guess, slope, range, within)?;
         let transition = self.transition(coordinate)?;
         if !self.never_touches() && self.gap(&transition) < 0.0 {
             return None;
@@ -131,7 +132,7 @@ impl ElasticArc {
 
     /// The last coordinate at which slip can begin: where the arc ends, or where elastic friction only
     /// touches its limit.
-    pub(super) fn last_transition(&self) -> Option<f64> {
+    pub(super) fn last_transition(&self) -> Option<S> {
         let Arc { belt, sense, .. } = self.arc;
         let entered = self.arc.length / belt.stretch(self.arc.entry());
         // The belt contracts on the driver, at most to P = 0.
@@ -142,36 +143,37 @@ impl ElasticArc {
         if self.never_touches() {
             return Some(longest);
         }
-        let gap = |coordinate: f64| {
+        let gap = |coordinate: S| {
             self.transition(coordinate)
-                .map_or(-1.0, |found| self.gap(&found))
+                .map_or(-S::ONE, |found| self.gap(&found))
         };
         let at_end = gap(longest);
         let last = match at_end < 0.0 {
             true => {
-                let early = f64::EPSILON * longest;
+                let early = longest * f64::EPSILON;
                 bracketed(gap, [early, longest], [gap(early), at_end])?
             }
             false => longest,
         };
-        let beyond = |coordinate: f64| {
+        let nowhere = S::from_f64(f64::NAN);
+        let beyond = |coordinate: S| {
             let transition = self.transition(coordinate);
-            transition.map_or(f64::NAN, |found| found.place.arc_length - self.arc.length)
+            transition.map_or(nowhere, |found| found.place.arc_length - self.arc.length)
         };
         let excess = beyond(last);
         // Rounding of a belt that does not stretch is no excess.
-        match excess > 4.0 * f64::EPSILON * self.arc.length {
-            true => bracketed(beyond, [0.0, last], [-self.arc.length, excess]),
+        match excess > self.arc.length * (4.0 * f64::EPSILON) {
+            true => bracketed(beyond, [S::ZERO, last], [-self.arc.length, excess]),
             false => Some(last),
         }
     }
 
     /// The load |ln(P(L)/P(0))| if slip begins at σ₁.
-    pub(super) fn load(&self, coordinate: f64) -> Option<f64> {
+    pub(super) fn load(&self, coordinate: S) -> Option<S> {
         let transition = self.transition(coordinate)?;
         let Arc { sense, .. } = self.arc;
         let entry = self.arc.entry();
-        let gained = |traction: f64| (sense * ((traction - entry) / entry).ln_1p()).max(0.0);
+        let gained = |traction: S| (((traction - entry) / entry).ln_1p() * sense).max(S::ZERO);
         let first = gained(transition.place.traction);
         match self.stick(&transition) {
             Some((_, zone)) => {
@@ -186,7 +188,7 @@ impl ElasticArc {
     }
 
     /// Where the slipping belt sticks again, and the elastic zone from there.
-    fn stick(&self, transition: &Transition) -> Option<(Place, ContactZone)> {
+    fn stick(&self, transition: &Transition<S>) -> Option<(Place<S>, ContactZone<S>)> {
         let Arc {
             belt,
             sense,
@@ -204,10 +206,10 @@ impl ElasticArc {
         let slipping = self.arc.length - from.arc_length;
         let reference = contact.reference();
         // Elastic friction over its limit, and the slope of that along the coordinate.
-        let over = |place: &Place| {
+        let over = |place: &Place<S>| {
             self.stiffness * place.displacement - self.arc.friction_limit(place.traction)
         };
-        let slope = |place: &Place| {
+        let slope = |place: &Place<S>| {
             let steepening = belt.stretch_slope() * place.traction;
             let limit = slip_rate
                 * self.arc.friction_limit(place.traction)
@@ -218,16 +220,13 @@ impl ElasticArc {
         if over(&end) >= 0.0 {
             return None;
         }
-        let slope_after = |y: f64| slope(&contact.slipped(&from, y));
-        let highest = match slope_after(0.0) > 0.0 {
-            true => bracketed(
-                slope_after,
-                [0.0, slipping],
-                [slope_after(0.0), slope(&end)],
-            )?,
-            false => 0.0,
+        let slope_after = |y: S| slope(&contact.slipped(&from, y));
+        let at_start = slope_after(S::ZERO);
+        let highest = match at_start > 0.0 {
+            true => bracketed(slope_after, [S::ZERO, slipping], [at_start, slope(&end)])?,
+            false => S::ZERO,
         };
-        let over_after = |y: f64| over(&contact.slipped(&from, y));
+        let over_after = |y: S| over(&contact.slipped(&from, y));
         let at_highest = over_after(highest);
         let stuck = match at_highest > 0.0 {
             true => bracketed(over_after, [highest, slipping], [at_highest, over(&end)])?,
@@ -238,23 +237,23 @@ impl ElasticArc {
     }
 
     /// The elastic zone from a place, where the belt sticks again, to the end of the arc.
-    fn elastic_after(&self, contact: &Contact, start: Place) -> Option<ContactZone> {
+    fn elastic_after(&self, contact: &Contact<S>, start: Place<S>) -> Option<ContactZone<S>> {
         let Arc { belt, sense, .. } = self.arc;
         let reference = contact.reference();
         let slope = (start.traction - reference).abs() / belt.stiffness;
-        let displacement = |x: f64| {
+        let displacement = |x: S| {
             let (sinh, cosh) = ((self.rate * x).sinh(), (self.rate * x).cosh());
             start.displacement * cosh + slope / self.rate * sinh
         };
         let stretch = belt.stretch(reference);
-        let stretching = sense * belt.stretch_slope() * belt.stiffness;
+        let stretching = belt.stretch_slope() * sense * belt.stiffness;
         let rest = self.arc.length - start.arc_length;
         let beyond =
-            |x: f64| stretch * x + stretching * (displacement(x) - start.displacement) - rest;
+            |x: S| stretch * x + stretching * (displacement(x) - start.displacement) - rest;
         let longest = rest / belt.stretch(start.traction);
         let length = match belt.stretch_slope() == 0.0 {
             true => rest,
-            false => bracketed(beyond, [0.0, longest], [-rest, beyond(longest)])?,
+            false => bracketed(beyond, [S::ZERO, longest], [-rest, beyond(longest)])?,
         };
         Some(ContactZone {
             start,
@@ -264,7 +263,7 @@ impl ElasticArc {
     }
 
     /// An elastic zone.
-    fn elastic(&self, length: f64, end: f64) -> Friction {
+    fn elastic(&self, length: S, end: S) -> Friction<S> {
         Friction::Developing(Law::Elastic(Elastic {
             stiffness: self.stiffness,
             rate: self.rate,
@@ -274,7 +273,7 @@ impl ElasticArc {
     }
 
     /// The contact with its first zone, elastic, up to where slip begins.
-    fn contact(&self, transition: &Transition) -> Contact {
+    fn contact(&self, transition: &Transition<S>) -> Contact<S> {
         Contact {
             arc: self.arc,
             strain: self.strain(transition.coordinate, transition.place.displacement),
@@ -288,7 +287,7 @@ impl ElasticArc {
     }
 
     /// The contact in which slip begins at σ₁.
-    pub(super) fn slipping(&self, coordinate: f64) -> Option<Contact> {
+    pub(super) fn slipping(&self, coordinate: S) -> Option<Contact<S>> {
         let transition = self.transition(coordinate)?;
         let mut contact = self.contact(&transition);
         let stick = self.stick(&transition);
@@ -302,10 +301,10 @@ impl ElasticArc {
     }
 
     /// The contact without slip. With the load ΔP, |u(L)| = ΔP/(D w tanh(w σ(L)/2)).
-    pub(super) fn all_elastic(&self) -> Option<Contact> {
+    pub(super) fn all_elastic(&self) -> Option<Contact<S>> {
         let Arc { belt, change, .. } = self.arc;
-        let end = |x: f64| change / (belt.stiffness * self.rate * (0.5 * self.rate * x).tanh());
-        let beyond = |x: f64| self.arc_length(x, end(x)) - self.arc.length;
+        let end = |x: S| change / (belt.stiffness * self.rate * (self.rate * 0.5 * x).tanh());
+        let beyond = |x: S| self.arc_length(x, end(x)) - self.arc.length;
         let length = match belt.stretch_slope() == 0.0 {
             true => self.arc.length,
             false => {
@@ -332,12 +331,12 @@ impl ElasticArc {
     }
 
     /// The belt where it enters the pulley.
-    fn entrance(&self) -> Place {
+    fn entrance(&self) -> Place<S> {
         Place {
-            arc_length: 0.0,
+            arc_length: S::ZERO,
             traction: self.arc.entry(),
-            displacement: 0.0,
-            friction: 0.0,
+            displacement: S::ZERO,
+            friction: S::ZERO,
         }
     }
 }

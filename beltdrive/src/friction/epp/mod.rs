@@ -28,7 +28,7 @@ use super::rim::contact::{Arc, Contact};
 use super::row::{OnRims, Other};
 use super::{Parameter, Row};
 use crate::FrictionLaw;
-use crate::mechanics::root::bracketed;
+use crate::mechanics::implicit::{Implicit, bracketed};
 use crate::quantity::Measure;
 use arc::ElasticArc;
 
@@ -56,10 +56,7 @@ pub(super) const ROW: Row = Row {
     parameter: Some(STIFFNESS),
     with: |stiffness| FrictionLaw::Epp { stiffness },
     in_grooves: true,
-    on_rims: Some(OnRims {
-        solve: |arc, _, stiffness| solve(arc, stiffness),
-        convention: None,
-    }),
+    on_rims: Some(OnRims { convention: None }),
 };
 
 /// The same as a vector in the face of a groove. On the rim of a flat pulley there is one direction only.
@@ -75,7 +72,7 @@ pub(super) const VECTOR: Row = Row {
 
 /// The contact of an arc with friction of stiffness `k_f`, N/m²; `None` if the load is not below the
 /// capacity of the arc.
-pub(crate) fn solve(arc: Arc, stiffness: f64) -> Option<Contact> {
+pub(crate) fn solve<S: Implicit>(arc: Arc<S>, stiffness: S) -> Option<Contact<S>> {
     let elastic = ElasticArc::new(arc, stiffness);
     let load = arc.load();
     if load >= arc.capacity() {
@@ -89,9 +86,10 @@ pub(crate) fn solve(arc: Arc, stiffness: f64) -> Option<Contact> {
     if excess >= 0.0 {
         return elastic.all_elastic();
     }
-    let residual = |place| elastic.load(place).map_or(f64::NAN, |found| found - load);
+    let nowhere = S::from_f64(f64::NAN);
+    let residual = |place| elastic.load(place).map_or(nowhere, |found| found - load);
     let ends = [arc.capacity() - load, excess];
-    let place = bracketed(residual, [0.0, last], ends)?;
+    let place = bracketed(residual, [S::ZERO, last], ends)?;
     elastic.slipping(place)
 }
 

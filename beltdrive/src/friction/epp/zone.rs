@@ -3,32 +3,33 @@
 use crate::ZoneKind;
 use crate::friction::rim::contact::{Arc, Contact, Place};
 use crate::friction::rim::zone::{ContactZone, Developing};
+use bvp::Real;
 
 /// Elastic friction `k_f` |u| per coordinate, with w² = `k_f`/D. Shares of its zone are those of σ.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Elastic {
+pub(crate) struct Elastic<S = f64> {
     /// Friction stiffness `k_f`, N/m².
-    pub(super) stiffness: f64,
+    pub(super) stiffness: S,
     /// Its rate w, 1/m.
-    pub(super) rate: f64,
+    pub(super) rate: S,
     /// Length of the zone in the coordinate σ, m.
-    pub(super) length: f64,
+    pub(super) length: S,
     /// Displacement |u| at its end, m.
-    pub(super) end: f64,
+    pub(super) end: S,
 }
 
-impl Developing for Elastic {
+impl<S: Real> Developing<S> for Elastic<S> {
     fn kind(&self) -> ZoneKind {
         ZoneKind::Elastic
     }
 
-    fn at(&self, contact: &Contact, zone: &ContactZone, share: f64) -> Place {
+    fn at(&self, contact: &Contact<S>, zone: &ContactZone<S>, share: S) -> Place<S> {
         let Arc { belt, sense, .. } = contact.arc;
         let (start, rate, length) = (zone.start, self.rate, self.length);
         let x = share * length;
         let (ends, begin) = ([start.displacement, self.end], start.displacement);
         let [displacement, _] = elastic(rate, length, ends, x);
-        let stiff = sense * belt.stiffness;
+        let stiff = belt.stiffness * sense;
         let traction = start.traction + stiff * elastic_gain(rate, length, ends, x);
         let stretched = belt.stretch(contact.reference()) * x
             + belt.stretch_slope() * stiff * (displacement - begin);
@@ -40,11 +41,11 @@ impl Developing for Elastic {
         }
     }
 
-    fn decay_lengths(&self, _: &Contact, _: &ContactZone) -> f64 {
+    fn decay_lengths(&self, _: &Contact<S>, _: &ContactZone<S>) -> S {
         self.rate * self.length
     }
 
-    fn arc_per_share(&self, contact: &Contact, _: &ContactZone, place: &Place) -> f64 {
+    fn arc_per_share(&self, contact: &Contact<S>, _: &ContactZone<S>, place: &Place<S>) -> S {
         self.length * contact.arc.belt.stretch(place.traction)
     }
 
@@ -56,34 +57,35 @@ impl Developing for Elastic {
     /// ```
     ///
     /// whose powers |u|′ = e cosh w σ are integrated by recurrence.
-    fn elongation(&self, contact: &Contact, zone: &ContactZone) -> f64 {
+    fn elongation(&self, contact: &Contact<S>, zone: &ContactZone<S>) -> S {
         let (belt, reference) = (contact.arc.belt, contact.reference());
         let (sense, begin) = (contact.arc.sense, zone.start.displacement);
         if belt.stretch_slope() != 0.0 {
-            return self.length * belt.strain(reference) + sense * (self.end - begin);
+            return self.length * belt.strain(reference) + (self.end - begin) * sense;
         }
-        let [_, largest] = elastic(self.rate, self.length, [0.0, self.end], self.length);
-        let stretched = 1.0 + belt.strain(reference);
-        if begin != 0.0 || largest > CONVERGING * stretched {
+        let ends = [S::ZERO, self.end];
+        let [_, largest] = elastic(self.rate, self.length, ends, self.length);
+        let stretched = belt.strain(reference) + 1.0;
+        if begin != 0.0 || largest > stretched * CONVERGING {
             return contact.elongation_by_quadrature(zone);
         }
-        let [_, entry] = elastic(self.rate, self.length, [0.0, self.end], 0.0);
+        let [_, entry] = elastic(self.rate, self.length, ends, S::ZERO);
         // The integral of each power of |u|′, from the last but one.
         let [mut before, mut integral] = [self.length, self.end];
-        let (mut power, mut factor) = (1.0, sense / (stretched * stretched));
+        let (mut power, mut factor) = (S::ONE, S::from_f64(sense) / (stretched * stretched));
         let mut sum = self.length * belt.elongation(reference);
         for degree in 2..TERMS {
             let term = factor * integral;
             sum += term;
-            if term.abs() <= f64::EPSILON * sum.abs() {
+            if term.abs() <= sum.abs() * f64::EPSILON {
                 break;
             }
             power *= largest;
             let boundary = power * self.end;
             let degree = f64::from(degree);
-            let next = (boundary + (degree - 1.0) * entry * entry * before) / degree;
+            let next = (boundary + entry * (degree - 1.0) * entry * before) / degree;
             [before, integral] = [integral, next];
-            factor *= -sense / stretched;
+            factor *= S::from_f64(-sense) / stretched;
         }
         sum
     }
@@ -100,12 +102,12 @@ const TERMS: i32 = 40;
 /// ```text
 /// b = [b₀ sinh w(l − x) + b₁ sinh w x]/sinh w l
 /// ```
-pub(super) fn elastic(rate: f64, length: f64, [first, last]: [f64; 2], x: f64) -> [f64; 2] {
+pub(super) fn elastic<S: Real>(rate: S, length: S, [first, last]: [S; 2], x: S) -> [S; 2] {
     // sinh(p)/sinh(q) and cosh(p)/sinh(q) for 0 ≤ p ≤ q.
-    let ratios = |p: f64, q: f64| {
-        let factor = (p - q).exp() / -(-2.0 * q).exp_m1();
-        let decayed = (-2.0 * p).exp_m1();
-        [-factor * decayed, factor * (2.0 + decayed)]
+    let ratios = |p: S, q: S| {
+        let factor = (p - q).exp() / -(q * -2.0).exp_m1();
+        let decayed = (p * -2.0).exp_m1();
+        [-factor * decayed, factor * (decayed + 2.0)]
     };
     let whole = rate * length;
     let [rise, rise_slope] = ratios(rate * x, whole);
@@ -121,13 +123,13 @@ pub(super) fn elastic(rate: f64, length: f64, [first, last]: [f64; 2], x: f64) -
 /// ```text
 /// b′(x) − b′(0) = 2 w sinh(w x/2) [b₁ sinh(w x/2) + b₀ sinh(w l − w x/2)]/sinh w l
 /// ```
-fn elastic_gain(rate: f64, length: f64, [first, last]: [f64; 2], x: f64) -> f64 {
+fn elastic_gain<S: Real>(rate: S, length: S, [first, last]: [S; 2], x: S) -> S {
     // sinh(p) exp(−p)
-    let scaled = |p: f64| -0.5 * (-2.0 * p).exp_m1();
-    let (whole, half) = (rate * length, 0.5 * rate * x);
-    let near = last * scaled(half) * (2.0 * half - whole).exp();
+    let scaled = |p: S| (p * -2.0).exp_m1() * -0.5;
+    let (whole, half) = (rate * length, rate * 0.5 * x);
+    let near = last * scaled(half) * (half * 2.0 - whole).exp();
     let far = first * scaled(whole - half);
-    2.0 * rate * scaled(half) * (near + far) / scaled(whole)
+    rate * 2.0 * scaled(half) * (near + far) / scaled(whole)
 }
 
 #[cfg(test)]
@@ -167,7 +169,7 @@ mod tests {
 
     fn zone_elongation(contact: &Contact, zone: &ContactZone) -> f64 {
         match &zone.friction {
-            Friction::Developing(law) => law.elongation(contact, zone),
+            Friction::Developing(law) => law.own().elongation(contact, zone),
             _ => panic!("an elastic zone"),
         }
     }

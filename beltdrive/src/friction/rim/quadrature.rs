@@ -2,6 +2,7 @@
 
 use super::contact::{Contact, Place};
 use super::zone::{ContactZone, Friction};
+use bvp::Real;
 
 /// Beyond so many decay lengths before the end of a zone nothing changes, to rounding.
 const DECAY_LENGTHS: f64 = 40.0;
@@ -14,15 +15,16 @@ const GAUSS: [[f64; 2]; 3] = [
     [0.932_469_514_203_152, 0.171_324_492_379_170_36],
 ];
 
-impl Contact {
+impl<S: Real> Contact<S> {
     /// Shares of a zone that bound panels on which all quantities are smooth, finer towards the end,
     /// where displacements and slip velocities grow exponentially.
-    pub(crate) fn panels(&self, zone: &ContactZone) -> Vec<f64> {
+    pub(crate) fn panels(&self, zone: &ContactZone<S>) -> Vec<f64> {
         let decays = match &zone.friction {
-            Friction::Adhesion => 0.0,
+            Friction::Adhesion => S::ZERO,
             Friction::Slip => self.arc.slip_rate * (zone.end - zone.start.arc_length),
-            Friction::Developing(law) => law.decay_lengths(self, zone),
+            Friction::Developing(law) => law.own().decay_lengths(self, zone),
         };
+        let decays = decays.value();
         // Panels of two thirds of a decay length.
         let panel = (2.0 / 3.0 / decays).min(0.25);
         let graded = (DECAY_LENGTHS.min(decays) / decays).min(1.0);
@@ -42,67 +44,67 @@ impl Contact {
     /// The integrals of functions of the place over the arc length of the whole contact.
     pub(crate) fn integrals<const N: usize>(
         &self,
-        functions: impl Fn(&Place) -> [f64; N],
-    ) -> [f64; N] {
-        let mut sums = [0.0; N];
+        functions: impl Fn(&Place<S>) -> [S; N],
+    ) -> [S; N] {
+        let mut sums = [S::ZERO; N];
         for zone in &self.zones {
-            add(&mut sums, self.all_over(zone, &functions), 1.0);
+            add(&mut sums, self.all_over(zone, &functions), S::ONE);
         }
         sums
     }
 
     /// The integral of a function of the place over one zone.
-    pub(crate) fn over(&self, zone: &ContactZone, function: &impl Fn(&Place) -> f64) -> f64 {
+    pub(crate) fn over(&self, zone: &ContactZone<S>, function: &impl Fn(&Place<S>) -> S) -> S {
         let [integral] = self.all_over(zone, &|place| [function(place)]);
         integral
     }
 
     /// How much longer the belt in a zone is than without tension, m.
-    pub(crate) fn elongation_by_quadrature(&self, zone: &ContactZone) -> f64 {
+    pub(crate) fn elongation_by_quadrature(&self, zone: &ContactZone<S>) -> S {
         self.over(zone, &|place| self.arc.belt.elongation(place.traction))
     }
 
     /// As [`Self::over`], of several functions.
     pub(crate) fn all_over<const N: usize>(
         &self,
-        zone: &ContactZone,
-        functions: &impl Fn(&Place) -> [f64; N],
-    ) -> [f64; N] {
-        let integrand = |share: f64| {
+        zone: &ContactZone<S>,
+        functions: &impl Fn(&Place<S>) -> [S; N],
+    ) -> [S; N] {
+        let integrand = |share: S| {
             let place = self.at(zone, share);
             let per_share = self.arc_per_share(zone, &place);
             functions(&place).map(|value| value * per_share)
         };
-        let mut sums = [0.0; N];
+        let mut sums = [S::ZERO; N];
         for panel in self.panels(zone).windows(2) {
-            let parts = integrals([panel[0], panel[1]], integrand);
-            add(&mut sums, parts, 1.0);
+            let parts = integrals([panel[0], panel[1]].map(S::from_f64), integrand);
+            add(&mut sums, parts, S::ONE);
         }
         sums
     }
 
     /// Arc length per share of a zone, at a place, m.
-    fn arc_per_share(&self, zone: &ContactZone, place: &Place) -> f64 {
+    fn arc_per_share(&self, zone: &ContactZone<S>, place: &Place<S>) -> S {
         match &zone.friction {
-            Friction::Developing(law) => law.arc_per_share(self, zone, place),
+            Friction::Developing(law) => law.own().arc_per_share(self, zone, place),
             Friction::Adhesion | Friction::Slip => zone.end - zone.start.arc_length,
         }
     }
 }
 
 /// The integral of a smooth function over a panel.
-pub(crate) fn integral(ends: [f64; 2], function: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn integral<S: Real>(ends: [S; 2], function: impl Fn(S) -> S) -> S {
     let [integral] = integrals(ends, |place| [function(place)]);
     integral
 }
 
 /// The integrals of smooth functions over a panel.
-pub(crate) fn integrals<const N: usize>(
-    [from, to]: [f64; 2],
-    functions: impl Fn(f64) -> [f64; N],
-) -> [f64; N] {
-    let [middle, half] = [0.5 * (from + to), 0.5 * (to - from)];
-    let mut sums = [0.0; N];
+pub(crate) fn integrals<S: Real, const N: usize>(
+    [from, to]: [S; 2],
+    functions: impl Fn(S) -> [S; N],
+) -> [S; N] {
+    let [middle, half] = [from + to, to - from].map(|whole| whole * 0.5);
+    let mut sums = [S::ZERO; N];
     for [node, weight] in GAUSS {
         for end in [middle - half * node, middle + half * node] {
             add(&mut sums, functions(end), half * weight);
@@ -112,7 +114,7 @@ pub(crate) fn integrals<const N: usize>(
 }
 
 /// Adds parts with a weight to sums.
-fn add<const N: usize>(sums: &mut [f64; N], parts: [f64; N], weight: f64) {
+fn add<S: Real, const N: usize>(sums: &mut [S; N], parts: [S; N], weight: S) {
     for (sum, part) in sums.iter_mut().zip(parts) {
         *sum += weight * part;
     }

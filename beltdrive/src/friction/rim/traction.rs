@@ -1,6 +1,7 @@
 //! The belt in steady motion: how tension, traction, stretch and normal force belong together.
 
 use crate::NormalForce;
+use bvp::Real;
 
 /// A flat belt that moves with a given speed, under one convention for its normal force.
 ///
@@ -25,37 +26,38 @@ use crate::NormalForce;
 /// serves all pulleys and their torques balance. Source: Kim (2009), equations 3, 52-58 (thesis); the balance of
 /// momentum of an element, Bechtel, Vohra, Jacob and Carlson (2000), for the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Traction {
+pub(crate) struct Traction<S = f64> {
     /// Dynamic stiffness D = EA − m v², N; positive.
-    pub(crate) stiffness: f64,
+    pub(crate) stiffness: S,
     /// Axial stiffness EA, N.
-    axial_stiffness: f64,
+    axial_stiffness: S,
     /// What the inertia of the belt takes off the tension at T = 0: m c², N; 0 for `thesis`.
-    pub(crate) inertia: f64,
+    pub(crate) inertia: S,
     /// Slip rate of a pulley of radius 1 m with a coefficient of friction 1: a R/μ.
-    slip_rate: f64,
+    slip_rate: S,
     /// The stretch ds/dσ = α + β P.
-    stretch: [f64; 2],
+    stretch: [S; 2],
 }
 
-impl Traction {
+impl<S: Real> Traction<S> {
     /// The belt with mass m per length, kg/m, and axial stiffness EA, N. `speed` is v of the table
     /// above, m/s.
     ///
     /// The stiffness D is not positive from the critical speed on, sqrt(EA/m).
     pub(crate) fn new(
         convention: NormalForce,
-        mass_per_length: f64,
-        axial_stiffness: f64,
-        speed: f64,
+        mass_per_length: S,
+        axial_stiffness: S,
+        speed: S,
     ) -> Self {
         let kinetic = mass_per_length * speed * speed;
         let stiffness = axial_stiffness - kinetic;
-        let exact = [axial_stiffness / stiffness, stiffness.recip()];
+        let exact = [axial_stiffness / stiffness, S::ONE / stiffness];
+        let plain = [S::ONE, S::ZERO];
         let (inertia, slip_rate, stretch) = match convention {
-            NormalForce::Thesis => (0.0, axial_stiffness / stiffness, [1.0, 0.0]),
-            NormalForce::Inertia => (kinetic, 1.0, [1.0, 0.0]),
-            NormalForce::Exact => (kinetic, 1.0, exact),
+            NormalForce::Thesis => (S::ZERO, axial_stiffness / stiffness, plain),
+            NormalForce::Inertia => (kinetic, S::ONE, plain),
+            NormalForce::Exact => (kinetic, S::ONE, exact),
         };
         Self {
             stiffness,
@@ -67,49 +69,49 @@ impl Traction {
     }
 
     /// The traction P of a tension T, N.
-    pub(crate) fn of_tension(&self, tension: f64) -> f64 {
+    pub(crate) fn of_tension(&self, tension: S) -> S {
         tension * self.stiffness / self.axial_stiffness - self.inertia
     }
 
     /// The tension T of a traction P, N.
-    pub(crate) fn tension(&self, traction: f64) -> f64 {
+    pub(crate) fn tension(&self, traction: S) -> S {
         self.axial_stiffness * self.strain(traction)
     }
 
     /// The strain T/EA of the belt at a traction P.
-    pub(crate) fn strain(&self, traction: f64) -> f64 {
+    pub(crate) fn strain(&self, traction: S) -> S {
         (traction + self.inertia) / self.stiffness
     }
 
     /// Elongation 1 − 1/(1 + T/EA) per length of the stretched belt, at a traction P: (P + m c²)/(P + S)
     /// with S of [`Self::offset`].
-    pub(crate) fn elongation(&self, traction: f64) -> f64 {
+    pub(crate) fn elongation(&self, traction: S) -> S {
         (traction + self.inertia) / (self.offset() + traction)
     }
 
     /// S = D (1 + T/EA) − P, N.
-    pub(crate) fn offset(&self) -> f64 {
+    pub(crate) fn offset(&self) -> S {
         self.stiffness + self.inertia
     }
 
     /// Slip rate a on a pulley, 1/m: traction grows in a slip zone as exp(± a s).
-    pub(crate) fn slip_rate(&self, friction_coefficient: f64, radius: f64) -> f64 {
+    pub(crate) fn slip_rate(&self, friction_coefficient: S, radius: S) -> S {
         friction_coefficient / radius * self.slip_rate
     }
 
     /// The stretch ds/dσ at a traction P.
-    pub(crate) fn stretch(&self, traction: f64) -> f64 {
+    pub(crate) fn stretch(&self, traction: S) -> S {
         let [alpha, beta] = self.stretch;
         alpha + beta * traction
     }
 
     /// Coefficient β of the stretch, 1/N.
-    pub(crate) fn stretch_slope(&self) -> f64 {
+    pub(crate) fn stretch_slope(&self) -> S {
         self.stretch[1]
     }
 
     /// Coefficient α of the stretch.
-    pub(crate) fn stretch_offset(&self) -> f64 {
+    pub(crate) fn stretch_offset(&self) -> S {
         self.stretch[0]
     }
 }
