@@ -14,10 +14,11 @@ mod wound;
 
 pub use error::LayoutError;
 pub(crate) use tangent::tangent;
+pub(crate) use wound::Wound;
 
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
-use wound::{Deflected, Wound};
+use wound::{Circle, Deflected};
 
 /// On which side of the belt a pulley lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +27,16 @@ pub enum Side {
     Inside,
     /// Outside the loop, on the back of the belt: it turns against the loop.
     Outside,
+}
+
+impl Side {
+    /// Sense of rotation of a pulley in a loop of a sense: +1 counter-clockwise, −1 clockwise.
+    pub(crate) fn turns(self, sense: Sense) -> f64 {
+        match self {
+            Self::Inside => sense.sign(),
+            Self::Outside => -sense.sign(),
+        }
+    }
 }
 
 /// Sense in which the belt runs round the loop.
@@ -71,37 +82,45 @@ pub struct PlacedPulley {
 impl PlacedPulley {
     /// Sense of rotation in a loop of a sense: +1 counter-clockwise, −1 clockwise.
     pub(crate) fn turns(&self, sense: Sense) -> f64 {
-        match self.side {
-            Side::Inside => sense.sign(),
-            Side::Outside => -sense.sign(),
+        self.side.turns(sense)
+    }
+
+    /// The circle that the belt runs round in a loop of a sense.
+    fn circle(&self, sense: Sense) -> Circle {
+        Circle {
+            centre: self.centre,
+            radius: self.radius,
+            turns: self.turns(sense),
         }
     }
 }
 
-/// A free span of the belt.
+/// A free span of the belt; `S` is the scalar of its numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Span {
+pub struct Span<S = f64> {
     /// Length ℓ, m.
-    pub length: f64,
+    pub length: S,
     /// Direction ϑ of the motion of the belt, rad, counter-clockwise from x, in [0, 2π).
-    pub direction: f64,
+    pub direction: S,
     /// Where the belt leaves the pulley behind the span, m.
-    pub start: [f64; 2],
+    pub start: [S; 2],
     /// Where it arrives at the next pulley, m.
-    pub end: [f64; 2],
-    tangent: Vector2<f64>,
+    pub end: [S; 2],
+    /// Unit tangent t along the motion of the belt.
+    pub(crate) tangent: [S; 2],
 }
 
 impl Span {
     /// Unit tangent t along the motion of the belt.
     pub(crate) fn tangent(&self) -> Vector2<f64> {
-        self.tangent
+        self.tangent.into()
     }
 
     /// Unit normal N, to the left of the motion.
     pub(crate) fn normal(&self) -> Vector2<f64> {
-        Vector2::new(-self.tangent.y, self.tangent.x)
+        let [x, y] = self.tangent;
+        Vector2::new(-y, x)
     }
 }
 
@@ -186,7 +205,7 @@ impl Layout {
             }
         }
         wound
-            .lay(sense, pulleys, moved)
+            .lay(pulleys.len(), |index| pulleys[index].circle(sense), moved)
             .map_err(|[one, other]| overlap(&pulleys[one], &pulleys[other]))?;
         let excess = wound.turns(sense, pulleys) - i64::from(turning_number);
         if excess != 0 {
@@ -219,6 +238,11 @@ impl Layout {
         &self.pulleys
     }
 
+    /// The spans and wraps.
+    pub(crate) fn wound(&self) -> &Wound {
+        &self.wound
+    }
+
     /// The free spans; span i leaves pulley i.
     pub fn spans(&self) -> &[Span] {
         &self.wound.spans
@@ -231,7 +255,8 @@ impl Layout {
 
     /// Length L = Σ ℓ + Σ R φ of the loop, m.
     pub fn length(&self) -> f64 {
-        self.wound.length(&self.pulleys)
+        self.wound
+            .length(self.pulleys.iter().map(|pulley| pulley.radius))
     }
 
     /// Derivative ∂L/∂C of the length with the centre of a pulley: the tangent of the span behind it less
@@ -240,14 +265,12 @@ impl Layout {
     /// # Panics
     /// If there is no such pulley.
     pub fn length_gradient(&self, pulley: usize) -> [f64; 2] {
-        let [behind, before] = self.spans_of(pulley);
-        (behind.tangent() - before.tangent()).into()
+        self.wound.length_gradient(pulley)
     }
 
     /// The spans where the belt enters and where it leaves a pulley.
     pub(crate) fn spans_of(&self, pulley: usize) -> [&Span; 2] {
-        let count = self.pulleys.len();
-        [(pulley + count - 1) % count, pulley].map(|span| &self.wound.spans[span])
+        self.wound.spans_of(pulley)
     }
 
     /// Pairs of spans that cross each other; a crossed belt has one.

@@ -1,36 +1,35 @@
 //! The spans and wraps of a belt round pulleys, whatever these are in the way of.
 
 use super::{PlacedPulley, Sense, Span, tangent};
+use bvp::Real;
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 
 /// The spans and wraps of a belt.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Wound {
-    pub(super) spans: Vec<Span>,
+pub(crate) struct Wound<S = f64> {
+    pub(crate) spans: Vec<Span<S>>,
     /// Modulo 2π.
-    pub(super) wraps: Vec<f64>,
+    pub(crate) wraps: Vec<S>,
 }
 
-impl Wound {
-    /// Winds the belt round pulleys, of which one, or all, are new at their places; the indices of two that
+impl<S: Real> Wound<S> {
+    /// Winds the belt round circles, of which one, or all, are new at their places; the indices of two that
     /// overlap are an error.
     pub(super) fn lay(
         &mut self,
-        sense: Sense,
-        pulleys: &[PlacedPulley],
+        count: usize,
+        circle: impl Fn(usize) -> Circle<S>,
         moved: Option<usize>,
     ) -> Result<(), [usize; 2]> {
-        let count = pulleys.len();
         let span = |index: usize| {
-            let next = (index + 1) % count;
-            let ends = [index, next].map(|end| Circle::new(sense, &pulleys[end]));
-            between(ends).ok_or([index, next])
+            let ends = [index, (index + 1) % count];
+            between(ends.map(&circle)).ok_or(ends)
         };
         let Some(moved) = moved else {
             self.spans = (0..count).map(span).collect::<Result<_, _>>()?;
             self.wraps = (0..count)
-                .map(|index| self.wrap(sense, pulleys, index))
+                .map(|index| self.wrap(index, circle(index).turns))
                 .collect();
             return Ok(());
         };
@@ -39,23 +38,38 @@ impl Wound {
             self.spans[index] = span(index)?;
         }
         for index in [behind, moved, (moved + 1) % count] {
-            self.wraps[index] = self.wrap(sense, pulleys, index);
+            self.wraps[index] = self.wrap(index, circle(index).turns);
         }
         Ok(())
     }
 
-    /// Wrap angle on a pulley, rad.
-    fn wrap(&self, sense: Sense, pulleys: &[PlacedPulley], index: usize) -> f64 {
-        let entering = &self.spans[(index + pulleys.len() - 1) % pulleys.len()];
-        wrap(pulleys[index].turns(sense), entering, &self.spans[index])
+    /// Wrap angle on a pulley that turns in a sense, rad.
+    fn wrap(&self, index: usize, turns: f64) -> S {
+        let [entering, leaving] = self.spans_of(index);
+        wrap(turns, entering, leaving)
     }
 
-    pub(super) fn length(&self, pulleys: &[PlacedPulley]) -> f64 {
-        let spans: f64 = self.spans.iter().map(|span| span.length).sum();
-        let arcs = pulleys.iter().zip(&self.wraps);
-        spans + arcs.map(|(pulley, wrap)| pulley.radius * wrap).sum::<f64>()
+    /// The spans where the belt enters and where it leaves a pulley.
+    pub(crate) fn spans_of(&self, pulley: usize) -> [&Span<S>; 2] {
+        let count = self.spans.len();
+        [(pulley + count - 1) % count, pulley].map(|span| &self.spans[span])
     }
 
+    /// Length of the loop, with the radii of the pulleys.
+    pub(crate) fn length(&self, radii: impl Iterator<Item = S>) -> S {
+        let spans: S = self.spans.iter().map(|span| span.length).sum();
+        let arcs = radii.zip(&self.wraps);
+        spans + arcs.map(|(radius, &wrap)| radius * wrap).sum::<S>()
+    }
+
+    /// As [`Layout::length_gradient`](super::Layout::length_gradient).
+    pub(crate) fn length_gradient(&self, pulley: usize) -> [S; 2] {
+        let [behind, before] = self.spans_of(pulley);
+        std::array::from_fn(|part| behind.tangent[part] - before.tangent[part])
+    }
+}
+
+impl Wound {
     /// Turning number in the sense of the loop.
     pub(super) fn turns(&self, sense: Sense, pulleys: &[PlacedPulley]) -> i64 {
         self.counted(sense, pulleys, 0.0)
@@ -108,17 +122,17 @@ impl Deflected {
         let straight = &wound.spans[span];
         let inward = sense.sign() * straight.normal();
         let middle = 0.5 * (Vector2::from(straight.start) + Vector2::from(straight.end));
+        // The belt runs round the point with its back.
         let point = Circle {
-            centre: middle + deflection * inward,
-            turned_radius: 0.0,
+            centre: (middle + deflection * inward).into(),
+            radius: 0.0,
+            turns: -sense.sign(),
         };
         let next = (span + 1) % count;
-        let [from, to] = [span, next].map(|end| Circle::new(sense, &pulleys[end]));
+        let [from, to] = [span, next].map(|end| pulleys[end].circle(sense));
         let [arriving, leaving] = [between([from, point])?, between([point, to])?];
         let [behind, before] = [(span + count - 1) % count, next].map(|other| &wound.spans[other]);
-        // The belt runs round the point with its back.
-        let turning = -sense.sign();
-        let turns = [span, next].map(|end| pulleys[end].turns(sense));
+        let (turning, turns) = (point.turns, [from, to].map(|circle| circle.turns));
         let wraps = [
             wrap(turns[0], behind, &arriving),
             wrap(turning, &arriving, &leaving),
@@ -129,55 +143,52 @@ impl Deflected {
         Some(Self {
             lengthening: spans + pulleys[span].radius * first + pulleys[next].radius * last,
             turned: turns[0] * first + turning * wraps[1] + turns[1] * last,
-            across: (arriving.tangent - leaving.tangent).dot(&inward),
+            across: (arriving.tangent() - leaving.tangent()).dot(&inward),
         })
     }
 }
 
 /// A circle that the belt runs round.
-#[derive(Clone, Copy)]
-struct Circle {
-    centre: Vector2<f64>,
-    /// σ R, m.
-    turned_radius: f64,
-}
-
-impl Circle {
-    fn new(sense: Sense, pulley: &PlacedPulley) -> Self {
-        Self {
-            centre: pulley.centre.into(),
-            turned_radius: pulley.turns(sense) * pulley.radius,
-        }
-    }
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Circle<S = f64> {
+    pub(crate) centre: [S; 2],
+    /// R, m.
+    pub(crate) radius: S,
+    /// σ.
+    pub(crate) turns: f64,
 }
 
 /// The span between two circles; `None` if these overlap too much.
-fn between([from, to]: [Circle; 2]) -> Option<Span> {
-    let along = to.centre - from.centre;
-    let [leaves, arrives] = [from, to].map(|circle| circle.turned_radius);
-    if along.norm() <= (arrives - leaves).abs() {
+fn between<S: Real>([from, to]: [Circle<S>; 2]) -> Option<Span<S>> {
+    let along = [0, 1].map(|part| to.centre[part] - from.centre[part]);
+    let [leaves, arrives] = [from, to].map(|circle| circle.radius * circle.turns);
+    let [x, y] = along;
+    if (x * x + y * y).sqrt() <= (arrives - leaves).abs() {
         return None;
     }
-    let [length, direction] = tangent(along.into(), leaves, arrives);
+    let [length, direction] = tangent(along, leaves, arrives);
     let direction = positive(direction);
     let (sine, cosine) = direction.sin_cos();
-    let normal = Vector2::new(-sine, cosine);
+    let normal = [-sine, cosine];
+    let reached = |circle: Circle<S>, turned: S| {
+        std::array::from_fn(|part| circle.centre[part] - turned * normal[part])
+    };
     Some(Span {
         length,
         direction,
-        start: (from.centre - leaves * normal).into(),
-        end: (to.centre - arrives * normal).into(),
-        tangent: Vector2::new(cosine, sine),
+        start: reached(from, leaves),
+        end: reached(to, arrives),
+        tangent: [cosine, sine],
     })
 }
 
 /// The wrap on a pulley that turns in a sense, rad, in [0, 2π).
-fn wrap(turns: f64, entering: &Span, leaving: &Span) -> f64 {
-    positive(turns * (leaving.direction - entering.direction))
+fn wrap<S: Real>(turns: f64, entering: &Span<S>, leaving: &Span<S>) -> S {
+    positive((leaving.direction - entering.direction) * turns)
 }
 
 /// An angle above −2π modulo 2π.
-fn positive(angle: f64) -> f64 {
+fn positive<S: Real>(angle: S) -> S {
     match angle < 0.0 {
         true => angle + TAU,
         false => angle,

@@ -6,6 +6,7 @@ use super::running::{LOOSEST, Moving, Running, RunningBelt, Tightness};
 use crate::FrictionLaw;
 use crate::drive::layout::Layout;
 use crate::mechanics::root::bracketed;
+use bvp::Real;
 
 /// Where the search for the slackest tension begins, as a share of the axial stiffness: the strain of a
 /// slack belt. It only decides how often the bracket is doubled.
@@ -20,18 +21,31 @@ const DOUBLINGS: usize = 60;
 
 /// What the closure asks of the running belt.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Target {
+pub(super) enum Target<S = f64> {
     /// Length of the unstretched belt as that of a loop less its elongation, m.
-    Unstretched { length: f64, elongation: f64 },
+    Unstretched { length: S, elongation: S },
     /// Belt tension of a span, N.
-    Tension { span: usize, tension: f64 },
+    Tension { span: usize, tension: S },
     /// Tractive tension of a span, N.
-    TractiveTension { span: usize, tension: f64 },
+    TractiveTension { span: usize, tension: S },
+}
+
+impl<S: Real> Target<S> {
+    /// The belt that has a tension at rest in a loop of a length in m, N, with its axial stiffness, N.
+    pub(super) fn as_at_rest(length: S, tension: S, axial_stiffness: S) -> Self {
+        let strain = tension / axial_stiffness;
+        Self::Unstretched {
+            length,
+            elongation: length * strain / (strain + 1.0),
+        }
+    }
 }
 
 /// The search for the tension that the closure asks for.
 #[derive(Clone, Copy)]
 pub(super) struct Closing<'p> {
+    problem: &'p Problem<'p>,
+    layout: &'p Layout,
     running: Running<'p>,
 }
 
@@ -43,13 +57,17 @@ impl<'p> Closing<'p> {
         law: FrictionLaw,
         factor: f64,
     ) -> Self {
-        let running = Running::new(problem, layout, law, factor);
-        Self { running }
+        Self {
+            problem,
+            layout,
+            running: Running::new(&problem.numbers, layout.wound(), law, factor),
+        }
     }
 
     /// How tight the belt is with a tension of the slackest span as in [`Running::moving`], N.
     fn tightness(&self, slackest: f64) -> Option<Tightness> {
-        self.running.tightness(self.running.moving_with(slackest)?)
+        let moving = self.running.moving_with(slackest)?;
+        self.running.tightness(moving, self.problem.target)
     }
 
     /// The running belt that the closure asks for: `Ok(None)` if it would have to be looser than the
@@ -69,13 +87,8 @@ impl<'p> Closing<'p> {
 
     /// As [`Self::closed`], without its contacts.
     fn moving(&self) -> Result<Option<Moving>, ()> {
-        let Running {
-            problem,
-            layout,
-            law,
-            factor,
-        } = self.running;
-        let equations = Equations::new(problem, law, layout);
+        let Running { law, factor, .. } = self.running;
+        let equations = Equations::new(self.problem, law, self.layout);
         let guess = equations.guess(f64::NAN, factor);
         if let Some(([slackest, speed, ..], _)) = equations.solve::<2>(guess) {
             return Ok(Some(self.running.moving(speed, slackest)));
@@ -94,8 +107,8 @@ impl<'p> Closing<'p> {
         if at_low >= 0.0 {
             return Ok(None);
         }
-        let largest = self.running.factor * self.running.problem.loads.largest;
-        let axial = self.running.problem.drive.belt.axial_stiffness;
+        let largest = self.running.factor * self.problem.numbers.loads.largest;
+        let axial = self.problem.drive.belt.axial_stiffness;
         let mut step = largest.max(SLACK_STRAIN * axial);
         for _ in 0..DOUBLINGS {
             let high = loosest + step;
@@ -103,7 +116,7 @@ impl<'p> Closing<'p> {
             if at_high >= 0.0 {
                 let slackest = bracketed(excess, [low, high], [at_low, at_high]).ok_or(())?;
                 // The sign also changes where the belt gets too loose for elastic friction.
-                let rounding = 1e3 * f64::EPSILON * self.running.layout.length();
+                let rounding = 1e3 * f64::EPSILON * self.layout.length();
                 let is_met = self
                     .tightness(slackest)
                     .is_some_and(|found| found.surplus.abs() < CLOSED * found.scale + rounding);

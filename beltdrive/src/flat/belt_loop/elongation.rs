@@ -10,9 +10,10 @@
 use crate::friction::coulomb;
 use crate::friction::rim::contact::{Arc, Contact};
 use crate::friction::rim::zone::Friction;
+use bvp::Real;
 
 /// The elongation of the belt on a pulley with rigid friction, raised where it does not carry the load, m.
-pub(super) fn rigid(arc: &Arc) -> f64 {
+pub(super) fn rigid<S: Real>(arc: &Arc<S>) -> S {
     let (slip_rate, slipping) = coulomb::slipping(arc);
     let adhesion = (arc.length - slipping) * arc.belt.elongation(arc.entry());
     let sense = arc.sense;
@@ -21,12 +22,12 @@ pub(super) fn rigid(arc: &Arc) -> f64 {
             arc,
             slip_rate,
             slip_rate * slipping,
-            [arc.entry(), sense * arc.change],
+            [arc.entry(), arc.change * sense],
         )
 }
 
 /// The elongation of the belt on a pulley, m.
-pub(super) fn elongation(contact: &Contact) -> f64 {
+pub(super) fn elongation<S: Real>(contact: &Contact<S>) -> S {
     let (belt, arc) = (contact.arc.belt, &contact.arc);
     let zones = contact.zones.iter().map(|zone| {
         let (length, from) = (zone.end - zone.start.arc_length, zone.start.traction);
@@ -34,7 +35,7 @@ pub(super) fn elongation(contact: &Contact) -> f64 {
             Friction::Adhesion => length * belt.elongation(from),
             Friction::Slip => {
                 let extent = arc.slip_rate * length;
-                let grown = from * (arc.sense * extent).exp_m1();
+                let grown = from * (extent * arc.sense).exp_m1();
                 slipped(arc, arc.slip_rate, extent, [from, grown])
             }
             Friction::Developing(law) => law.own().elongation(contact, zone),
@@ -44,7 +45,7 @@ pub(super) fn elongation(contact: &Contact) -> f64 {
 }
 
 /// The elongation where the traction grows by slip, by `extent` logarithms or by `grown` N from a value.
-fn slipped(arc: &Arc, slip_rate: f64, extent: f64, [from, grown]: [f64; 2]) -> f64 {
+fn slipped<S: Real>(arc: &Arc<S>, slip_rate: S, extent: S, [from, grown]: [S; 2]) -> S {
     let (belt, offset) = (arc.belt, arc.belt.offset());
     let stretched = (grown / (offset + from)).ln_1p().abs();
     (belt.inertia * extent + belt.stiffness * stretched) / (slip_rate * offset)

@@ -12,6 +12,7 @@
 
 use super::closing::Target;
 use super::loads::Loads;
+use super::numbers::Numbers;
 use super::problem::{Loaded, Problem};
 use super::running::{LOOSEST, Running};
 use crate::drive::layout::Layout;
@@ -67,12 +68,16 @@ impl Sticking {
     fn new(problem: &Problem<'_>, layout: &Layout) -> Self {
         let Problem {
             drive,
-            loads,
+            numbers,
             target,
+            ..
+        } = problem;
+        let Numbers {
+            loads,
             rim,
             convention,
             ..
-        } = problem;
+        } = numbers;
         let (belt, whole) = (drive.belt, layout.length());
         let axial = belt.axial_stiffness;
         let count = drive.pulleys.len();
@@ -123,7 +128,7 @@ impl<'p> Equations<'p> {
     }
 
     fn running(&self, factor: f64) -> Running<'_> {
-        Running::new(self.problem, &self.layout, self.law, factor)
+        Running::new(&self.problem.numbers, self.layout.wound(), self.law, factor)
     }
 
     /// The state of a belt that sticks.
@@ -230,7 +235,7 @@ impl<'p> Equations<'p> {
     pub(super) fn loaded<const N: usize>(self, start: Unknowns) -> Option<(Loaded, f64)> {
         let (problem, law) = (self.problem, self.law);
         let ([slackest, speed, coordinate, factor], layout) = self.solve::<N>(start)?;
-        let running = Running::new(problem, &layout, law, factor);
+        let running = Running::new(&problem.numbers, layout.wound(), law, factor);
         let belt = running.at(running.moving(speed, slackest))?;
         let loaded = Loaded {
             coordinate,
@@ -264,7 +269,7 @@ impl<'p> Equations<'p> {
         let [slackest, speed, coordinate, factor] = state;
         let running = self.running(factor);
         let moving = running.moving(speed, slackest);
-        let tightness = running.tightness(moving)?;
+        let tightness = running.tightness(moving, self.problem.target)?;
         let outruns = running.outruns(moving, tightness.reference);
         let mut residuals = [tightness.surplus, outruns, 0.0, 0.0];
         if N > 2
@@ -289,16 +294,16 @@ impl<'p> Equations<'p> {
             slope,
             ..
         } = self.sticking;
-        let Problem {
-            drive,
+        let Problem { drive, numbers, .. } = self.problem;
+        let Numbers {
             loads: Loads { offsets, .. },
             driver,
             ..
-        } = self.problem;
+        } = numbers;
         let (belt, running) = (drive.belt, self.running(factor));
         let inertia = 2.0 * belt.mass_per_length * speed;
         // Of the belt tension and the tractive tension with the speed.
-        let [tension, tractive] = match self.problem.convention {
+        let [tension, tractive] = match numbers.convention {
             NormalForce::Thesis => [0.0, -inertia],
             NormalForce::Inertia | NormalForce::Exact => [inertia, 0.0],
         };

@@ -1,37 +1,35 @@
 //! What the torques of a loop do to the tractions of its belt.
 
-use crate::Drive;
+use bvp::Real;
 
 /// Tractions that follow from the torques by themselves.
-pub(super) struct Loads {
+pub(super) struct Loads<S = f64> {
     /// Change of the traction P on each pulley, N.
-    pub(super) changes: Vec<f64>,
+    pub(super) changes: Vec<S>,
     /// Traction of each span above the slackest, N.
-    pub(super) offsets: Vec<f64>,
+    pub(super) offsets: Vec<S>,
     /// The largest of these, N.
-    pub(super) largest: f64,
+    pub(super) largest: S,
 }
 
-impl Loads {
-    /// With a torque of each pulley, N·m; that of the driver means nothing, and balances the others.
-    pub(super) fn new(drive: &Drive, torques: &[f64]) -> Self {
-        let pulleys = &drive.pulleys;
-        let driver = drive.driver();
-        let loads = pulleys.iter().zip(torques);
-        let mut changes: Vec<_> = loads
-            .map(|(pulley, torque)| torque / pulley.radius)
-            .collect();
-        changes[driver] = 0.0;
-        changes[driver] = 0.0 - changes.iter().sum::<f64>();
-        let mut offsets = vec![0.0; pulleys.len()];
-        for step in 1..pulleys.len() {
-            let pulley = (driver + step) % pulleys.len();
-            let behind = (driver + step - 1) % pulleys.len();
+impl<S: Real> Loads<S> {
+    /// With the radius in m and the torque in N·m of each pulley; the torque of the driver means nothing, and balances
+    /// the others.
+    pub(super) fn new(driver: usize, loads: impl Iterator<Item = (S, S)>) -> Self {
+        let mut changes: Vec<_> = loads.map(|(radius, torque)| torque / radius).collect();
+        changes[driver] = S::ZERO;
+        changes[driver] = S::ZERO - changes.iter().copied().sum::<S>();
+        let count = changes.len();
+        let mut offsets = vec![S::ZERO; count];
+        for step in 1..count {
+            let pulley = (driver + step) % count;
+            let behind = (driver + step - 1) % count;
             offsets[pulley] = offsets[behind] + changes[pulley];
         }
-        let lowest = offsets.iter().copied().fold(f64::INFINITY, f64::min);
+        let lowest = offsets.iter().copied();
+        let lowest = lowest.fold(S::from_f64(f64::INFINITY), S::min);
         offsets.iter_mut().for_each(|offset| *offset -= lowest);
-        let largest = offsets.iter().copied().fold(0.0, f64::max);
+        let largest = offsets.iter().copied().fold(S::ZERO, S::max);
         Self {
             changes,
             offsets,

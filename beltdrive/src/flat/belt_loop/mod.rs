@@ -7,11 +7,13 @@ mod equations;
 mod largest_load;
 mod limit;
 mod loads;
+mod numbers;
 mod problem;
 mod rest;
 mod results;
 mod running;
 mod solve;
+mod solved;
 
 pub(crate) use largest_load::largest_load;
 pub(crate) use rest::at_rest;

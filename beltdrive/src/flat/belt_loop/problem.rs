@@ -2,12 +2,12 @@
 
 use super::closing::{Closing, Target};
 use super::equations::{Equations, Unknowns};
-use super::loads::Loads;
+use super::numbers::Numbers;
 use super::rest::{Rest, rest_of_length};
 use super::running::RunningBelt;
 use crate::drive::layout::Layout;
 use crate::mechanics::tensioner::{Towards, equilibrium};
-use crate::{Drive, FrictionLaw, NormalForce, SolveError};
+use crate::{Drive, FrictionLaw, SolveError};
 
 /// The loop under load.
 pub(super) struct Loaded {
@@ -29,13 +29,8 @@ impl Loaded {
 /// A loop with its torques and what its closure asks of the running belt.
 pub(super) struct Problem<'l> {
     pub(super) drive: &'l Drive,
-    pub(super) loads: Loads,
+    pub(super) numbers: Numbers,
     pub(super) target: Target,
-    pub(super) convention: NormalForce,
-    /// Index of the driver.
-    pub(super) driver: usize,
-    /// Circumferential speed R ω of the driver, m/s.
-    pub(super) rim: f64,
     /// Where the equilibrium of the tensioner is sought from, and the belt there.
     pub(super) start: (f64, Layout),
     pub(super) towards: Towards,
@@ -51,7 +46,7 @@ impl Problem<'_> {
                 true => Ok(()),
                 false => Err(SolveError::LiftsOff {
                     tractive_tension,
-                    speed: self.rim,
+                    speed: self.numbers.rim,
                     is_loaded: false,
                 }),
             }
@@ -71,7 +66,7 @@ impl Problem<'_> {
 
     /// Tractive tension of the belt without torques in a layout, N.
     pub(super) fn unloaded_tension(&self, layout: &Layout) -> f64 {
-        let (belt, rim) = (self.drive.belt, self.rim);
+        let (belt, rim) = (self.drive.belt, self.numbers.rim);
         let strain = match self.target {
             Target::Unstretched { length, elongation } => {
                 let elongation = layout.length() - length + elongation;

@@ -4,6 +4,7 @@ use crate::drive::layout::Layout;
 use crate::mechanics::tensioner::{Held, Towards, equilibrium, length_derivatives, within_travel};
 use crate::results::loop_state::RestState;
 use crate::{Closure, Drive, SolveError};
+use bvp::Real;
 
 /// The belt at rest: uniform tension, no friction.
 #[derive(Clone, Debug)]
@@ -15,6 +16,16 @@ pub(super) struct Rest {
     pub(super) tension: f64,
     /// Length `L_0` of the unstretched belt, m.
     pub(super) unstretched: f64,
+}
+
+/// Length in m of the unstretched belt that has a tension in N in a loop of a length.
+pub(super) fn unstretched<S: Real>(length: S, tension: S, axial_stiffness: S) -> S {
+    length / (tension / axial_stiffness + 1.0)
+}
+
+/// Tension in N of a belt of an unstretched length in m in a loop of a length.
+pub(super) fn tension<S: Real>(length: S, unstretched: S, axial_stiffness: S) -> S {
+    axial_stiffness * ((length - unstretched) / unstretched)
 }
 
 /// The loop at rest, where the closure is one of it.
@@ -58,7 +69,7 @@ pub(super) fn rest_of_closure(
         (Closure::SetupTension(tension), _) => tension,
         _ => f64::NAN,
     };
-    let unstretched = layout.length() / (1.0 + tension / axial);
+    let unstretched = unstretched(layout.length(), tension, axial);
     stable_rest(
         drive,
         Rest {
@@ -77,7 +88,7 @@ pub(super) fn rest_of_length(
     length: f64,
 ) -> Result<Rest, SolveError> {
     let axial = drive.belt.axial_stiffness;
-    let tension = |layout: &Layout| axial * ((layout.length() - length) / length);
+    let tension = |layout: &Layout| tension(layout.length(), length, axial);
     let at_start = tension(&layout);
     let found = equilibrium(
         drive,

@@ -1,21 +1,24 @@
 //! Everything that follows from the speed and the tensions of a loop.
 
+use super::numbers::Numbers;
 use super::rest::Rest;
 use super::running::RunningBelt;
+use super::solved::{Solved, entry_strain};
 use crate::drive::layout::Layout;
 use crate::friction::rim::contact::Contact;
 use crate::friction::rim::profile::zones;
-use crate::friction::rim::zone::Friction;
-use crate::mechanics::span::{DEFLECTION, first_frequency, rest_frequency};
+use crate::mechanics::span::DEFLECTION;
 use crate::mechanics::tensioner::Held;
 use crate::results::loop_state::{
     Contacts, FrictionParts, LoadLimit, LoopState, PulleyState, SpanState, TensionerState,
 };
-use crate::{Drive, Duty, SolveError, ZoneKind};
+use crate::results::measured::{Measurable, OfPulley, OfSpan};
+use crate::{Drive, SolveError, ZoneKind};
 
 /// A solved loop.
 pub(super) struct Found<'l> {
     pub(super) drive: &'l Drive,
+    pub(super) numbers: &'l Numbers,
     pub(super) rest: Rest,
     pub(super) coordinate: f64,
     pub(super) layout: Layout,
@@ -24,6 +27,17 @@ pub(super) struct Found<'l> {
 }
 
 impl Found<'_> {
+    fn solved(&self) -> Solved<'_> {
+        Solved {
+            numbers: self.numbers,
+            belt: &self.belt,
+            wound: self.layout.wound(),
+            rest_wound: self.rest.layout.wound(),
+            rest_tension: self.rest.tension,
+            unstretched: self.rest.unstretched,
+        }
+    }
+
     /// The tensioner in the running loop and at rest.
     fn held(&self) -> Option<[Held; 2]> {
         let carried = self.drive.tensioner()?;
@@ -57,18 +71,20 @@ impl Found<'_> {
     }
 
     fn span(&self, index: usize) -> SpanState {
+        let OfSpan {
+            tension,
+            tractive_tension,
+            frequency,
+            rest_frequency,
+        } = self.solved().of_span(index);
         let RunningBelt {
             speed,
             belt,
             tractions,
-            tractive,
             ..
         } = &self.belt;
         let stated = self.drive.belt;
         let [span, rest] = [&self.layout, &self.rest.layout].map(|layout| layout.spans()[index]);
-        let tension = belt.tension(tractions[index]);
-        let moving = speed * (1.0 + belt.strain(tractions[index]));
-        let flow = stated.mass_per_length * speed;
         let deflection = DEFLECTION * rest.length;
         let deflected = self.rest.layout.deflected(index, deflection);
         let force = deflected.map(|[length, across]| {
@@ -79,77 +95,55 @@ impl Found<'_> {
             length: span.length,
             direction: span.direction,
             tension,
-            tractive_tension: tractive[index],
-            speed: moving,
-            frequency: first_frequency(span.length, tractive[index], tension, moving, flow),
+            tractive_tension,
+            speed: speed * (1.0 + belt.strain(tractions[index])),
+            frequency,
             rest_length: rest.length,
-            rest_frequency: rest_frequency(rest.length, self.rest.tension, &stated),
+            rest_frequency,
             deflection,
             deflection_force: force,
         }
     }
 
-    fn pulley(&self, index: usize, driver: usize) -> PulleyState {
+    fn pulley(&self, index: usize) -> PulleyState {
+        let solved = self.solved();
+        let OfPulley {
+            angular_speed,
+            speed_loss,
+            wrap,
+            slip_arc,
+            hub_load,
+            rest_hub_load,
+            torque,
+            power,
+        } = solved.of_pulley(index);
         let RunningBelt {
             speed,
             belt,
-            tractive,
             changes,
             contacts,
             ..
         } = &self.belt;
         let (stated, contact) = (&self.drive.pulleys[index], &contacts[index]);
-        let radius = stated.radius;
-        let torque = changes[index] * radius;
-        let reference = contact.reference();
-        let driving = belt.offset() + contacts[driver].reference();
-        let angular_speed = match stated.duty {
-            Duty::Driver(angular_speed) => angular_speed,
-            Duty::Torque(_) | Duty::Power(_) | Duty::Driven => {
-                speed * (1.0 + belt.strain(reference)) / radius
-            }
-        };
-        let arc_of = |slips: bool| {
-            let zones = contact.zones.iter();
-            let zones = zones.filter(|zone| matches!(zone.friction, Friction::Slip) == slips);
-            // An empty sum is −0.
-            zones
-                .map(|zone| zone.end - zone.start.arc_length)
-                .sum::<f64>()
-                / radius
-                + 0.0
-        };
-        let load = self.belt.largest_load(stated, self.layout.wraps()[index]);
-        let capacity = radius * contact.arc.low * load.exp_m1();
-        let hub_load = |layout: &Layout, tensions: [f64; 2]| {
-            let [entering, leaving] = layout.spans_of(index).map(|span| span.tangent());
-            let [behind, before] = tensions;
-            <[f64; 2]>::from(before * leaving - behind * entering)
-        };
-        let count = tractive.len();
-        let ends = [tractive[(index + count - 1) % count], tractive[index]];
-        let entry_strain = contact.arc.sense * contact.strain + 0.0;
-        let before_reference = belt.stiffness * entry_strain;
+        let load = self.belt.largest_load(stated, wrap);
+        let capacity = stated.radius * contact.arc.low * load.exp_m1();
         PulleyState {
             name: stated.name.clone(),
             centre: self.layout.pulleys()[index].centre,
             angular_speed,
             torque,
-            power: torque * angular_speed,
-            wrap: self.layout.wraps()[index],
+            power,
+            wrap,
             rest_wrap: self.rest.layout.wraps()[index],
-            no_slip_arc: arc_of(false),
-            slip_arc: arc_of(true),
-            zones: zones(contact, radius),
-            entry_strain: Some(entry_strain),
-            reference_tension: Some(belt.tension(reference)),
-            hub_load: hub_load(&self.layout, ends),
-            rest_hub_load: hub_load(&self.rest.layout, [self.rest.tension; 2]),
-            speed_loss: (contacts[driver].reference() - reference) / driving,
-            // c/D [(P_out² − P_in²)/2 − P_o (P_out − P_in)]
-            friction_loss: speed / belt.stiffness
-                * changes[index]
-                * (before_reference + 0.5 * changes[index]),
+            no_slip_arc: solved.arc(index, false),
+            slip_arc,
+            zones: zones(contact, stated.radius),
+            entry_strain: Some(entry_strain(contact)),
+            reference_tension: Some(belt.tension(contact.reference())),
+            hub_load,
+            rest_hub_load,
+            speed_loss,
+            friction_loss: solved.friction_loss(index),
             friction_parts: friction_parts(contact, speed / belt.stiffness),
             friction_utilisation: Some(if changes[index] == 0.0 {
                 0.0
@@ -201,27 +195,22 @@ fn friction_parts(contact: &Contact, per_traction: f64) -> FrictionParts {
 
 /// The answer.
 pub(super) fn state(found: Found<'_>) -> LoopState {
-    let driver = found.drive.driver();
     let count = found.drive.pulleys.len();
-    let pulleys: Vec<_> = (0..count)
-        .map(|index| found.pulley(index, driver))
-        .collect();
-    let powers = pulleys.iter().map(|pulley| pulley.power);
-    let [power_in, power_out] = powers.fold([0.0, 0.0], |[input, output], power| {
-        [input + (-power).max(0.0), output + power.max(0.0)]
-    });
+    let solved = found.solved();
+    let [power_in, power_out] = solved.power_in_and_out();
+    let whole = solved.of_whole();
     LoopState {
         unstretched_speed: found.belt.speed,
         mass_flow: found.drive.belt.mass_per_length * found.belt.speed,
         length: found.layout.length(),
-        unstretched_length: found.rest.unstretched,
-        rest_tension: found.rest.tension,
+        unstretched_length: whole.unstretched_length,
+        rest_tension: whole.rest_tension,
         power_in,
         power_out,
-        power_loss: pulleys.iter().map(|pulley| pulley.friction_loss).sum(),
-        efficiency: (power_in > 0.0).then(|| power_out / power_in),
+        power_loss: whole.power_loss,
+        efficiency: whole.efficiency,
         spans: (0..count).map(|index| found.span(index)).collect(),
-        pulleys,
+        pulleys: (0..count).map(|index| found.pulley(index)).collect(),
         tensioner: found.tensioner(),
         load_limit: found.limit,
         checks: vec![],

@@ -3,14 +3,14 @@
 use super::checks::checked;
 use super::closing::Target;
 use super::limit::{judged, largest, load_limit, slips};
-use super::loads::Loads;
+use super::numbers::{Numbers, constant};
 use super::problem::{Loaded, Problem};
 use super::rest::{Rest, rest_of_closure};
 use super::results::{Found, state};
 use super::running::RunningBelt;
 use crate::mechanics::tensioner::{Towards, within_travel};
 use crate::results::loop_state::LoopState;
-use crate::{BeltKind, Closure, Drive, Duty, FrictionLaw, Pulley, SolveError};
+use crate::{Closure, Drive, Duty, FrictionLaw, Pulley, SolveError};
 
 /// Largest strain of the belt: at twice its length no belt is linear elastic, and far beyond it the length
 /// of the unstretched belt is lost in rounding.
@@ -108,22 +108,15 @@ fn stated<'d>(
         }
         _ => {
             let rest = rest_of_closure(drive, (start, layout.clone()))?;
-            let length = rest.layout.length();
-            let strain = rest.tension / drive.belt.axial_stiffness;
-            let elongation = length * strain / (1.0 + strain);
-            (Some(rest), Target::Unstretched { length, elongation })
+            let axial = drive.belt.axial_stiffness;
+            let target = Target::as_at_rest(rest.layout.length(), rest.tension, axial);
+            (Some(rest), target)
         }
     };
     let problem = Problem {
         drive,
-        loads: Loads::new(drive, torques),
+        numbers: Numbers::new(drive, torques, constant(drive)),
         target,
-        convention: match drive.belt.kind {
-            BeltKind::Flat { normal_force } => drive.law.row().convention(normal_force),
-            BeltKind::V(_) => panic!("a flat belt was expected"),
-        },
-        driver: drive.driver(),
-        rim: drive.rim_speed(),
         start: rest.as_ref().map_or((start, layout), |rest| {
             (rest.coordinate, rest.layout.clone())
         }),
@@ -195,6 +188,7 @@ fn with_torques(drive: &Drive, torques: &[f64], is_final: bool) -> Result<LoopSt
     }
     let found = Found {
         drive,
+        numbers: &problem.numbers,
         rest,
         coordinate,
         layout,

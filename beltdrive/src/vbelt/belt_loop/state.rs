@@ -253,7 +253,12 @@ impl<'a> Seen<'a> {
             speed,
             frequency: first_frequency(length, tractive, tension, speed, flow),
             rest_length,
-            rest_frequency: rest_frequency(rest_length, self.rest.tension, &belt),
+            rest_frequency: rest_frequency(
+                rest_length,
+                self.rest.tension,
+                belt.mass_per_length,
+                belt.axial_stiffness,
+            ),
             deflection,
             deflection_force: deflection_force
                 .unwrap_or_else(|| self.deflection_force(search, at_rest, span, deflection)),
