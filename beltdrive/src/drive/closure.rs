@@ -28,6 +28,20 @@ pub enum Closure {
     BothSpans(Load),
 }
 
+impl Closure {
+    /// The number that it gives, SI; of two tensions that of the slack span.
+    pub(crate) fn value(self) -> f64 {
+        match self {
+            Self::UnstretchedLength(value)
+            | Self::SetupTension(value)
+            | Self::SpanTension { tension: value, .. }
+            | Self::SpanTractiveTension { tension: value, .. }
+            | Self::RestCoordinate(value) => value,
+            Self::BothSpans(load) => load.slack.value(),
+        }
+    }
+}
+
 /// What is prescribed for the two spans.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {

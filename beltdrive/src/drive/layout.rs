@@ -14,11 +14,11 @@ mod wound;
 
 pub use error::LayoutError;
 pub(crate) use tangent::tangent;
-pub(crate) use wound::Wound;
+pub(crate) use wound::{Circle, Wound};
 
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
-use wound::{Circle, Deflected};
+use wound::Deflected;
 
 /// On which side of the belt a pulley lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

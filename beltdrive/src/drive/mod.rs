@@ -2,6 +2,7 @@
 
 pub(crate) mod check;
 mod closure;
+mod direction;
 pub(crate) mod layout;
 mod number;
 mod pulley;
@@ -10,6 +11,7 @@ mod tensioner;
 mod two_pulleys;
 
 pub use closure::{Closure, Load, SpanTension};
+pub(crate) use direction::Direction;
 pub(crate) use number::Number;
 pub use pulley::{Duty, Mount, Pulley};
 pub use service::{BendingLoss, GivenLosses, LoadCase, Requirements, Service};

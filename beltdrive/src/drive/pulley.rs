@@ -70,6 +70,14 @@ pub enum Duty {
 }
 
 impl Duty {
+    /// The number that it gives, SI; 0 without one.
+    pub(crate) fn value(self) -> f64 {
+        match self {
+            Self::Driver(value) | Self::Torque(value) | Self::Power(value) => value,
+            Self::Driven => 0.0,
+        }
+    }
+
     /// Torque in N·m of a pulley that turns at a speed in rad/s; 0 where it follows from the others.
     pub(crate) fn torque_at(self, speed: f64) -> f64 {
         match self {

@@ -14,6 +14,16 @@ pub(crate) struct Wound<S = f64> {
 }
 
 impl<S: Real> Wound<S> {
+    /// The belt round circles; the indices of two that overlap are an error.
+    pub(crate) fn new(circles: &[Circle<S>]) -> Result<Self, [usize; 2]> {
+        let mut wound = Self {
+            spans: vec![],
+            wraps: vec![],
+        };
+        wound.lay(circles.len(), |index| circles[index], None)?;
+        Ok(wound)
+    }
+
     /// Winds the belt round circles, of which one, or all, are new at their places; the indices of two that
     /// overlap are an error.
     pub(super) fn lay(

@@ -2,8 +2,10 @@
 
 mod checks;
 mod closing;
+mod derivatives;
 mod elongation;
 mod equations;
+mod evaluated;
 mod largest_load;
 mod limit;
 mod loads;
@@ -15,6 +17,7 @@ mod running;
 mod solve;
 mod solved;
 
+pub(crate) use derivatives::Derivatives;
 pub(crate) use largest_load::largest_load;
 pub(crate) use rest::at_rest;
 pub(crate) use solve::{solve, unloaded_tension};
