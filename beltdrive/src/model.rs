@@ -2,6 +2,7 @@
 //! [`model`].
 
 use crate::belt_loop::LoopState;
+use crate::flat::belt_loop::Derivatives;
 use crate::input::Key;
 use crate::results::largest_load::{LargestLoad, LastState};
 use crate::results::loop_state::RestState;
@@ -111,6 +112,11 @@ pub(crate) trait Model {
     /// The last steady state of a loop as all its torques and powers rise together from its own, where it is found
     /// along the curve of these states.
     fn last_state(&self, _: &Drive, _: &SolveOptions) -> Option<LastState> {
+        None
+    }
+
+    /// How a steady state changes with the numbers of its drive, where that is known to rounding.
+    fn derivatives<'d>(&self, _: &'d Drive, _: &LoopState) -> Option<Derivatives<'d>> {
         None
     }
 

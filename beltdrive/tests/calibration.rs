@@ -299,6 +299,60 @@ fn bristles_of_a_v_belt_are_found() {
     }
 }
 
+/// Rows on a drive with a slide, whose direction the numbers of the drive do not follow along a straight line: its
+/// derivatives are differences, those of the axial stiffness are exact.
+#[test]
+fn a_number_is_found_by_differences_beside_one_with_exact_derivatives() {
+    let (pulleys, _) = include_str!("drives/eight-pulleys.toml")
+        .split_once("[tensioner.arm]")
+        .unwrap();
+    let slide = r#"
+        [tensioner.slide]
+        origin = ["176.777 mm", "176.777 mm"]
+        direction = "225 deg"
+        stiffness = "20 kN/m"
+        free_position = "20 mm"
+        rest_position = "0.1 mm"
+    "#;
+    let text = format!("{pulleys}{slide}");
+    let read = |overrides: &[String]| DriveFile::read("slide.toml", &text, overrides).unwrap();
+    let mut rows = "pulley.4.torque,1.exit_tractive_tension,1.exit_tractive_tension sd,\
+                    4.angular_speed,4.angular_speed sd"
+        .to_owned();
+    let torques = [6, 9, 12];
+    for torque in torques {
+        let drive = read(&[format!("pulley.4.torque={torque}")])
+            .drive()
+            .unwrap();
+        let state = belt_loop::solve(&drive).unwrap();
+        let (span, pulley) = (&state.spans[1], &state.pulleys[4]);
+        let [tension, speed] = [span.tractive_tension, pulley.angular_speed];
+        write!(rows, "\n{torque},{tension},1,{speed},0.01").unwrap();
+    }
+    let file = read(
+        &["belt.axial_stiffness", "tensioner.slide.direction"].map(|path| {
+            let start = if path.starts_with("belt") {
+                "110 kN"
+            } else {
+                "230 deg"
+            };
+            format!("{path}={start}")
+        }),
+    );
+    let find = |free: &[&str]| found(&file, &rows, free).unwrap();
+    let both = find(&["belt.axial_stiffness", "tensioner.slide.direction"]);
+    for (parameter, truth) in both.parameters.iter().zip([100e3, 225_f64.to_radians()]) {
+        assert!(
+            (parameter.value / truth - 1.0).abs() < 1e-6,
+            "{parameter:?}"
+        );
+    }
+    // A state of each row at every place, and two beside each of them for the differences.
+    assert!(both.states > torques.len() * both.steps);
+    let one = find(&["belt.axial_stiffness"]);
+    assert_eq!(one.states, torques.len() * one.steps);
+}
+
 #[test]
 fn what_cannot_be_found_is_refused() {
     let file = bench(&[]);

@@ -6,11 +6,14 @@
 //! S(p) = Σ ((y − f(p))/σ)²
 //! ```
 //!
-//! where f is what the steady state of the drive of the row has. Without standard deviations, which only a
-//! single measured quantity does without, σ² = S/(n − m) of n readings and m numbers. The covariance is that of
-//! the problem linearised at the solution, (JᵀJ)⁻¹; with the standard error s of p intervals are p exp(± t s/p) of
-//! positive numbers, p ± t s of others, with the 97.5 % quantile t of the normal distribution, or of Student's distribution with n − m degrees of freedom
-//! where σ is estimated.
+//! where f is what the steady state of the drive of the row has. The derivatives of flat belts are exact but for rounding
+//! where the numbers of a drive change with those of its file along straight lines, as nearly all do; the others and those
+//! of V-belts are differences of states.
+//!
+//! Without standard deviations, which only a single measured quantity does without, σ² = S/(n − m) of n readings and m
+//! numbers. The covariance is that of the problem linearised at the solution, (JᵀJ)⁻¹; with the standard error s of p
+//! intervals are p exp(± t s/p) of positive numbers, p ± t s of others, with the 97.5 % quantile t of the normal
+//! distribution, or of Student's distribution with n − m degrees of freedom where σ is estimated.
 //!
 //! ```
 //! use beltdrive::calibrate::calibrate;
@@ -68,7 +71,7 @@ pub struct Calibration {
     pub scatter: Scatter,
     /// Steps of the Levenberg–Marquardt method.
     pub steps: usize,
-    /// Steady states that it took.
+    /// Steady states that it took; exact derivatives take none.
     pub states: usize,
 }
 

@@ -1,5 +1,6 @@
 //! What is asked of flat belts.
 
+use super::belt_loop::Derivatives;
 use crate::belt_loop::LoopState;
 use crate::input::Key;
 use crate::model::{Model, NearLargest, Neighbour, Progress};
@@ -105,6 +106,10 @@ impl Model for FlatBelts {
     ) -> Result<(LargestLoad, NearLargest), SolveError> {
         let found = super::belt_loop::largest_load(drive)?;
         Ok((found, NearLargest::Flat))
+    }
+
+    fn derivatives<'d>(&self, drive: &'d Drive, state: &LoopState) -> Option<Derivatives<'d>> {
+        Derivatives::new(drive, state)
     }
 
     fn solve_with_margins(

@@ -2,7 +2,7 @@
 //! derivatives, from which every damped step of a place follows.
 
 use super::Error;
-use super::model::{At, Evaluated, Model, Predictions, RowFailure};
+use super::model::{At, Column, Evaluated, Model, Predictions, RowFailure};
 use faer::Mat;
 
 /// Most steps, tried ones included: with good starts four to eight are enough, and a factor of ten in a stiffness
@@ -67,12 +67,17 @@ pub(super) fn fit(model: &Model<'_>, progress: &mut dyn FnMut(f64, &str)) -> Res
     let count = model.keys().len();
     let rows = model.readings();
     let mut place = vec![0.0; count];
-    let (of_place, of_differences) = (model.row_count(), 2 * count * model.row_count());
-    let mut states = of_place + of_differences;
+    let of_place = model.row_count();
+    let of_differences = |known: &[Column]| {
+        let open = known.iter().filter(|column| column.is_none());
+        2 * open.count() * of_place
+    };
     let first = model.at(std::slice::from_ref(&place), &[]).remove(0);
     let mut at = first.map_err(Error::Start)?;
     let mut residuals = model.residuals(&at.predictions);
-    let mut derivatives = differences(model, &place, &residuals, &at).map_err(Error::Start)?;
+    let known = model.derivatives(&place, &at);
+    let mut states = of_place + of_differences(&known);
+    let mut derivatives = completed(known, model, &place, &residuals, &at).map_err(Error::Start)?;
     let mut damping = DAMPING;
     let mut failure = "the sum of squares does not fall".to_owned();
     for step in 1..=STEPS {
@@ -108,10 +113,11 @@ pub(super) fn fit(model: &Model<'_>, progress: &mut dyn FnMut(f64, &str)) -> Res
         let tried = tried.map(|found| (model.residuals(&found.predictions), found));
         match tried {
             Ok((left, found)) if squares(&left) < sum => {
-                states += of_differences;
-                match differences(model, &next, &left, &found) {
-                    Ok(known) => {
-                        (place, residuals, at, derivatives) = (next, left, found, known);
+                let known = model.derivatives(&next, &found);
+                states += of_differences(&known);
+                match completed(known, model, &next, &left, &found) {
+                    Ok(of_next) => {
+                        (place, residuals, at, derivatives) = (next, left, found, of_next);
                         damping /= FACTOR;
                         continue;
                     }
@@ -147,16 +153,20 @@ fn squares(residuals: &[f64]) -> f64 {
     residuals.iter().map(|residual| residual * residual).sum()
 }
 
-/// The derivatives at a place by central differences, from what is known there: over a step h they err by h², relatively,
-/// and by the error of the states over h, which the cube root of that error balances.
-fn differences(
+/// The derivatives at a place from those that are known to rounding, the others by central differences from what is known
+/// there: over a step h they err by h², relatively, and by the error of the states over h, which the cube root of that error
+/// balances.
+fn completed(
+    known: Vec<Column>,
     model: &Model<'_>,
     place: &[f64],
     residuals: &[f64],
     at: &At,
 ) -> Result<Derivatives, RowFailure> {
     let step = at.error.cbrt();
-    let places: Vec<_> = (0..place.len())
+    let open = known.iter().enumerate();
+    let open = open.filter_map(|(index, column)| column.is_none().then_some(index));
+    let places: Vec<_> = open
         .flat_map(|index| {
             [1.0, -1.0].map(|side| {
                 let mut beside = place.to_vec();
@@ -165,14 +175,19 @@ fn differences(
             })
         })
         .collect();
+    let mut error = if places.is_empty() {
+        at.error
+    } else {
+        step * step
+    };
     let found = model.at(&places, &at.near);
-    let mut columns = Vec::new();
-    let mut error = step * step;
-    for pair in found.chunks(2) {
+    let mut pairs = found.chunks(2);
+    let mut difference = || {
         let residuals_at = |side: &Evaluated| match side {
             Ok(At { predictions, .. }) => Ok(model.residuals(predictions)),
             Err(row) => Err(row.clone()),
         };
+        let pair = pairs.next().expect("two places for each open column");
         for side in pair {
             let of_side = match side {
                 Ok(at) => at.error / step,
@@ -190,11 +205,14 @@ fn differences(
         };
         let sides = above.iter().zip(&below);
         // The model less the reading changes against the residual.
-        let column: Vec<_> = sides
+        Ok(sides
             .map(|(above, below)| (below - above) / width)
-            .collect();
-        columns.push(column);
-    }
+            .collect())
+    };
+    let columns = known
+        .into_iter()
+        .map(|column| column.map_or_else(&mut difference, Ok));
+    let columns = columns.collect::<Result<Vec<_>, _>>()?;
     Ok(Derivatives::new(&columns, residuals, error))
 }
 

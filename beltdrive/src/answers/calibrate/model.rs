@@ -2,7 +2,10 @@
 
 use crate::answers::map::line::{Family, Near};
 use crate::answers::members::Varied;
+use crate::belt_loop::LoopState;
+use crate::drive::Direction;
 use crate::input::{FileKey, MeasuredRow, Measurements, Reading};
+use crate::model::model;
 use crate::{BeltKind, FrictionLaw, GivenLosses, SolveOptions};
 use std::num::NonZero;
 use std::thread;
@@ -46,13 +49,17 @@ pub(super) struct At {
     pub(super) error: f64,
     /// The states of the rows, from which those beside them are found.
     pub(super) near: Vec<Near>,
+    states: Vec<LoopState>,
 }
 
 /// The model at a place, or the first row without an answer there.
 pub(super) type Evaluated = Result<At, RowFailure>;
 
-/// What a row has for each reading, its relative error, and its state.
-type OfRow = (Vec<Option<f64>>, f64, Near);
+/// What a row has for each reading, its state, and what those beside it are found from.
+type OfRow = (Vec<Option<f64>>, LoopState, Near);
+
+/// The derivatives of all readings with a coordinate, where they are known to rounding.
+pub(super) type Column = Option<Vec<f64>>;
 
 impl<'d> Model<'d> {
     /// With `varied` the keys as they vary.
@@ -179,12 +186,14 @@ impl<'d> Model<'d> {
                     predictions: Vec::with_capacity(rows),
                     error: ROUNDING,
                     near: Vec::with_capacity(rows),
+                    states: Vec::with_capacity(rows),
                 };
                 for row in of_place {
-                    let (values, error, near) = row?;
-                    at.error = at.error.max(error);
+                    let (values, state, near) = row?;
+                    at.error = at.error.max(state.relative_error());
                     at.predictions.push(values);
                     at.near.push(near);
+                    at.states.push(state);
                 }
                 Ok(at)
             })
@@ -211,8 +220,51 @@ impl<'d> Model<'d> {
                 let reason = format!("the state has no `{}`", measured.name());
                 Err(row_failure(row, &reason))
             }
-            None => Ok((found, state.relative_error().max(ROUNDING), near)),
+            None => Ok((found, state, near)),
         }
+    }
+
+    /// The derivatives of all readings over σ with each coordinate at a place, from the states there.
+    pub(super) fn derivatives(&self, place: &[f64], at: &At) -> Vec<Column> {
+        let values = self.values(place);
+        let rows = at.states.iter().enumerate();
+        let rows = rows.map(|(row, state)| self.row_derivatives(row, place, &values, state));
+        let rows: Vec<_> = rows.collect();
+        let coordinates = 0..place.len();
+        let column = |index: usize| {
+            let parts = rows.iter().map(|row| row.as_ref()?[index].clone());
+            Some(parts.collect::<Option<Vec<_>>>()?.concat())
+        };
+        coordinates.map(column).collect()
+    }
+
+    /// As [`Self::derivatives`], of a row.
+    fn row_derivatives(
+        &self,
+        row: usize,
+        place: &[f64],
+        values: &[f64],
+        state: &LoopState,
+    ) -> Option<Vec<Column>> {
+        let family = self.rows[row].as_ref().ok()?;
+        let stated = |values: &[f64]| family.stated(values).ok().map(|(drive, _)| drive);
+        let drive = stated(values)?;
+        let known = model(drive.belt.kind).derivatives(&drive, state)?;
+        let column = |index: usize| {
+            let moved = |by: f64| {
+                let mut beside = values.to_vec();
+                beside[index] += by * self.scale(index, place);
+                stated(&beside)
+            };
+            let readings = self.data.rows[row].readings.iter().zip(&self.data.measured);
+            let readings = readings.filter_map(|(reading, of)| Some(((*reading)?, of)));
+            let direction = Direction::new(&drive, moved)?;
+            let derivatives = known.along(&direction, readings.clone().map(|(_, of)| of))?;
+            let over = derivatives.into_iter().zip(readings);
+            let over = over.map(|(value, (reading, _))| value / reading.deviation.unwrap_or(1.0));
+            Some(over.collect())
+        };
+        Some((0..place.len()).map(column).collect())
     }
 
     /// The readings with their lines, the indices of what was measured, and what the model has.
