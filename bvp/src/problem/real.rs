@@ -169,87 +169,115 @@ impl<T> LeftOf<T> for f64 where
 impl Real for f64 {
     const ZERO: Self = 0.0;
     const ONE: Self = 1.0;
+    #[inline]
     fn from_f64(value: f64) -> Self {
         value
     }
+    #[inline]
     fn value(self) -> f64 {
         self
     }
+    #[inline]
     fn exp(self) -> Self {
         self.exp()
     }
+    #[inline]
     fn exp_m1(self) -> Self {
         self.exp_m1()
     }
+    #[inline]
     fn ln(self) -> Self {
         self.ln()
     }
+    #[inline]
     fn ln_1p(self) -> Self {
         self.ln_1p()
     }
+    #[inline]
     fn sin(self) -> Self {
         self.sin()
     }
+    #[inline]
     fn cos(self) -> Self {
         self.cos()
     }
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         self.sin_cos()
     }
+    #[inline]
     fn tan(self) -> Self {
         self.tan()
     }
+    #[inline]
     fn atan(self) -> Self {
         self.atan()
     }
+    #[inline]
     fn atan2(self, other: Self) -> Self {
         self.atan2(other)
     }
+    #[inline]
     fn asin(self) -> Self {
         self.asin()
     }
+    #[inline]
     fn acos(self) -> Self {
         self.acos()
     }
+    #[inline]
     fn sinh(self) -> Self {
         self.sinh()
     }
+    #[inline]
     fn cosh(self) -> Self {
         self.cosh()
     }
+    #[inline]
     fn tanh(self) -> Self {
         self.tanh()
     }
+    #[inline]
     fn asinh(self) -> Self {
         self.asinh()
     }
+    #[inline]
     fn acosh(self) -> Self {
         self.acosh()
     }
+    #[inline]
     fn atanh(self) -> Self {
         self.atanh()
     }
+    #[inline]
     fn sqrt(self) -> Self {
         self.sqrt()
     }
+    #[inline]
     fn powi(self, n: i32) -> Self {
         self.powi(n)
     }
+    #[inline]
     fn powf(self, exponent: f64) -> Self {
         self.powf(exponent)
     }
+    #[inline]
     fn pow(self, exponent: Self) -> Self {
         self.powf(exponent)
     }
+    #[inline]
     fn abs(self) -> Self {
         self.abs()
     }
+    #[inline]
     fn hypot(self, other: Self) -> Self {
         self.hypot(other)
     }
+    #[inline]
     fn erf(self) -> Self {
         libm::erf(self)
     }
+    #[inline]
     fn apply(self, function: impl FnOnce(Self) -> (Self, Self)) -> Self {
         function(self).0
     }
