@@ -138,9 +138,7 @@ impl Path<'_> {
     /// One that slips beyond the capstan may be of other states, to which no load leads from rest: those of one random
     /// drive end at 26.3 kN, and others go from 2.3 kN, where the driven pulley stands, to beyond 60 kN.
     pub(super) fn is_below_limit(&mut self, solved: &Solved) -> bool {
-        solved.driven_speed() > 0.0
-            && !slips_beyond_capstan(solved)
-            && self.is_before_limit(solved)
+        solved.driven_speed() > 0.0 && !slips_beyond_capstan(solved) && self.is_before_limit(solved)
     }
 
     /// Whether the tension rises with the contact length of the driver, as it does from no load to
