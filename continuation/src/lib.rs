@@ -59,9 +59,9 @@
 //!    tangent, or λ itself, stays as predicted ([`Parameterisation`]; Keller 1977). The linearisation
 //!    is kept as long as corrections shrink fast, so that a step takes about one.
 //! 4. **The step** grows and shrinks with the contraction of the corrector, the error of the
-//!    prediction and the angles by which the tangent and a second null vector turn (Deuflhard 2011,
-//!    chapter 5; Allgower & Georg 1990, chapter 6). It is repeated shorter where Newton's method
-//!    fails, G is not finite or the tangent turns too much.
+//!    prediction and the angles by which the tangent and, as far as [`Options::branch_points`] asks for
+//!    it, a second null vector turn (Deuflhard 2011, chapter 5; Allgower & Georg 1990, chapter 6). It is
+//!    repeated shorter where Newton's method fails, G is not finite or the tangent turns too much.
 //! 5. **Special points** between two points are recognised by the sign of a function, and located on the
 //!    branch down to rounding, or as far as [`Options::location`] asks for; branch points, where that does
 //!    not determine them, by a regular extended system.
@@ -86,7 +86,7 @@
 //! | [`Start`](Kind::Start) | the first point | Newton's method at its λ |
 //! | [`Regular`](Kind::Regular) | every step | corrected to [`Options::accuracy`] |
 //! | [`LimitPoint`](Kind::LimitPoint) | λ turns back | the λ component of t changes its sign, or does so twice by the cubic through both points |
-//! | [`BranchPoint`](Kind::BranchPoint) | another branch crosses | det \[J; tᵀ\] changes its sign; both tangents |
+//! | [`BranchPoint`](Kind::BranchPoint) | another branch crosses | det \[J; tᵀ\] changes its sign; both tangents; if [`Options::branch_points`] |
 //! | [`Cusp`](Kind::Cusp) | limit points meet | on a [`LimitPointCurve`], where λ and μ both turn back |
 //! | [`Event`](Kind::Event) | a function of yours is zero | it changes its sign ([`Branch::event`]) |
 //! | [`Target`](Kind::Target) | λ has a wanted value | exactly, as often as it is passed |
