@@ -198,7 +198,7 @@ fn calibration(model: &Model<'_>, data: &Measurements, fit: Fit) -> Calibration 
             (estimated, quantile, Scatter::Estimated(estimated))
         }
     };
-    let spectrum = identifiability::Spectrum::new(&fit);
+    let spectrum = identifiability::Spectrum::new(&fit, scale);
     let errors = spectrum.relative_errors();
     let values = model.values(&fit.place);
     let parameters = model.keys().iter().enumerate().map(|(index, key)| {
@@ -233,7 +233,7 @@ fn calibration(model: &Model<'_>, data: &Measurements, fit: Fit) -> Calibration 
     Calibration {
         parameters: parameters.collect(),
         correlation: spectrum.correlation(),
-        ambiguities: spectrum.ambiguities(model.keys(), scale),
+        ambiguities: spectrum.ambiguities(model.keys()),
         singular_values: spectrum.singular_values(),
         residuals: residuals.collect(),
         sum_of_squares,

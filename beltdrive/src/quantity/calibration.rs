@@ -255,7 +255,9 @@ fn ambiguity(ambiguity: &Ambiguity) -> String {
         .map(|(key, _)| format!("`{key}`"))
         .collect();
     match (&keys[..], ambiguity.correlation) {
-        ([key], None) => format!("the rows say nothing of {key}: no reading depends on it"),
+        ([key], None) => {
+            format!("the rows say nothing of {key}: at the value found no reading depends on it")
+        }
         (_, None) => format!(
             "the rows cannot tell {} apart: {changes} together change no reading",
             keys.join(" and ")

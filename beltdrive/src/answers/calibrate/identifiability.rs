@@ -11,6 +11,10 @@ const CORRELATED: f64 = 0.95;
 /// Parts of a combination below this share of the largest are not named.
 const NAMED: f64 = 0.1;
 
+/// Coordinates with a larger standard error are open. A positive number whose best value is zero is followed down to where
+/// no reading depends on it any more: on a flat belt that of the logarithm of its mass was then 1e9 to 1e12.
+const OPEN: f64 = 1e6;
+
 /// By how much the first number of a combination is changed where its effect is told.
 const CHANGE: f64 = 0.1;
 
@@ -28,30 +32,39 @@ pub struct Ambiguity {
 }
 
 /// The singular values and vectors of the derivatives.
-pub(super) struct Spectrum<'f>(&'f Derivatives);
+pub(super) struct Spectrum<'f> {
+    derivatives: &'f Derivatives,
+    /// The scatter in units of that of the derivatives, if it is known.
+    scale: Option<f64>,
+}
 
 impl<'f> Spectrum<'f> {
-    pub(super) fn new(fit: &'f Fit) -> Self {
-        Self(&fit.derivatives)
+    pub(super) fn new(fit: &'f Fit, scale: Option<f64>) -> Self {
+        Self {
+            derivatives: &fit.derivatives,
+            scale,
+        }
     }
 
     pub(super) fn singular_values(&self) -> Vec<f64> {
-        self.0.values.clone()
+        self.derivatives.values.clone()
     }
 
-    /// Whether a singular value is none but for the errors of the derivatives.
+    /// Whether a singular value is none but for the errors of the derivatives, or next to the scatter.
     fn is_open(&self, index: usize) -> bool {
-        let largest = self.0.values.first().copied().unwrap_or_default();
+        let Derivatives { values, error, .. } = self.derivatives;
+        let largest = values.first().copied().unwrap_or_default();
         // The errors of several columns add up.
-        self.0.values[index] <= 10.0 * self.0.error * largest
+        values[index] <= 10.0 * error * largest
+            || self.scale.is_some_and(|scale| scale > OPEN * values[index])
     }
 
     /// (JᵀJ)⁻¹ without the open directions, and of each number whether it takes part in one.
     fn covariance(&self) -> (Vec<Vec<f64>>, Vec<bool>) {
-        let count = self.0.right.len();
+        let count = self.derivatives.right.len();
         let mut covariance = vec![vec![0.0; count]; count];
         let mut is_part = vec![false; count];
-        for (index, vector) in self.0.right.iter().enumerate() {
+        for (index, vector) in self.derivatives.right.iter().enumerate() {
             if self.is_open(index) {
                 let largest = vector
                     .iter()
@@ -61,7 +74,7 @@ impl<'f> Spectrum<'f> {
                 }
                 continue;
             }
-            let value = self.0.values[index];
+            let value = self.derivatives.values[index];
             for row in 0..count {
                 for column in 0..count {
                     covariance[row][column] += vector[row] * vector[column] / (value * value);
@@ -97,10 +110,11 @@ impl<'f> Spectrum<'f> {
         Some(correlation.collect())
     }
 
-    /// What the rows cannot tell apart. `scale` is the scatter in units of that of the derivatives.
-    pub(super) fn ambiguities(&self, keys: &[FileKey], scale: Option<f64>) -> Vec<Ambiguity> {
-        let open = (0..self.0.right.len()).filter(|&index| self.is_open(index));
-        let open = open.map(|index| self.ambiguity(&self.0.right[index], keys, Some(0.0), None));
+    /// What the rows cannot tell apart.
+    pub(super) fn ambiguities(&self, keys: &[FileKey]) -> Vec<Ambiguity> {
+        let open = (0..self.derivatives.right.len()).filter(|&index| self.is_open(index));
+        let open =
+            open.map(|index| self.ambiguity(&self.derivatives.right[index], keys, Some(0.0), None));
         let open: Vec<_> = open.collect();
         match self.correlation() {
             None => open,
@@ -115,39 +129,28 @@ impl<'f> Spectrum<'f> {
                 }
                 pairs
                     .into_iter()
-                    .map(|(one, other, value)| self.pair(one, other, value, keys, scale))
+                    .map(|(one, other, value)| self.pair(one, other, value, keys))
                     .collect()
             }
         }
     }
 
     /// Two numbers with a correlation: in the direction in which they vary together.
-    fn pair(
-        &self,
-        one: usize,
-        other: usize,
-        correlation: f64,
-        keys: &[FileKey],
-        scale: Option<f64>,
-    ) -> Ambiguity {
+    fn pair(&self, one: usize, other: usize, correlation: f64, keys: &[FileKey]) -> Ambiguity {
         let (covariance, _) = self.covariance();
         let ratio = (covariance[other][other] / covariance[one][one]).sqrt();
         let mut direction = vec![0.0; keys.len()];
         direction[one] = 1.0;
         direction[other] = correlation.signum() * ratio;
         // |J d|, by the singular values.
-        let parts = self
-            .0
-            .right
-            .iter()
-            .zip(&self.0.values)
-            .map(|(vector, value)| {
-                let along: f64 = vector.iter().zip(&direction).map(|(a, b)| a * b).sum();
-                (along * value).powi(2)
-            });
+        let Derivatives { right, values, .. } = self.derivatives;
+        let parts = right.iter().zip(values).map(|(vector, value)| {
+            let along: f64 = vector.iter().zip(&direction).map(|(a, b)| a * b).sum();
+            (along * value).powi(2)
+        });
         let change = parts.sum::<f64>().sqrt();
         let largest = direction[one].abs();
-        let effect = scale.map(|scale| CHANGE / largest * change / scale);
+        let effect = self.scale.map(|scale| CHANGE / largest * change / scale);
         self.ambiguity(&direction, keys, effect, Some(correlation))
     }
 
