@@ -1,7 +1,7 @@
 //! Everything that follows from the speed and the tensions of a loop.
 
 use super::numbers::Numbers;
-use super::rest::Rest;
+use super::rest::{self, Rest};
 use super::running::RunningBelt;
 use super::solved::{Solved, entry_strain};
 use crate::drive::layout::Layout;
@@ -83,13 +83,15 @@ impl Found<'_> {
             tractions,
             ..
         } = &self.belt;
-        let stated = self.drive.belt;
-        let [span, rest] = [&self.layout, &self.rest.layout].map(|layout| layout.spans()[index]);
-        let deflection = DEFLECTION * rest.length;
+        let [span, at_rest] = [&self.layout, &self.rest.layout].map(|layout| layout.spans()[index]);
+        let deflection = DEFLECTION * at_rest.length;
         let deflected = self.rest.layout.deflected(index, deflection);
         let force = deflected.map(|[length, across]| {
-            let unstretched = self.rest.unstretched;
-            stated.axial_stiffness * ((length - unstretched) / unstretched) * across
+            rest::tension(
+                length,
+                self.rest.unstretched,
+                self.drive.belt.axial_stiffness,
+            ) * across
         });
         SpanState {
             length: span.length,
@@ -98,7 +100,7 @@ impl Found<'_> {
             tractive_tension,
             speed: speed * (1.0 + belt.strain(tractions[index])),
             frequency,
-            rest_length: rest.length,
+            rest_length: at_rest.length,
             rest_frequency,
             deflection,
             deflection_force: force,
