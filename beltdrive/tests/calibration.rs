@@ -322,14 +322,7 @@ fn a_number_is_found_by_differences_beside_one_with_exact_derivatives() {
     let (pulleys, _) = include_str!("drives/eight-pulleys.toml")
         .split_once("[tensioner.arm]")
         .unwrap();
-    let slide = r#"
-        [tensioner.slide]
-        origin = ["176.777 mm", "176.777 mm"]
-        direction = "225 deg"
-        stiffness = "20 kN/m"
-        free_position = "20 mm"
-        rest_position = "0.1 mm"
-    "#;
+    let slide = include_str!("drives/slide.toml");
     let text = format!("{pulleys}{slide}");
     let read = |overrides: &[String]| DriveFile::read("slide.toml", &text, overrides).unwrap();
     let mut rows = "pulley.4.torque,1.exit_tractive_tension,1.exit_tractive_tension sd,\

@@ -74,13 +74,18 @@ fn compare(file: &DriveFile, what: &str) -> BTreeSet<String> {
     open
 }
 
+/// Asserts that derivatives with all numbers of a file are exact.
+fn assert_exact(text: &str, overrides: &[String]) {
+    let what = overrides.join(" ");
+    let open = compare(&file(text, overrides), &what);
+    assert!(open.is_empty(), "{what}: {open:?}");
+}
+
 #[test]
 fn two_pulleys_with_every_law_and_convention() {
     let text = examples::find("flat-bench").unwrap().text;
     for overrides in laws() {
-        let what = overrides.join(" ");
-        let open = compare(&file(text, &overrides), &what);
-        assert!(open.is_empty(), "{what}: {open:?}");
+        assert_exact(text, &overrides);
     }
 }
 
@@ -151,9 +156,7 @@ fn eight_pulleys_with_a_tensioner() {
     for closure in closures {
         for overrides in laws() {
             let overrides = [&closure[..], &overrides].concat();
-            let what = overrides.join(" ");
-            let open = compare(&file(EIGHT, &overrides), &what);
-            assert!(open.is_empty(), "{what}: {open:?}");
+            assert_exact(EIGHT, &overrides);
         }
     }
 }
@@ -161,14 +164,7 @@ fn eight_pulleys_with_a_tensioner() {
 #[test]
 fn a_slide_has_no_exact_derivative_with_its_direction() {
     let (rest, _) = EIGHT.split_once("[tensioner.arm]").unwrap();
-    let slide = r#"
-        [tensioner.slide]
-        origin = ["176.777 mm", "176.777 mm"]
-        direction = "225 deg"
-        stiffness = "20 kN/m"
-        free_position = "20 mm"
-        rest_position = "0.1 mm"
-    "#;
+    let slide = include_str!("../../../../tests/drives/slide.toml");
     let text = format!("{rest}{slide}");
     for overrides in laws() {
         let open = compare(&file(&text, &overrides), &overrides.join(" "));
@@ -189,9 +185,7 @@ fn a_pulley_without_torque_has_no_exact_derivative_with_it() {
 fn a_crossed_belt() {
     let text = examples::find("crossed").unwrap().text;
     for overrides in laws() {
-        let what = overrides.join(" ");
-        let open = compare(&file(text, &overrides), &what);
-        assert!(open.is_empty(), "{what}: {open:?}");
+        assert_exact(text, &overrides);
     }
 }
 
