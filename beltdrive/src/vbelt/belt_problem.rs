@@ -166,13 +166,16 @@ pub(crate) trait BeltProblem: Problem + Clone {
         self.zoning().regimes.contains(&Regime::Stick)
     }
 
+    /// The segment at whose end the belt breaks away on a pulley, if it does: the turn lies behind it.
+    fn breakaway(&self, pulley: usize) -> Option<usize> {
+        let mut cuts = self.zones(pulley).filter(|&segment| self.is_cut(segment));
+        let first = cuts.next()?;
+        cuts.next().map(|_| first - 1)
+    }
+
     /// Whether the belt sticks on a pulley or breaks away there, so that it hardly slips in front of a place.
     fn is_locked(&self) -> bool {
-        let breaks_away = |pulley| {
-            let cuts = self.zones(pulley).filter(|&segment| self.is_cut(segment));
-            cuts.count() > 1
-        };
-        self.sticks() || (0..self.pulleys()).any(breaks_away)
+        self.sticks() || (0..self.pulleys()).any(|pulley| self.breakaway(pulley).is_some())
     }
 
     /// Whether its segments meet where something happens to friction that a solution shows.
@@ -296,7 +299,7 @@ pub(super) fn in_groove<S: Real, T: Over<S>>(
             (before, Regime::Stick) => zero(hold_excess(groove, before, y, omega, flow)),
             _ if problem.is_cut(next) => zero(
                 match (next + 1..zones.end).any(|next| problem.is_cut(next)) {
-                    true => breakaway_excess(y[LAW], problem.sense(pulley)),
+                    true => breakaway_excess(y[LAW]),
                     false => contact(next, y).turn_excess(groove),
                 },
             ),

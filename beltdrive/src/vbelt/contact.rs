@@ -186,7 +186,7 @@ impl<T: Real> Contact<T> {
     }
 
     /// Derivatives of the slip with respect to the arc length, from those of F and θ.
-    fn slip_rates<S: Real>(&self, groove: &Groove<S>, rates: &[T]) -> [T; 2]
+    pub(super) fn slip_rates<S: Real>(&self, groove: &Groove<S>, rates: &[T]) -> [T; 2]
     where
         T: Over<S>,
     {
@@ -283,11 +283,10 @@ impl<T: Real> Contact<T> {
 /// the belt slips, larger than what is left of seating where the belt hardly slips.
 pub(crate) const BREAKAWAY: f64 = 0.02;
 
-/// Excess of the share of friction that acts along the pulley, in the sense of a pulley that is driven (1) or
-/// drives (−1), over that with which the belt breaks away. In front of that place the belt slides straight down
-/// the groove, or hardly at all.
-pub(crate) fn breakaway_excess<T: Real>(direction: T, sense: f64) -> T {
-    direction.sin() * sense - BREAKAWAY
+/// Excess of the share of friction that acts along the pulley, in either sense, over that with which the belt breaks
+/// away, to first order. In front of that place the belt slides straight down the groove, or hardly at all.
+pub(crate) fn breakaway_excess<T: Real>(direction: T) -> T {
+    (direction.sin().powi(2) - BREAKAWAY * BREAKAWAY) / (2.0 * BREAKAWAY)
 }
 
 /// Excess of the traction that would hold the belt over that of friction straight up the groove, at a place

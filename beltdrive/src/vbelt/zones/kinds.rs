@@ -4,10 +4,11 @@ use super::samples::{Sample, breakaway, crossing, turn};
 use crate::vbelt::Regime;
 
 /// A zone shorter than this share of the contact is not told from its neighbours.
-const SHORTEST_ZONE: f64 = 1e-4;
+pub(super) const SHORTEST_ZONE: f64 = 1e-4;
 /// A zone is not cut nearer than this share of the contact to its ends: with segments as short as 1e-4 Newton's
-/// method failed on 1 of 40 drives.
-const SHORTEST_CUT: f64 = 3e-3;
+/// method failed on 1 of 40 drives. Those of a belt that breaks away are kept as long as they are zones at all: the contact
+/// of a stiff belt with a light load is lifted within an arc as short as that.
+pub(super) const SHORTEST_CUT: f64 = 3e-3;
 /// An elastic zone that gradual friction shows is left out if it is shorter than this share of the contact. With one of
 /// 5e-4 Newton's method failed; without one of 2e-3, which was there, it failed, too.
 const SHORTEST_SEEN: f64 = 1e-3;
@@ -45,27 +46,23 @@ pub(super) fn without_kinks(zones: Vec<Zone>) -> Vec<Zone> {
     merge_short(blurred.collect(), 0.0)
 }
 
-/// The zones with that which has the turn in two, unless it is at an end of it.
+/// The zones with that which has the turn in two, unless it is nearer than `margin` to an end of it.
 pub(super) fn cut_at_turn(
     zones: Vec<Zone>,
     samples: &[Sample],
     length: f64,
     clear: f64,
+    margin: f64,
 ) -> Vec<Zone> {
     match turn(samples, clear) {
-        Some(place) if place > EARLIEST_TURN * length => cut(zones, place, length),
+        Some(place) if place > EARLIEST_TURN * length => cut(zones, place, margin),
         _ => zones,
     }
 }
 
 /// The zones that were cut at the turn with that in two in which the belt breaks away in front of it, unless the
 /// belt sticks: then it does so at the end of that.
-pub(super) fn cut_at_breakaway(
-    zones: Vec<Zone>,
-    samples: &[Sample],
-    length: f64,
-    sense: f64,
-) -> Vec<Zone> {
+pub(super) fn cut_at_breakaway(zones: Vec<Zone>, samples: &[Sample], margin: f64) -> Vec<Zone> {
     if sticks(&zones) {
         return zones;
     }
@@ -73,8 +70,8 @@ pub(super) fn cut_at_breakaway(
         return zones;
     };
     let turn = samples.partition_point(|sample| sample.place < turn[1].from);
-    match breakaway(&samples[..turn], sense) {
-        Some(place) => cut(zones, place, length),
+    match breakaway(&samples[..turn]) {
+        Some(place) => cut(zones, place, margin),
         None => zones,
     }
 }
@@ -113,9 +110,9 @@ pub(super) fn is_cut(pair: &[Zone]) -> bool {
     pair[0].regime == pair[1].regime
 }
 
-/// The zones with that in two in which a place is, unless that is at an end of it or the belt sticks there.
-fn cut(zones: Vec<Zone>, place: f64, length: f64) -> Vec<Zone> {
-    let margin = SHORTEST_CUT * length;
+/// The zones with that in two in which a place is, unless that is nearer than `margin` to an end of it or the belt sticks
+/// there.
+fn cut(zones: Vec<Zone>, place: f64, margin: f64) -> Vec<Zone> {
     let halves = |zone: Zone| match zone.regime != Regime::Stick
         && zone.from + margin < place
         && place < zone.to - margin

@@ -14,8 +14,8 @@ mod samples;
 use super::path::Solved;
 use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
 use kinds::{
-    Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, join, join_elastic, one_zone,
-    sticks, without_kinks, without_short_elastic,
+    SHORTEST_CUT, SHORTEST_ZONE, Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, join,
+    join_elastic, one_zone, sticks, without_kinks, without_short_elastic,
 };
 use places::{ends, keep_junctions, locate};
 use samples::{CLEAR_TURN, Sample, samples};
@@ -205,6 +205,11 @@ fn cut<P: BeltProblem>(
         (true, _) => without_kinks(friction_zones(&samples, length)),
         (false, _) => one_zone(length),
     };
+    let margin = length
+        * match problem.breakaway(pulley) {
+            Some(_) => SHORTEST_ZONE,
+            None => SHORTEST_CUT,
+        };
     let mut zones = match groove.law {
         Law::Normalised { .. } => zones,
         Law::Vector { .. } => {
@@ -212,17 +217,17 @@ fn cut<P: BeltProblem>(
                 true => zones,
                 false => without_short_elastic(zones, length),
             };
-            let mut zones = cut_at_turn(zones, &samples, length, CLEAR_TURN);
+            let mut zones = cut_at_turn(zones, &samples, length, CLEAR_TURN, margin);
             join(&mut zones, |regime| regime == Regime::Elastic);
             zones
         }
         // Where the direction is not led yet the belt breaks away elsewhere.
         Law::Sliding { lead, .. } if lead > 0.0 => {
-            let zones = cut_at_turn(zones, &samples, length, CLEAR_TURN);
-            cut_at_breakaway(zones, &samples, length, problem.sense(pulley))
+            let zones = cut_at_turn(zones, &samples, length, CLEAR_TURN, margin);
+            cut_at_breakaway(zones, &samples, margin)
         }
         _ if loose == Loose::Turning && sticks(&zones) => zones,
-        _ => cut_at_turn(zones, &samples, length, 0.0),
+        _ => cut_at_turn(zones, &samples, length, 0.0, margin),
     };
     keep_junctions(&mut zones, (solved, pulley), ELSEWHERE * length);
     (samples, zones)

@@ -3,8 +3,7 @@
 use super::Loose;
 use crate::vbelt::path::Solved;
 use crate::vbelt::{
-    BREAKAWAY, BeltProblem, Contact, Groove, LAW, Law, MAX_STATES, Regime, breakaway_excess,
-    limit_excess,
+    BREAKAWAY, BeltProblem, Contact, Groove, LAW, Law, MAX_STATES, Regime, limit_excess,
 };
 use std::f64::consts::TAU;
 
@@ -160,9 +159,9 @@ pub(super) fn turn(samples: &[Sample], clear: f64) -> Option<f64> {
     rise(samples, |sample| sample.turn, clear)
 }
 
-/// The place where the belt breaks away, with the sense of friction along the pulley.
-pub(super) fn breakaway(samples: &[Sample], sense: f64) -> Option<f64> {
-    let excess = |sample: &Sample| breakaway_excess(sample.direction, sense);
+/// The place where the belt breaks away.
+pub(super) fn breakaway(samples: &[Sample]) -> Option<f64> {
+    let excess = |sample: &Sample| sample.direction.sin().abs() - BREAKAWAY;
     rise(samples, excess, CLEAR_BREAKAWAY)
 }
 
