@@ -93,7 +93,7 @@ fn longer_arcs(state: &SteadyState, arcs: [f64; 2]) -> [f64; 2] {
 #[test]
 fn locked_belts_are_found_within_the_error_that_is_stated() {
     // The Newton steps are those of the whole way from nothing.
-    for ((tight, expected, arcs), steps) in LOCKED.into_iter().zip([70, 85, 130]) {
+    for ((tight, expected, arcs), steps) in LOCKED.into_iter().zip([70, 85, 25]) {
         let state = state(FrictionLaw::Coulomb, tight);
         let c = &state.convergence;
         assert!(c.slip_normalisation_effect <= 1e-7);
@@ -111,9 +111,57 @@ fn locked_belts_are_found_within_the_error_that_is_stated() {
         .least_slip
         .unwrap();
     assert!((least.slip / 6.0e-6 - 1.0).abs() < 0.1);
-    for tight in [101.0, 102.0, 110.0, 150.0, 300.0, 400.0] {
+    for tight in [110.0, 150.0, 300.0, 400.0] {
         let state = state(FrictionLaw::Coulomb, tight);
-        assert!(state.convergence.newton_iterations <= 200);
+        assert!(state.convergence.newton_iterations <= 120);
+    }
+}
+
+#[test]
+fn hardly_loaded_belts_take_few_newton_steps() {
+    // At 100.54 N the belt on the driver changes the sense in which it slips before it is lifted.
+    let loads = [
+        100.0, 100.01, 100.1, 100.3, 100.45, 100.6, 100.8, 101.0, 102.0, 105.0,
+    ];
+    for law in [FrictionLaw::Coulomb, EPP] {
+        let states = loads.map(|tight| state(law, tight));
+        for (state, tight) in states.iter().zip(loads) {
+            let c = &state.convergence;
+            let steps = c.newton_iterations;
+            assert!(steps <= 55, "{steps} at {tight} N");
+            assert!(c.error_estimate.max(c.slip_normalisation_effect) <= 1e-6);
+        }
+        // Creep: the driven pulley turns the more slowly, the larger the load.
+        let speeds = states.each_ref().map(|state| state.driven.angular_speed);
+        assert!(speeds.is_sorted_by(|one, next| one > next), "{speeds:?}");
+        let idle = &states[0];
+        let apart = idle.driven.wrap_angle - idle.driver.wrap_angle;
+        let slower = idle.driven.angular_speed / idle.driver.angular_speed - 1.0;
+        assert!(
+            apart.abs() < 1e-7 && slower.abs() < 1e-7,
+            "{apart} {slower}"
+        );
+    }
+}
+
+#[test]
+fn a_belt_that_hardly_presses_locks() {
+    // Light loads on a stiff belt, of which states were found by a branch of loads only, in seconds.
+    for tight in ["20.2 N", "20.6 N"] {
+        let changes = [
+            "belt.radial_stiffness=8e6 N/m^2",
+            "pulleys.driven.radius=0.35 m",
+            "pulleys.driver.radius=0.16 m",
+            "pulleys.driver.speed=11 rad/s",
+            "load.slack_tractive_tension=20 N",
+            &format!("load.tight_tractive_tension={tight}"),
+        ];
+        let example = examples::find("kim2009").unwrap();
+        let changes = changes.map(str::to_owned);
+        let drive = input::parse(example.name, example.text, &changes).unwrap();
+        let state = solve(&drive, &SolveOptions::default()).unwrap();
+        let steps = state.convergence.newton_iterations;
+        assert!(steps <= 55, "{steps} at {tight}");
     }
 }
 

@@ -30,6 +30,7 @@ mod laws;
 mod limit;
 mod limit_curve;
 mod limits;
+mod locked;
 mod model;
 mod numbers;
 mod on_pulley;

@@ -8,7 +8,8 @@
 //!                              └─────────▶ the bristles of the drive, κ rising
 //! ```
 //!
-//! Bristle friction has no 0/0 and no kink, and Newton's method finds its solution from the
+//! A belt of Coulomb or EPP friction that locks on both pulleys of a drive needs none of these: its state is put together
+//! from integrals (see `locked`). Bristle friction has no 0/0 and no kink, and Newton's method finds its solution from the
 //! guess. Every arrow is one Newton solve where that converges; where it does not, the parameter
 //! moves in steps that grow on success and shrink on failure. Solutions on the way are rough. A state of
 //! Coulomb or EPP friction that is not found in this way is sought once more with a normalised direction.
@@ -16,6 +17,7 @@
 mod astray;
 mod epp;
 mod finish;
+mod locked;
 mod normalised;
 mod obeyed;
 mod sliding;
@@ -290,7 +292,11 @@ impl Path<'_> {
     /// nothing.
     pub(super) fn at_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
         let drive = self.drive;
-        self.seek(&AtLoad { drive, tight })
+        let asked = AtLoad { drive, tight };
+        match self.locked(&asked) {
+            Some(solved) => Ok(solved),
+            None => self.seek(&asked),
+        }
     }
 
     /// The steady state of a drive with Coulomb or EPP friction with its direction as a state, if it is found.
@@ -300,15 +306,21 @@ impl Path<'_> {
             return None;
         }
         let asked = AtLoad { drive, tight };
-        let start = self.cold(&asked, asked.softest(), Effort::Start).ok()?;
-        self.sliding(&asked, &start)
+        self.locked(&asked).or_else(|| {
+            let start = self.cold(&asked, asked.softest(), Effort::Start).ok()?;
+            self.sliding(&asked, &start)
+        })
     }
 
     /// The steady state without load, both spans with the scaled tension `tight`. The traction of Coulomb friction
-    /// turns the other way round there than bristles show, so that its direction is normalised at once.
+    /// turns the other way round there than bristles show, so that its direction is normalised at once if the belt does not
+    /// lock.
     pub(super) fn at_no_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
         let drive = self.drive;
         let asked = AtLoad { drive, tight };
+        if let Some(solved) = self.locked(&asked) {
+            return Ok(solved);
+        }
         let FrictionLaw::Coulomb = drive.law else {
             return self.seek(&asked);
         };

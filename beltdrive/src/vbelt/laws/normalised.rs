@@ -1,6 +1,6 @@
 //! Coulomb and EPP friction with a normalised direction, for drives whose state is not found with a direction
-//! of its own: loads so near to none (within 0.6 % on the drive of Kim 2009) that the slip of the turn changes
-//! its sense, and some of elastic friction.
+//! of its own: loads at which the slip of the turn just changes its sense (within 0.03 % on the drive of Kim 2009), stiff
+//! belts without load, and some of elastic friction.
 
 use super::finish::with_smoothing;
 use super::{Asked, RESOLVED, SMALL_STEP};

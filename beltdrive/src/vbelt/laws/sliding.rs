@@ -21,7 +21,7 @@ const FIRST_LAGS: [f64; 2] = [1.0, 10.0];
 const LED_LAGS: [f64; 3] = [1e-5, 1e-6, 1e-7];
 /// ℓ/R at which the profile is first resolved to the tolerance: with 1e-7 the effect on the drive of Kim (2009) is 2e-7 to
 /// 6e-7 from 105 to 5000 N, more than a tenth of the usual tolerance.
-const RESOLVED_LAG: f64 = 1e-8;
+pub(super) const RESOLVED_LAG: f64 = 1e-8;
 /// The same where the belt sticks somewhere: on that drive with elastic friction of 1.2e6 N/m² a rough solution with 1e-8
 /// takes up to 100 Newton steps more, from one with 1e-7 that is resolved it does not.
 const RESOLVED_LAG_WITH_STICK: f64 = 1e-7;

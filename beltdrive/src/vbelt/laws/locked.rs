@@ -1,0 +1,49 @@
+//! Coulomb and scalar EPP friction of a drive whose belt locks on both pulleys, from its integrals.
+//!
+//! The direction of Coulomb friction is led from the start, at the ℓ at which it is first resolved elsewhere. EPP friction is
+//! that up to the place at which elastic friction would be smaller: with the displacement of the belt the state shows it.
+
+use super::sliding::RESOLVED_LAG;
+use super::{Asked, AtLoad};
+use crate::FrictionLaw;
+use crate::vbelt::carried::Carried;
+use crate::vbelt::locked::Locked;
+use crate::vbelt::path::{Effort, Path, Solved};
+use crate::vbelt::zones::Cut;
+use crate::vbelt::{BeltProblem, Regime};
+
+impl Path<'_> {
+    /// The steady state of a drive with Coulomb or scalar EPP friction whose belt locks on both pulleys and hardly slides
+    /// along them, if it is found and friction obeys its law.
+    pub(super) fn locked(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
+        let sharp = match asked.law() {
+            FrictionLaw::Coulomb => self.locked_coulomb(asked)?,
+            FrictionLaw::Epp { .. } => self.locked_epp(asked)?,
+            _ => return None,
+        };
+        let sharp = self.keep_zones(sharp, Effort::Rough).ok()?;
+        self.finish_obeying(sharp).ok()
+    }
+
+    fn locked_coulomb(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
+        let problem = asked.problem(FrictionLaw::Coulomb, RESOLVED_LAG);
+        let guess = Locked::of(&problem)?;
+        let problem = problem.with_zones(&Locked::zones(Regime::Slip));
+        // The turn of a belt that hardly slips needs a fine mesh at first, and patience.
+        let rough = self.attempt(problem.clone(), &guess, Effort::Rough);
+        let sharp = rough.or_else(|_| self.attempt(problem, &guess, Effort::Start));
+        sharp.ok()
+    }
+
+    fn locked_epp(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
+        let coulomb = self.locked_coulomb(asked)?;
+        let epp = asked.problem(asked.law(), RESOLVED_LAG);
+        // Without its share EPP friction only adds the displacement.
+        let unblended = epp.clone().with_zones(&Locked::zones(Regime::Either));
+        let unblended = unblended.with_epp_weight(0.0);
+        let shown = self.attempt(unblended, &Carried(&coulomb), Effort::Rough);
+        let shown = shown.ok()?;
+        let cut = Cut::of(&shown);
+        self.attempt(cut.apply(epp), &cut, Effort::Rough).ok()
+    }
+}

@@ -1,0 +1,23 @@
+//! A drive whose belt locks on both pulleys, without a guess of its state.
+//!
+//! A belt that slides into a groove at full friction comes to rest at one place only in the plane of its states, a saddle
+//! (see `saddle`): it nears that place exponentially, and leaves it in the same way before it is lifted out of the groove.
+//! The arcs on both sides know of each other by what is left of the exponentials, so that every number of a drive follows
+//! from one equation of its own:
+//!
+//! ```text
+//! mass flow G         the belt enters the driver with the tension of the tight span
+//! driven speed ω₁     it enters the driven pulley with that of the slack span
+//! exits               it leaves a pulley with the tension of the span behind it
+//! locked arcs         the wraps close the drive
+//! ```
+//!
+//! The arcs are integrated from where errors decay (see `arc`), as accurately as the guess of the boundary value problem
+//! needs to be. Where the belt slides far before it is lifted no such guess is made.
+
+mod arc;
+mod guess;
+mod runge_kutta;
+mod saddle;
+
+pub(super) use guess::Locked;
