@@ -53,6 +53,7 @@ pub(super) fn convergence(drive: &Drive, found: &TraceConvergence) -> Vec<Quanti
         error("tolerance", of_v("relative tolerance"), found.tolerance),
         error("slip_normalisation", "", found.slip_normalisation),
         Quantity::count("continuation_steps", "states", found.continuation_steps),
+        Quantity::count("newton_iterations", "", found.newton_iterations),
         Quantity::count("rhs_evaluations", "", found.rhs_evaluations),
         Quantity::count(
             "factorisations",

@@ -131,6 +131,8 @@ pub struct TraceConvergence {
     pub slip_normalisation: f64,
     /// States found along the branch, those of events included.
     pub continuation_steps: usize,
+    /// Newton steps, with a new or a kept Jacobian.
+    pub newton_iterations: usize,
     /// Evaluations of the right-hand side (with or without its derivatives).
     pub rhs_evaluations: usize,
     /// Factorisations of the Newton matrix.
@@ -142,6 +144,7 @@ pub struct TraceConvergence {
 impl TraceConvergence {
     /// Adds the cost of boundary value problems.
     pub(crate) fn count(&mut self, stats: &bvp::Stats) {
+        self.newton_iterations += stats.newton_steps;
         self.rhs_evaluations += stats.rhs_evaluations;
         self.factorisations += stats.factorisations;
     }
@@ -150,6 +153,7 @@ impl TraceConvergence {
     pub(crate) fn add(&mut self, other: &Self) {
         self.slip_normalisation = self.slip_normalisation.max(other.slip_normalisation);
         self.continuation_steps += other.continuation_steps;
+        self.newton_iterations += other.newton_iterations;
         self.rhs_evaluations += other.rhs_evaluations;
         self.factorisations += other.factorisations;
     }

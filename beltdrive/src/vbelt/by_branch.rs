@@ -16,13 +16,13 @@ use web_time::Instant;
 /// The most branches that are followed.
 const BRANCHES: usize = 4;
 
-/// The steady state of a drive, or the limit of its load if that is lower, in a search that began at `start`; `None` if
+/// The steady state of the drive of a search that began at `start`, or the limit of its load if that is lower; `None` if
 /// no branch leads there.
 pub(super) fn by_branch(
-    drive: &Drive,
-    tolerance: f64,
+    path: &mut Path<'_>,
     start: Instant,
 ) -> Option<Result<SteadyState, SolveError>> {
+    let drive = path.drive;
     // With scalar elastic friction a branch may end where the kinds of its zones change and others do not, so that its
     // end is the limit only if no state is found beyond it.
     let may_go_on = matches!(drive.law, FrictionLaw::Epp { .. });
@@ -35,10 +35,10 @@ pub(super) fn by_branch(
         {
             continue;
         }
-        let Some((near, solved)) = load.state(drive, tolerance) else {
+        let Some((near, solved)) = load.state(path) else {
             continue;
         };
-        match from_state(drive, (&near, solved), tolerance, start) {
+        match from_state(path, (&near, solved), start) {
             Some(Led::There(state)) => return Some(Ok(*state)),
             Some(Led::ToLimit(limit, refused)) if may_go_on && refusal.is_none() => {
                 refusal = Some((limit, refused));
@@ -66,11 +66,11 @@ enum Led {
 
 /// Where the branch of the load leads from a state of the drive under another load, if anywhere.
 fn from_state(
-    drive: &Drive,
+    path: &mut Path<'_>,
     (near, solved): (&Drive, Solved),
-    tolerance: f64,
     start: Instant,
 ) -> Option<Led> {
+    let (drive, tolerance) = (path.drive, path.tolerance);
     let key = Key::load(drive);
     let [value, asked] = [near, drive].map(|drive| key.get(drive));
     let near = match asked > value {
@@ -84,12 +84,14 @@ fn from_state(
                 let refused = not_carried(drive, limit.value, reason, [speed, exit]);
                 return Some(Led::ToLimit(limit.value, refused));
             }
+            path.count_trace(&up.tracer.convergence);
             (up.end == BranchEnd::Target).then_some(up.tracer.near)
         }
         false => {
             let range = [asked, value];
             let mut down = Tracer::new(near, key, range, tolerance, Until::LimitPoint);
             let end = down.run(solved, value, Direction::Decreasing, &mut |_, _| {});
+            path.count_trace(&down.convergence);
             (end == BranchEnd::Target).then_some(down.near)
         }
     };
@@ -97,8 +99,8 @@ fn from_state(
     if reached != asked {
         return None;
     }
-    let mut path = Path::new(drive, tolerance);
+    path.smoothing_effect = 0.0;
     let solved = path.finish(solved).ok()?;
-    let state = checked(&path, solved, start).ok()?;
+    let state = checked(path, solved, start).ok()?;
     Some(Led::There(Box::new(state)))
 }

@@ -110,7 +110,8 @@ pub(super) fn first_state(
     tolerance: f64,
 ) -> Result<(Drive, Solved), SolveError> {
     let mut loads = start_loads(drive, true).filter(|_| *key == Key::load(drive));
-    if let Some((first, solved)) = loads.find_map(|load| load.state(drive, tolerance)) {
+    let mut path = Path::new(drive, tolerance);
+    if let Some((first, solved)) = loads.find_map(|load| load.state(&mut path)) {
         // No load makes the belt slower.
         return match possible::fault(&describe(&Path::new(&first, tolerance), &solved)) {
             Some(fault) => Err(SolveError::Impossible(fault)),

@@ -5,7 +5,7 @@ use super::carried::Carried;
 use super::laws::Astray;
 use super::steps::Steps;
 use super::{BeltProblem, DRIVER, DriveProblem, Law};
-use crate::{Drive, FrictionLaw};
+use crate::{Drive, FrictionLaw, TraceConvergence};
 use bvp::{Control, Options, Scheme, Solution, Stats};
 
 /// A solve with at most so many Newton steps lets the next step of a homotopy be twice as long.
@@ -218,6 +218,14 @@ impl<'a> Path<'a> {
         };
         self.problems += 1;
         self.stats += cost.copied().unwrap_or_default();
+    }
+
+    /// Counts a branch that was followed, its states as problems.
+    pub(super) fn count_trace(&mut self, trace: &TraceConvergence) {
+        self.problems += trace.continuation_steps;
+        self.stats.newton_steps += trace.newton_iterations;
+        self.stats.rhs_evaluations += trace.rhs_evaluations;
+        self.stats.factorisations += trace.factorisations;
     }
 
     /// Solves one problem from a guess.

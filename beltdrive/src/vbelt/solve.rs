@@ -21,7 +21,7 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
         },
         _ => None,
     };
-    if let Some(answer) = by_branch(drive, tolerance, start).or(at_fault) {
+    if let Some(answer) = by_branch(&mut path, start).or(at_fault) {
         return answer;
     }
     let (path, found) = find(drive, tolerance);

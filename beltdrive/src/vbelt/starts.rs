@@ -44,16 +44,19 @@ pub(super) fn start_loads(drive: &Drive, with_own: bool) -> impl Iterator<Item =
 }
 
 impl StartLoad {
-    /// The drive under this load and its state, if that is found below the limits of the load.
-    pub(super) fn state(self, drive: &Drive, tolerance: f64) -> Option<(Drive, Solved)> {
-        let mut near = drive.clone();
-        Key::load(drive).set(&mut near, self.value);
-        let mut path = Path::new(&near, tolerance);
+    /// The drive of a search under this load and its state, if that is found below the limits of the load. The search counts
+    /// what it costs.
+    pub(super) fn state(self, path: &mut Path<'_>) -> Option<(Drive, Solved)> {
+        let mut near = path.drive.clone();
+        Key::load(path.drive).set(&mut near, self.value);
+        let mut search = Path::new(&near, path.tolerance);
         let found = match self.has_direction {
-            true => path.with_direction(),
-            false => path.start(),
+            true => search.with_direction(),
+            false => search.start(),
         };
-        let solved = found.filter(|solved| path.is_below_limit(solved))?;
-        Some((near, solved))
+        let found = found.filter(|solved| search.is_below_limit(solved));
+        path.stats += search.stats;
+        path.problems += search.problems;
+        found.map(|solved| (near, solved))
     }
 }

@@ -186,7 +186,7 @@ impl<'a> Family<'a> {
     }
 
     /// A vector `v` (n + 1 numbers) with J v = `r` (n numbers) for the last linearisation: of all
-    /// of them one that is short at the ends of the segments.
+    /// of them one that is short at the ends of the segments. It counts as a Newton step.
     ///
     /// # Panics
     /// If `r` or `v` is too short.
@@ -194,6 +194,7 @@ impl<'a> Family<'a> {
         let segments = self.collocation.equations.segments();
         self.layout.read_negative(r, segments, &mut self.residual);
         self.collocation.correction(&self.residual, &mut self.x);
+        self.stats.newton_steps += 1;
         self.write(v);
     }
 

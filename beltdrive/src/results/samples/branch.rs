@@ -31,6 +31,7 @@ pub(crate) fn folded() -> Branch {
             tolerance: 1e-6,
             slip_normalisation: 1e-7,
             continuation_steps: 64,
+            newton_iterations: 312,
             rhs_evaluations: 90_112,
             factorisations: 181,
             seconds: 0.42,
