@@ -109,6 +109,7 @@ pub(super) struct Origin {
     pub(super) arc: Vec<Point>,
 }
 
+/// Arcs begin with short steps, which grow as they may.
 impl Saddle {
     /// Ends where the belt leaves the groove, x = 0.
     fn at_surface(&self) -> impl FnMut(&Belt, &Belt) -> Next {
@@ -134,6 +135,7 @@ impl Saddle {
 
     /// From the place of rest to the exit of a belt that hardly slips as it breaks away.
     pub(super) fn plain_exit(&self) -> Option<Vec<Point>> {
+        // So near to that place that the slip is nothing beside any that matters.
         let theta = -1e-6 * BREAKAWAY / self.turning;
         let start = self.beside([theta, BREAKAWAY], -1.0);
         let first = -0.01 * theta / self.rate;
