@@ -76,10 +76,11 @@ pub(super) trait Rates<const N: usize> {
         let mut along = vec![(s, here)];
         let mut stages = [self.rates(&here); 7];
         for _ in 0..most {
+            let mut there = here;
             for (stage, weights) in STAGES.iter().enumerate() {
-                stages[stage + 1] = self.rates(&moved(&here, h, &stages, weights));
+                there = moved(&here, h, &stages, weights);
+                stages[stage + 1] = self.rates(&there);
             }
-            let there = moved(&here, h, &stages, &STAGES[5]);
             let errors = moved(&[0.0; N], h, &stages, &ERROR);
             let error = errors
                 .iter()
