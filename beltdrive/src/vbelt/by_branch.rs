@@ -76,6 +76,7 @@ fn from_state(
     let near = match asked > value {
         true => {
             let up = upwards(near, &key, tolerance, solved, asked, &mut |_, _| {});
+            path.count_trace(&up.tracer.convergence);
             if let Ok(limit) = up.limit()
                 && let RangeEnd::Limit(reason) = limit.reason
             {
@@ -84,7 +85,6 @@ fn from_state(
                 let refused = not_carried(drive, limit.value, reason, [speed, exit]);
                 return Some(Led::ToLimit(limit.value, refused));
             }
-            path.count_trace(&up.tracer.convergence);
             (up.end == BranchEnd::Target).then_some(up.tracer.near)
         }
         false => {
@@ -99,7 +99,6 @@ fn from_state(
     if reached != asked {
         return None;
     }
-    path.smoothing_effect = 0.0;
     let solved = path.finish(solved).ok()?;
     let state = checked(path, solved, start).ok()?;
     Some(Led::There(Box::new(state)))

@@ -1,7 +1,7 @@
 //! A V-belt drive in, a steady state or the reason why there is none out.
 
 use super::by_branch::by_branch;
-use super::found::{carried, checked, find};
+use super::found::{carried, checked};
 use super::limit::Found;
 use super::path::{Path, Stuck};
 use crate::{Drive, SolveError, SolveOptions, SteadyState};
@@ -24,7 +24,7 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
     if let Some(answer) = by_branch(&mut path, start).or(at_fault) {
         return answer;
     }
-    let (path, found) = find(drive, tolerance);
+    let found = path.find(path.target());
     conclude(&path, found, start)
 }
 

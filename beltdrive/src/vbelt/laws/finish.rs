@@ -103,6 +103,7 @@ impl Path<'_> {
         rough: Solved<P>,
     ) -> Result<Solved<P>, Stuck<P>> {
         if rough.problem.smoothing() == 0.0 {
+            self.smoothing_effect = 0.0;
             let solved = self.again(rough, Effort::Final)?;
             return self.keep_zones(solved, Effort::Final);
         }
