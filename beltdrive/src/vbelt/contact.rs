@@ -284,7 +284,12 @@ impl<T: Real> Contact<T> {
 pub(crate) const BREAKAWAY: f64 = 0.02;
 
 /// Excess of the share of friction that acts along the pulley, in either sense, over that with which the belt breaks
-/// away, to first order. In front of that place the belt slides straight down the groove, or hardly at all.
+/// away. In front of that place the belt slides straight down the groove, or hardly at all.
+pub(crate) fn beyond_breakaway(direction: f64) -> f64 {
+    direction.sin().abs() - BREAKAWAY
+}
+
+/// As [`beyond_breakaway`] to first order, without a kink.
 pub(crate) fn breakaway_excess<T: Real>(direction: T) -> T {
     (direction.sin().powi(2) - BREAKAWAY * BREAKAWAY) / (2.0 * BREAKAWAY)
 }

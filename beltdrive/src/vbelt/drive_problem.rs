@@ -137,11 +137,8 @@ impl DriveProblem {
             DRIVEN => self.load.tight,
             _ => self.load.slack,
         };
-        if let SpanTension::Tractive(_) = prescribed {
-            return y[TENSION] - value;
-        }
         let strand = drive.grooves[pulley].strand;
-        strand.tension(y[TENSION], self.flow(p)) - value
+        strand.prescribed(prescribed, y[TENSION], self.flow(p)) - value
     }
 
     /// The right-hand side on a segment for a belt with these constants on its pulley.

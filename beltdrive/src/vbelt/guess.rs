@@ -101,10 +101,7 @@ impl<'a> Guess<'a> {
             tension => tension.value(),
         };
         let flow = 1.0 / strand.speed(tension, 1.0);
-        let [slack, tight] = [slack, tight].map(|span| match span {
-            SpanTension::Tractive(force) => force,
-            tension => strand.tractive(tension.value(), flow),
-        });
+        let [slack, tight] = [slack, tight].map(|span| strand.tractive_of(span, flow));
         let tensions = [[slack, tight], [tight, slack]];
         let ends = [DRIVEN, DRIVER]
             .map(|pulley| Contacting::end_angles(problem.groove(pulley), tensions[pulley]));

@@ -2,7 +2,7 @@
 
 use super::Over;
 use super::numbers::Numbers;
-use crate::{Belt, TwoPulleys};
+use crate::{Belt, SpanTension, TwoPulleys};
 use bvp::Real;
 
 /// The units of a drive or a loop. A scaled quantity times its unit is the quantity in SI.
@@ -141,6 +141,14 @@ impl<S: Real> Strand<S> {
         tension - flow * self.speed(tension, flow) * self.inertia
     }
 
+    /// The tension by which a span is prescribed, tractive or of the belt, from F and G.
+    pub(crate) fn prescribed<T: Over<S>>(&self, span: SpanTension, tractive: T, flow: T) -> T {
+        match span {
+            SpanTension::Tractive(_) => tractive,
+            _ => self.tension(tractive, flow),
+        }
+    }
+
     /// Belt speed V.
     pub(crate) fn speed<T: Over<S>>(&self, tension: T, flow: T) -> T {
         flow * (self.strain(tension) + 1.0)
@@ -160,10 +168,20 @@ impl<S: Real> Strand<S> {
     }
 }
 
+impl Strand {
+    /// Tractive tension F of a span, from the tension by which it is prescribed and G.
+    pub(crate) fn tractive_of(&self, span: SpanTension, flow: f64) -> f64 {
+        match span {
+            SpanTension::Tractive(tractive) => tractive,
+            tension => self.tractive(tension.value(), flow),
+        }
+    }
+}
+
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::{BeltKind, FrictionLaw, Load, SpanTension, VBelt};
+    use crate::{BeltKind, FrictionLaw, Load, VBelt};
 
     /// The drive of Kim (2009), table 3, with unequal radii if asked for.
     pub(in crate::vbelt) fn kim(law: FrictionLaw, driven_radius: f64) -> TwoPulleys {

@@ -4,7 +4,7 @@ use super::arc::{Origin, Point};
 use super::saddle::Saddle;
 use crate::SpanTension;
 use crate::vbelt::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
-use crate::vbelt::{BREAKAWAY, DRIVEN, DRIVER, DriveProblem, EndAngles, Groove, Regime};
+use crate::vbelt::{DRIVEN, DRIVER, DriveProblem, EndAngles, Groove, Regime, beyond_breakaway};
 use std::f64::consts::{PI, TAU};
 
 /// Relative accuracy of the tensions at which the belt enters: its slip behind the place of rest is the rest of two
@@ -84,14 +84,6 @@ impl Locked {
     }
 }
 
-/// The tension by which a span is prescribed, from the tractive tension of the belt.
-fn prescribed(span: SpanTension, groove: &Groove, flow: f64, tractive: f64) -> f64 {
-    match span {
-        SpanTension::Tractive(_) => tractive,
-        _ => groove.strand.tension(tractive, flow),
-    }
-}
-
 /// The place of rest of a belt that comes from a span, and the way there.
 fn entering(
     saddle: impl Fn(f64) -> Option<Saddle>,
@@ -99,16 +91,13 @@ fn entering(
     span: SpanTension,
 ) -> Option<(Saddle, Vec<Point>)> {
     let asked = span.value();
-    let mut tractive = match span {
-        SpanTension::Tractive(_) => asked,
-        _ => groove.strand.tractive(asked, 1.0),
-    };
+    let mut tractive = groove.strand.tractive_of(span, 1.0);
     let mut before: Option<[f64; 2]> = None;
     for _ in 0..MOST_SECANTS {
         let there = saddle(tractive)?;
         let entry = there.entry()?;
         let found = entry[0].states[TENSION];
-        let excess = prescribed(span, groove, there.rim.flow, found) - asked;
+        let excess = groove.strand.prescribed(span, found, there.rim.flow) - asked;
         if excess.abs() <= TENSION_ACCURACY * asked {
             return Some((there, entry));
         }
@@ -125,10 +114,7 @@ fn leaving((saddle, entry): (Saddle, Vec<Point>), span: SpanTension) -> Option<E
     let (groove, flow) = (&saddle.rim.groove, saddle.rim.flow);
     let plain = saddle.plain_exit()?;
     let [_, theta, ..] = plain[plain.len() - 1].states;
-    let asked = match span {
-        SpanTension::Tractive(value) => value,
-        _ => groove.strand.tractive(span.value(), flow),
-    };
+    let asked = groove.strand.tractive_of(span, flow);
     let slip = groove.strand.compliance * (asked - plain[plain.len() - 1].states[TENSION]).abs();
     if slip * saddle.turning > SLIDES {
         return None;
@@ -170,7 +156,7 @@ impl Ends {
     fn segments(&self, wrap: f64) -> Option<[Course; 3]> {
         let whole = self.whole(wrap)?;
         let turns = |point: &Point| point.turn;
-        let breaks_away = |point: &Point| point.states[LAW].sin().abs() - BREAKAWAY;
+        let breaks_away = |point: &Point| beyond_breakaway(point.states[LAW]);
         let turn = rise(&whole, turns)?;
         let breakaway = rise(&whole[..turn], breaks_away)?;
         let [first, second] = [

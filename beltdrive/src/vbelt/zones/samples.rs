@@ -3,7 +3,8 @@
 use super::Loose;
 use crate::vbelt::path::Solved;
 use crate::vbelt::{
-    BREAKAWAY, BeltProblem, Contact, Groove, LAW, Law, MAX_STATES, Regime, limit_excess,
+    BREAKAWAY, BeltProblem, Contact, Groove, LAW, Law, MAX_STATES, Regime, beyond_breakaway,
+    limit_excess,
 };
 use std::f64::consts::TAU;
 
@@ -161,7 +162,7 @@ pub(super) fn turn(samples: &[Sample], clear: f64) -> Option<f64> {
 
 /// The place where the belt breaks away.
 pub(super) fn breakaway(samples: &[Sample]) -> Option<f64> {
-    let excess = |sample: &Sample| sample.direction.sin().abs() - BREAKAWAY;
+    let excess = |sample: &Sample| beyond_breakaway(sample.direction);
     rise(samples, excess, CLEAR_BREAKAWAY)
 }
 
