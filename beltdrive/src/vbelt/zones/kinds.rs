@@ -176,16 +176,20 @@ pub(super) fn friction_zones(samples: &[Sample], length: f64) -> Vec<Zone> {
     merge_short(zones, SHORTEST_ZONE * length)
 }
 
-/// Gives zones shorter than `shortest` to their neighbours and joins zones of one kind.
+/// Gives zones shorter than `shortest` to their neighbours and joins zones of one kind. A slip zone at the exit stays: with
+/// soft friction it may be as short as 1e-6 of the contact, and without it the normal force is negative there.
 fn merge_short(zones: Vec<Zone>, shortest: f64) -> Vec<Zone> {
     let mut merged: Vec<Zone> = Vec::with_capacity(zones.len());
-    for mut zone in zones {
+    let at_exit = zones.len().saturating_sub(1);
+    for (index, mut zone) in zones.into_iter().enumerate() {
+        let slips_at_exit = index == at_exit && zone.regime == Regime::Slip;
+        let is_short = !slips_at_exit && zone.to - zone.from < shortest;
         match merged.last_mut() {
             Some(last) if last.to - last.from < shortest => {
                 zone.from = last.from;
                 *last = zone;
             }
-            Some(last) if last.regime == zone.regime || zone.to - zone.from < shortest => {
+            Some(last) if last.regime == zone.regime || is_short => {
                 last.to = zone.to;
             }
             _ => merged.push(zone),
