@@ -186,19 +186,24 @@ impl Tracer<'_> {
         };
         let mut branch = self.with_events(branch, &solved, first);
         let mut last = bvp::Stats::default();
-        let mut before: Option<(Point, Solved)> = None;
+        let mut before: Option<(Point, Solved, Direction)> = None;
         // The ends of a zone may move at a load that does not change.
         let mut ahead = direction;
+        // Behind the limit point of a cut the states are those in front of it, up to where the cut is seen no longer.
+        let mut has_cut_turned = false;
         let driven_speed = |point: &Point| {
             let of = |vector| family.own(vector)[DriveProblem::DRIVEN_SPEED];
             [of(&point.z), of(&point.tangent), point.arclength]
         };
         while let Some(mut point) = branch.next() {
-            if !family.moves_cuts_only(&point.tangent) {
+            if family.moves_cuts_only(&point.tangent) {
+                if point.kind == Kind::LimitPoint {
+                    // Not of the load, but of the way of a cut.
+                    point.kind = Kind::Regular;
+                    has_cut_turned = true;
+                }
+            } else if !has_cut_turned {
                 ahead = onward(&point);
-            } else if point.kind == Kind::LimitPoint {
-                // Not of the load, but of the way of a cut.
-                point.kind = Kind::Regular;
             }
             let solution = branch.system().family.solution(&point.z);
             last = *solution.stats();
@@ -206,7 +211,7 @@ impl Tracer<'_> {
                 problem: family.member(&[point.lambda()]),
                 solution,
             };
-            if let Some((passed, solved)) = &before
+            if let Some((passed, solved, towards)) = &before
                 && self.refinements < MAX_REFINEMENTS
                 && (self.has_other_zones(&point, &here)
                     || lowest_between(driven_speed(passed), driven_speed(&point))
@@ -215,7 +220,7 @@ impl Tracer<'_> {
                 // What happens in between is not what is seen: once more, in shorter steps.
                 self.convergence.count(&last);
                 self.refinements += 1;
-                return self.goes_on(passed, solved.clone());
+                return self.goes_on(passed, solved.clone(), *towards);
             }
             // Behind the lowest speed steps are as long as ever again: a branch with bristles, whose zones never change,
             // would end after so many short ones.
@@ -224,20 +229,22 @@ impl Tracer<'_> {
                 && !here.problem.has_junctions()
                 && point.kind == Kind::Regular
                 && rises(&point)
-                && before.as_ref().is_some_and(|(passed, _)| rises(passed));
+                && before.as_ref().is_some_and(|(passed, ..)| rises(passed));
             let effect = branch.system().smoothing_effect(&point.z);
             let precise = || precise(&family, branch.system(), &point, (&options, &steps));
             let outcome = self.take(&point, &here, &precise, effect, ahead);
             progress(self.share(self.value(point.lambda())), "tracing");
-            if let (Some((passed, solved)), Some(PieceEnd::Branch(BranchEnd::NotConverged { .. }))) =
-                (&before, &outcome)
+            if let (
+                Some((passed, solved, towards)),
+                Some(PieceEnd::Branch(BranchEnd::NotConverged { .. })),
+            ) = (&before, &outcome)
                 && point.kind == Kind::Regular
                 && self.refinements < MAX_REFINEMENTS
             {
                 // A zone that has just appeared is found more easily.
                 self.convergence.count(&last);
                 self.refinements += 1;
-                return self.goes_on(passed, solved.clone());
+                return self.goes_on(passed, solved.clone(), *towards);
             }
             if let Some(end) = outcome {
                 self.convergence.count(&last);
@@ -246,9 +253,9 @@ impl Tracer<'_> {
             if is_past {
                 self.convergence.count(&last);
                 self.refinements = 0;
-                return self.goes_on(&point, here);
+                return self.goes_on(&point, here, ahead);
             }
-            before = Some((point, here));
+            before = Some((point, here, ahead));
         }
         self.convergence.count(&last);
         PieceEnd::Branch(self.end(branch.into_stop()))
@@ -313,12 +320,12 @@ impl Tracer<'_> {
     }
 
     /// The next piece, with other steps from a point as it is.
-    fn goes_on(&mut self, point: &Point, solved: Solved) -> PieceEnd {
+    fn goes_on(&mut self, point: &Point, solved: Solved, direction: Direction) -> PieceEnd {
         self.before += point.arclength;
         PieceEnd::Next {
             solved: Box::new(solved),
             value: self.value(point.lambda()),
-            direction: onward(point),
+            direction,
         }
     }
 
