@@ -159,7 +159,7 @@ fn score(drives: impl Iterator<Item = (usize, TwoPulleys)>) -> usize {
         let took = start.elapsed().as_secs_f64();
         seconds.push(took);
         if took > SLOW {
-            println!("{index}: {took:.1} s");
+            println!("{index}: {took:.1} s, {drive:?}");
         }
         match found {
             Ok(state) => {
