@@ -89,6 +89,23 @@ pub(super) fn join_elastic(zones: &mut Vec<Zone>) {
     }
 }
 
+/// Prolongs elastic zones that are new, where a solution shows a negative plastic rate Λ of a belt that is taken to slip.
+///
+/// The traction |B| leaves its limit as the integral of Λ, and is back at it later than Λ at zero. Of a parabola Λ ∝ s (s − l)
+/// the integral s² (s/3 − l/2) vanishes at s = 3 l/2. At s = l its derivative does, so that Newton's method goes from there
+/// anywhere, and to the double root s = 0.
+pub(super) fn prolong_elastic(zones: &mut [Zone], is_new: impl Fn(&Zone) -> bool) {
+    for index in 1..zones.len() {
+        let [zone, behind] = [zones[index - 1], zones[index]];
+        if zone.regime == Regime::Elastic && is_new(&zone) {
+            let longer = 0.5 * (zone.to - zone.from);
+            let end = zone.to + longer.min(0.5 * (behind.to - behind.from));
+            zones[index - 1].to = end;
+            zones[index].from = end;
+        }
+    }
+}
+
 /// The zones with hardly visible elastic ones taken for slip.
 pub(super) fn without_short_elastic(mut zones: Vec<Zone>, length: f64) -> Vec<Zone> {
     for zone in &mut zones {
@@ -208,4 +225,30 @@ pub(super) fn join(zones: &mut Vec<Zone>, is_joined: impl Fn(Regime) -> bool) {
         }
         same
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_new_elastic_zone_ends_behind_the_zero_of_the_plastic_rate() {
+        let zone = |regime, from, to| Zone { regime, from, to };
+        let seen = |last| {
+            vec![
+                zone(Regime::Slip, 0.0, 1.0),
+                zone(Regime::Elastic, 1.0, 1.25),
+                zone(Regime::Slip, 1.25, last),
+            ]
+        };
+        let end = |mut zones: Vec<Zone>, is_new| {
+            prolong_elastic(&mut zones, |_| is_new);
+            assert_eq!(zones[1].to, zones[2].from);
+            zones[1].to
+        };
+        assert_eq!(end(seen(3.0), true), 1.375);
+        // Something is left of what is behind.
+        assert_eq!(end(seen(1.375), true), 1.3125);
+        assert_eq!(end(seen(3.0), false), 1.25);
+    }
 }

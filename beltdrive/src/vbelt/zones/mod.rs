@@ -15,7 +15,7 @@ use super::path::Solved;
 use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
 use kinds::{
     SHORTEST_CUT, SHORTEST_ZONE, Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, join,
-    join_elastic, one_zone, sticks, without_kinks, without_short_elastic,
+    join_elastic, one_zone, prolong_elastic, sticks, without_kinks, without_short_elastic,
 };
 use places::{ends, keep_junctions, locate};
 use samples::{CLEAR_TURN, Sample, samples};
@@ -213,10 +213,15 @@ fn cut<P: BeltProblem>(
     let mut zones = match groove.law {
         Law::Normalised { .. } => zones,
         Law::Vector { .. } => {
-            let zones = match problem.has_junctions() {
+            let mut zones = match problem.has_junctions() {
                 true => zones,
                 false => without_short_elastic(zones, length),
             };
+            let slipped = |zone: &Zone| {
+                let (segment, _) = locate(solved, pulley, 0.5 * (zone.from + zone.to));
+                problem.regime(segment) == Regime::Slip
+            };
+            prolong_elastic(&mut zones, slipped);
             let mut zones = cut_at_turn(zones, &samples, length, CLEAR_TURN, margin);
             join(&mut zones, |regime| regime == Regime::Elastic);
             zones
