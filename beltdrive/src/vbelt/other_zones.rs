@@ -44,9 +44,20 @@ impl Path<'_> {
         })
     }
 
+    /// A state of vector EPP friction without zones with those that it shows, if they are found.
+    pub(super) fn with_zones_shown(&mut self, here: &Solved) -> Option<Solved> {
+        let solved = self.zones_shown_by(here);
+        solved.filter(|solved| is_same(solved, here))
+    }
+
     /// The state of the drive from nothing, if it is `here` but for the zones.
     fn anew(&mut self, here: &Solved) -> Option<Solved> {
-        let solved = self.with_direction()?;
-        (solved.change_to(&here.constants()) <= SAME).then_some(solved)
+        let solved = self.with_direction();
+        solved.filter(|solved| is_same(solved, here))
     }
+}
+
+/// Whether two states are the same but for the zones.
+fn is_same(one: &Solved, other: &Solved) -> bool {
+    one.change_to(&other.constants()) <= SAME
 }

@@ -138,6 +138,14 @@ impl Path<'_> {
         wrong.map_or_else(|| Err(failure.expect("efforts are tried")), Ok)
     }
 
+    /// A state with the zones that one without any shows, if it is found and friction obeys its law.
+    pub(in crate::vbelt) fn zones_shown_by(&mut self, gradual: &Solved) -> Option<Solved> {
+        cuts(gradual).find_map(|cut| {
+            let solved = self.vector_from(&cut, gradual, Effort::Full).ok()?;
+            obeys_friction(&solved, self.tolerance).then_some(solved)
+        })
+    }
+
     /// Gradual friction with the scaled stiffness that is asked for.
     fn stiffened<P: BeltProblem>(
         &mut self,
