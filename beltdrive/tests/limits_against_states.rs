@@ -163,6 +163,12 @@ fn an_elastic_arc_that_appears_in_a_slip_zone_is_found() {
 }
 
 #[test]
+fn zones_that_appear_on_the_last_step_of_a_branch_are_found() {
+    // The branch to half of the limit, 11 kN, takes two steps there.
+    assert_eq!(survey(2, 232, SEED + 2, Some(231)), 0);
+}
+
+#[test]
 fn zones_that_are_not_found_at_first_are_along_the_branch() {
     // With them the branch takes 129 steps to its limit, without 600 are not enough.
     assert_eq!(survey(2, 148, SEED + 2, Some(147)), 0);

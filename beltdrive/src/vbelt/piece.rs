@@ -288,7 +288,9 @@ impl Tracer<'_> {
     ) -> Option<PieceEnd> {
         let drive = self.drive_at(self.value(point.lambda()));
         self.convergence.continuation_steps += 1;
-        let path = Path::new(&drive, self.tolerance);
+        let mut path = Path::new(&drive, self.tolerance);
+        let at_end = self.at_bound(point, here, &mut path);
+        let here = at_end.as_ref().unwrap_or(here);
         let mut state = describe(&path, here);
         let kind = self.kind(point, here);
         // Beyond a state at which the driven pulley stands there are no drive states.
@@ -332,6 +334,14 @@ impl Tracer<'_> {
             Some(end) => Some(PieceEnd::Branch(end)),
             None => restart.then(|| self.next_piece(point, here, &drive, ahead)),
         }
+    }
+
+    /// The state at an end of the range with its zones found anew, if they have changed on the last step and are found.
+    fn at_bound(&self, point: &Point, here: &Solved, path: &mut Path<'_>) -> Option<Solved> {
+        let has_others = point.kind == Kind::Bound
+            && here.problem.has_junctions()
+            && !self.refused.are_all(here);
+        has_others.then(|| path.with_other_zones(here).ok())?
     }
 
     /// The state at a point with the zones that it shows, if they are found.
