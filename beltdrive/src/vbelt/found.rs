@@ -58,7 +58,11 @@ pub(super) fn not_carried(
         asked: tight.value(),
         limit,
         reason,
-        driven_speed: Some(driven_speed),
+        driven_speed: Some(match reason {
+            // It stands but for rounding, which would print as −0.
+            LimitReason::DrivenSlips => 0.0,
+            _ => driven_speed,
+        }),
         exit_inclination: Some(exit_inclination),
     }
 }

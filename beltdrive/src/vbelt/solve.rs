@@ -2,7 +2,7 @@
 
 use super::by_branch::by_branch;
 use super::found::{carried, checked};
-use super::limit::Found;
+use super::limit::{Found, is_slow};
 use super::path::{Path, Stuck};
 use crate::{Drive, SolveError, SolveOptions, SteadyState};
 use std::mem::discriminant;
@@ -14,14 +14,18 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
     let start = Instant::now();
     let tolerance = options.tolerance;
     let mut path = Path::new(drive, tolerance);
-    let at_fault = match path.at_load(path.target()) {
-        Ok(solved) if path.is_below_limit(&solved) => match checked(&path, solved, start) {
-            Err(fault @ (SolveError::Violated(_) | SolveError::Impossible(_))) => Some(Err(fault)),
-            answer => return answer,
-        },
+    let direct = match path.at_load(path.target()) {
+        Ok(solved) if path.is_below_limit(&solved) => {
+            let may_be_beyond = is_slow(&solved);
+            match checked(&path, solved, start) {
+                fault @ Err(SolveError::Violated(_) | SolveError::Impossible(_)) => Some(fault),
+                state if may_be_beyond => Some(state),
+                answer => return answer,
+            }
+        }
         _ => None,
     };
-    if let Some(answer) = by_branch(&mut path, start).or(at_fault) {
+    if let Some(answer) = by_branch(&mut path, start).or(direct) {
         return answer;
     }
     let found = path.find(path.target());

@@ -1,5 +1,6 @@
 //! States of a drive under other loads, from which the branch of its load is followed.
 
+use super::limit::is_slow;
 use super::path::{Path, Solved};
 use crate::Drive;
 use crate::input::Key;
@@ -44,8 +45,8 @@ pub(super) fn start_loads(drive: &Drive, with_own: bool) -> impl Iterator<Item =
 }
 
 impl StartLoad {
-    /// The drive of a search under this load and its state, if that is found below the limits of the load. The search counts
-    /// what it costs.
+    /// The drive of a search under this load and its state, if that is found below the limits of the load and the driven
+    /// pulley is not slow. The search counts what it costs.
     pub(super) fn state(self, path: &mut Path<'_>) -> Option<(Drive, Solved)> {
         let mut near = path.drive.clone();
         Key::load(path.drive).set(&mut near, self.value);
@@ -54,7 +55,7 @@ impl StartLoad {
             true => search.with_direction(),
             false => search.start(),
         };
-        let found = found.filter(|solved| search.is_below_limit(solved));
+        let found = found.filter(|solved| search.is_below_limit(solved) && !is_slow(solved));
         path.stats += search.stats;
         path.problems += search.problems;
         found.map(|solved| (near, solved))
