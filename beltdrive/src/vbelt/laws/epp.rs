@@ -13,7 +13,8 @@ use crate::vbelt::zones::{Cut, Loose};
 
 /// How many times as stiff as those of the start the bristles are that show the zones, in the order in which
 /// they are tried. Of 45 searches on 40 random drives the first found 43 and the last one more. The second shows zones where
-/// friction is so soft or so stiff that the first misses them: of 250 random drives five have no state without it, two with it.
+/// friction is so soft or so stiff that the first misses them: of 250 random drives four have neither a state nor a limit without
+/// it, one with it.
 const STIFFER: [f64; 3] = [10.0, 100.0, 1.0];
 
 /// Where the belt may be taken to break loose on a pulley, in the order in which that is tried.
