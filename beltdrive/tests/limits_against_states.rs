@@ -139,6 +139,12 @@ fn a_load_that_only_other_states_carry_is_refused() {
 }
 
 #[test]
+fn a_state_beyond_the_capstan_that_creeps_is_not_taken_for_that_from_rest() {
+    // It is another one from 653 to 1744 N, where the driven pulley stands; those from no load on end at 1750 N.
+    assert_eq!(survey(0, 58, 99, Some(57)), 0);
+}
+
+#[test]
 fn a_load_at_which_a_driven_pulley_that_stood_turns_again_is_refused() {
     // It stops at 1418 N. At 1917 to 2320 N there are states again, with nine tenths of slip.
     assert_eq!(survey(2, 258, SEED + 2, Some(257)), 0);
