@@ -118,7 +118,7 @@ impl Path<'_> {
         };
         let solved = self.again(rough, effort)?;
         let here = self.keep_zones(solved, Effort::Final)?;
-        let here = self.slip_at_exits(here);
+        let here = self.zones_at_ends(here);
         match here.problem.law() {
             Law::Sliding { .. } => self.shorten_lag(here),
             // Places where zones end are printed, and move by more than the constants.
@@ -181,13 +181,13 @@ impl Path<'_> {
         }
     }
 
-    /// The solution with a slip zone at the exits that elastic friction reached, if there is one. Without it
-    /// the normal force is negative at the exit, which the checks refuse.
-    fn slip_at_exits<P: BeltProblem>(&mut self, here: Solved<P>) -> Solved<P> {
+    /// The solution with the zones at the ends of contacts that lie between samples, if there are any. Without them the normal
+    /// force is negative at an exit, or friction behind an entry above its elastic part, which the checks refuse.
+    fn zones_at_ends<P: BeltProblem>(&mut self, here: Solved<P>) -> Solved<P> {
         if !here.problem.is_split() {
             return here;
         }
-        let cut = Cut::with_exits(&here);
+        let cut = Cut::with_ends(&here);
         if cut.is_kept() {
             return here;
         }

@@ -194,15 +194,19 @@ pub(super) fn friction_zones(samples: &[Sample], length: f64) -> Vec<Zone> {
 }
 
 /// Gives zones shorter than `shortest` to their neighbours and joins zones of one kind. A slip zone at the exit stays: with
-/// soft friction it may be as short as 1e-6 of the contact, and without it the normal force is negative there.
+/// soft friction it may be as short as 1e-6 of the contact, and without it the normal force is negative there. So does an
+/// elastic zone at the entry, which is short with stiff friction.
 fn merge_short(zones: Vec<Zone>, shortest: f64) -> Vec<Zone> {
     let mut merged: Vec<Zone> = Vec::with_capacity(zones.len());
     let at_exit = zones.len().saturating_sub(1);
     for (index, mut zone) in zones.into_iter().enumerate() {
         let slips_at_exit = index == at_exit && zone.regime == Regime::Slip;
         let is_short = !slips_at_exit && zone.to - zone.from < shortest;
+        let is_second = merged.len() == 1;
         match merged.last_mut() {
-            Some(last) if last.to - last.from < shortest => {
+            Some(last)
+                if last.to - last.from < shortest && !(is_second && last.regime.is_elastic()) =>
+            {
                 zone.from = last.from;
                 *last = zone;
             }

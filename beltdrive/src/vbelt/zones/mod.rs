@@ -59,9 +59,10 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
         Self::new(solved, false, |_| Loose::Seen)
     }
 
-    /// As [`Cut::of`], with a last slip zone where elastic friction reaches the exit. The belt presses no
-    /// longer there, so that it slips at the very end, on a way that may lie between two samples.
-    pub(super) fn with_exits(solved: &'a Solved<P>) -> Self {
+    /// As [`Cut::of`], with zones at the ends of contacts that may lie between two samples: with elastic friction at the entry,
+    /// where the displacement grows from zero, and with a slip zone where elastic friction reaches the exit, where the belt
+    /// presses no longer.
+    pub(super) fn with_ends(solved: &'a Solved<P>) -> Self {
         Self::new(solved, true, |_| Loose::Seen)
     }
 
@@ -77,10 +78,10 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
         Self::new(solved, false, |pulley| loose[pulley])
     }
 
-    fn new(solved: &'a Solved<P>, at_exit: bool, loose: impl Fn(usize) -> Loose) -> Self {
+    fn new(solved: &'a Solved<P>, at_ends: bool, loose: impl Fn(usize) -> Loose) -> Self {
         let pulleys = 0..solved.problem.pulleys();
         let (samples, pulleys) = pulleys
-            .map(|pulley| cut(solved, pulley, at_exit, loose(pulley)))
+            .map(|pulley| cut(solved, pulley, at_ends, loose(pulley)))
             .unzip();
         Self {
             solved,
@@ -186,7 +187,7 @@ impl Refused {
 fn cut<P: BeltProblem>(
     solved: &Solved<P>,
     pulley: usize,
-    at_exit: bool,
+    at_ends: bool,
     loose: Loose,
 ) -> (Vec<Sample>, Vec<Zone>) {
     let problem = &solved.problem;
@@ -199,7 +200,7 @@ fn cut<P: BeltProblem>(
         });
         return (Vec::new(), whole.collect());
     };
-    let samples = samples(solved, (pulley, groove), at_exit, loose);
+    let samples = samples(solved, (pulley, groove), at_ends, loose);
     let zones = match (problem.has_zones(), loose) {
         (true, Loose::Seen) => friction_zones(&samples, length),
         (true, _) => without_kinks(friction_zones(&samples, length)),

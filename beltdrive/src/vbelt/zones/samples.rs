@@ -27,6 +27,10 @@ const CLEAR_BREAKAWAY: f64 = 0.75 * BREAKAWAY;
 /// between that is shorter, and without one Newton's method failed on 1 of 40 drives.
 const ROOM: f64 = 0.01;
 
+/// Shares of the contact behind the entry at which elastic friction is looked for. The pressure grows over some hundredths of
+/// the contact, so that friction on a shorter way than the first is below what the checks allow.
+const BEHIND_ENTRY: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
+
 /// What is seen of a solution at a place on a pulley.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sample {
@@ -46,11 +50,11 @@ pub(super) struct Sample {
     share: f64,
 }
 
-/// Looks at a solution along one pulley, at the exit too if asked for.
+/// Looks at a solution along one pulley, at the exit and just behind the entry too if asked for.
 pub(super) fn samples<P: BeltProblem>(
     solved: &Solved<P>,
     (pulley, groove): (usize, &Groove),
-    at_exit: bool,
+    at_ends: bool,
     loose: Loose,
 ) -> Vec<Sample> {
     let (problem, solution) = (&solved.problem, &solved.solution);
@@ -72,8 +76,15 @@ pub(super) fn samples<P: BeltProblem>(
             let share = |sample| (sample as f64 + 0.5) / SAMPLES as f64;
             (0..SAMPLES).map(move |sample| pair[0] + (pair[1] - pair[0]) * share(sample))
         });
+        let is_first = segment == problem.zones(pulley).start;
         let is_last = segment + 1 == problem.zones(pulley).end;
-        for s in inside.chain((at_exit && is_last).then_some(1.0)) {
+        let first = 0.5 / SAMPLES as f64 * solution.mesh(segment)[1];
+        let entry = BEHIND_ENTRY.map(|share| share * problem.contact_length(pulley, p) / length);
+        let entry = entry
+            .into_iter()
+            .filter(|&s| at_ends && is_first && s < first);
+        let exit = (at_ends && is_last).then_some(1.0);
+        for s in entry.chain(inside).chain(exit) {
             solution.state(segment, s, y);
             let regime = problem.regime(segment);
             let contact = Contact::new(groove, regime, y, omega, flow);
