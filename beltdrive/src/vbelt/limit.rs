@@ -315,8 +315,8 @@ pub(super) fn is_slow(solved: &Solved) -> bool {
     solved.driven_speed() <= SLOW
 }
 
-/// Whether a pulley slips all along by more than `CREEP` and changes the tension by more than friction against the slip does where the belt is
-/// wedged on the whole arc φ,
+/// Whether a pulley slips all along by more than `CREEP` and changes the tension by more than friction against the slip does
+/// where the belt is wedged on the whole arc φ,
 ///
 /// ```text
 /// |ln(F_out/F_in)| > μ φ/sin β

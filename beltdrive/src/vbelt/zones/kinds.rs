@@ -197,20 +197,18 @@ pub(super) fn friction_zones(samples: &[Sample], length: f64) -> Vec<Zone> {
 /// soft friction it may be as short as 1e-6 of the contact, and without it the normal force is negative there. So does an
 /// elastic zone at the entry, which is short with stiff friction.
 fn merge_short(zones: Vec<Zone>, shortest: f64) -> Vec<Zone> {
+    let is_short = |zone: &Zone, stays: bool| !stays && zone.to - zone.from < shortest;
     let mut merged: Vec<Zone> = Vec::with_capacity(zones.len());
     let at_exit = zones.len().saturating_sub(1);
     for (index, mut zone) in zones.into_iter().enumerate() {
         let slips_at_exit = index == at_exit && zone.regime == Regime::Slip;
-        let is_short = !slips_at_exit && zone.to - zone.from < shortest;
         let is_second = merged.len() == 1;
         match merged.last_mut() {
-            Some(last)
-                if last.to - last.from < shortest && !(is_second && last.regime.is_elastic()) =>
-            {
+            Some(last) if is_short(last, is_second && last.regime.is_elastic()) => {
                 zone.from = last.from;
                 *last = zone;
             }
-            Some(last) if last.regime == zone.regime || is_short => {
+            Some(last) if last.regime == zone.regime || is_short(&zone, slips_at_exit) => {
                 last.to = zone.to;
             }
             _ => merged.push(zone),

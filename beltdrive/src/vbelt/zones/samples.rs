@@ -60,6 +60,7 @@ pub(super) fn samples<P: BeltProblem>(
     let (problem, solution) = (&solved.problem, &solved.solution);
     let p = solution.parameters();
     let (omega, flow) = (problem.omega(pulley, p), problem.flow(p));
+    let whole = problem.contact_length(pulley, p);
     let mut samples: Vec<Sample> = Vec::new();
     let mut before = 0.0;
     for segment in problem.zones(pulley) {
@@ -79,7 +80,7 @@ pub(super) fn samples<P: BeltProblem>(
         let is_first = segment == problem.zones(pulley).start;
         let is_last = segment + 1 == problem.zones(pulley).end;
         let first = 0.5 / SAMPLES as f64 * solution.mesh(segment)[1];
-        let entry = BEHIND_ENTRY.map(|share| share * problem.contact_length(pulley, p) / length);
+        let entry = BEHIND_ENTRY.map(|share| share * whole / length);
         let entry = entry
             .into_iter()
             .filter(|&s| at_ends && is_first && s < first);
