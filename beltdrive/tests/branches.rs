@@ -116,6 +116,30 @@ fn a_branch_from_near_no_load_takes_few_steps() {
 }
 
 #[test]
+fn a_branch_passes_the_load_at_which_the_slip_of_a_turn_changes_its_sense() {
+    // On the driver at 100.54 N. The place of the turn turns back there, and the branch came back to its start.
+    for (law, from) in [
+        (FrictionLaw::Coulomb, 100.01),
+        (FrictionLaw::Coulomb, 100.53),
+        (FrictionLaw::Epp { stiffness: 8.1e6 }, 100.3),
+    ] {
+        let branch = traced(&kim(law), TIGHT, [from, 300.0]);
+        assert_eq!(branch.end, BranchEnd::Target, "{law:?} {from}");
+        let values: Vec<f64> = branch.points.iter().map(|point| point.value).collect();
+        assert!(values.is_sorted(), "{values:?}");
+        let last = branch.points.last().unwrap();
+        let mut alone = kim(law);
+        key(&alone, TIGHT).set(&mut alone, 300.0);
+        let alone = solve(&alone, &SolveOptions::default()).unwrap();
+        close(
+            last.state.driven.angular_speed,
+            alone.driven.angular_speed,
+            1e-7,
+        );
+    }
+}
+
+#[test]
 fn the_end_of_a_turn_is_no_limit() {
     // At 20 453 N the friction on the driver, which turns to lift the belt, ceases to pass the middle of that turn.
     let drive = Drive::from(TwoPulleys {

@@ -7,8 +7,8 @@ mod random;
 mod wide_family;
 
 use beltdrive::{
-    Belt, BeltKind, Drive, FrictionLaw, Load, RangeEnd, SolveError, SolveOptions, SpanTension,
-    TwoPulleys, VBelt, input::Key, limits, solve,
+    Belt, BeltKind, Drive, EventKind, FrictionLaw, Load, RangeEnd, SolveError, SolveOptions,
+    SpanTension, TwoPulleys, VBelt, input::Key, limits, solve, trace,
 };
 use random::Random;
 use std::time::Instant;
@@ -83,8 +83,58 @@ fn faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
     (seconds, faults)
 }
 
+/// What is wrong with the branch of the load of a drive from a load just above none: it ends before the limit, or with
+/// another one.
+fn branch_faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
+    let options = SolveOptions::default();
+    let slack = drive.load.slack.value();
+    let mut random = Random(slack.to_bits());
+    let from = slack * (1.0 + 10f64.powf(random.between(-4.0, -1.0)));
+    let drive = Drive::from(*drive);
+    let key = Key::load(&drive);
+    let limit = match limits(&drive, &key, &options, &mut |_, _| {}) {
+        Ok(found) if matches!(found.largest.reason, RangeEnd::Limit(_)) => found.largest.value,
+        _ => return (0.0, Vec::new()),
+    };
+    if from >= limit {
+        return (0.0, Vec::new());
+    }
+    let start = Instant::now();
+    let branch = trace(&drive, &key, [from, 1.05 * limit], &options, &mut |_, _| {});
+    let seconds = start.elapsed().as_secs_f64();
+    let fault = match branch {
+        Ok(branch) => {
+            let mut ends = branch.events.iter().filter(|event| {
+                matches!(event.kind, EventKind::LimitPoint | EventKind::GrossSlip(_))
+            });
+            let found = ends.next().map(|event| event.point.value);
+            let last = branch.points.last().map_or(from, |point| point.value);
+            match found {
+                Some(found) if (found / limit - 1.0).abs() <= 1e-4 => None,
+                _ => Some(format!(
+                    "from {from}, limit {limit}: {found:?}, ends at {last}: {}",
+                    branch.end
+                )),
+            }
+        }
+        Err(error) => Some(format!("from {from}, limit {limit}: {error}")),
+    };
+    (seconds, fault.into_iter().collect())
+}
+
 /// Prints the score of `count` drives with a law, and returns how many have a fault.
 fn survey(number: usize, count: usize, seed: u64, only: Option<usize>) -> usize {
+    survey_of(faults, number, count, seed, only)
+}
+
+/// As [`survey`], of faults of any kind.
+fn survey_of(
+    faults: fn(&TwoPulleys) -> (f64, Vec<String>),
+    number: usize,
+    count: usize,
+    seed: u64,
+    only: Option<usize>,
+) -> usize {
     let mut random = Random(seed);
     let (mut wrong, mut times) = (0, Vec::new());
     for index in 0..count {
@@ -96,7 +146,7 @@ fn survey(number: usize, count: usize, seed: u64, only: Option<usize>) -> usize 
         let (seconds, faults) = faults(&drive);
         times.push(seconds);
         let whole = start.elapsed().as_secs_f64();
-        println!("{index}: limits in {seconds:.2} s, with the states in {whole:.2} s");
+        println!("{index}: {seconds:.2} s, with the rest {whole:.2} s");
         wrong += usize::from(!faults.is_empty());
         for fault in &faults {
             println!("  {fault}");
@@ -108,7 +158,7 @@ fn survey(number: usize, count: usize, seed: u64, only: Option<usize>) -> usize 
     times.sort_by(f64::total_cmp);
     let time = |share: usize| times[(times.len() - 1) * share / 100];
     println!(
-        "law {number}: {count} drives, {wrong} with a fault; limits in {:.2} s (median), {:.2} s (90 %), {:.2} s (most)",
+        "law {number}: {count} drives, {wrong} with a fault; {:.2} s (median), {:.2} s (90 %), {:.2} s (most)",
         time(50),
         time(90),
         time(100)
@@ -246,13 +296,23 @@ fn stiff_scalar_elastic_friction_has_the_limit_of_coulomb_friction() {
 
 /// Prints the score of as many drives as `DRIVES` says, 60 by default, with the law of the number `LAW`, or all; or of
 /// that of the index `ONLY`.
-#[test]
-#[ignore = "minutes: the score, run by hand for benches/RESULTS.md"]
-fn many_drives() {
+fn score(faults: fn(&TwoPulleys) -> (f64, Vec<String>)) {
     let number = |name: &str| std::env::var(name).ok()?.parse().ok();
     let count = number("DRIVES").unwrap_or(60);
     let seed = number("SEED").map_or(SEED, |seed| seed as u64);
     for law in (0..4).filter(|&law| number("LAW").is_none_or(|asked| asked == law)) {
-        survey(law, count, seed + law as u64, number("ONLY"));
+        survey_of(faults, law, count, seed + law as u64, number("ONLY"));
     }
+}
+
+#[test]
+#[ignore = "minutes: the score, run by hand for benches/RESULTS.md"]
+fn many_drives() {
+    score(faults);
+}
+
+#[test]
+#[ignore = "minutes: the score, run by hand for benches/RESULTS.md"]
+fn many_branches() {
+    score(branch_faults);
 }

@@ -3,6 +3,10 @@
 
 use continuation::Stop;
 
+/// Steps of a branch became too short, or led nowhere.
+pub(crate) const TOO_ABRUPT: &str = "the states change too abruptly there to be followed; a start from the other end of the range \
+     or a larger tolerance may help";
+
 /// Why the boundary value problem of a drive was not solved.
 pub(crate) fn of_solver(error: &bvp::Error) -> &'static str {
     use bvp::Error;
@@ -41,10 +45,10 @@ pub(crate) fn of_stop(stop: &Stop) -> String {
             "the state there is known to {error:.1e} only, not to the tolerance {tolerance:.1e}; a larger \
              tolerance may help"
         ),
-        Stop::Asymptote { .. } => "the branch approaches the end of its range but does not reach it".to_owned(),
-        _ => "the states change too abruptly there to be followed; a start from the other end of the range \
-              or a larger tolerance may help"
-            .to_owned(),
+        Stop::Asymptote { .. } => {
+            "the branch approaches the end of its range but does not reach it".to_owned()
+        }
+        _ => TOO_ABRUPT.to_owned(),
     }
 }
 

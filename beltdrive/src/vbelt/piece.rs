@@ -13,7 +13,7 @@ use super::zones::Refused;
 use super::{BeltProblem, DriveProblem, Law};
 use crate::input::Key;
 use crate::results::difficulty;
-use crate::{BranchEnd, Drive, EventKind, Role};
+use crate::{BranchEnd, Drive, EventKind, LeastSlip, Role};
 use bvp::{Control, Family, Scheme};
 use continuation::{Branch, Direction, Kind, Options, Point, Stop};
 
@@ -197,7 +197,8 @@ impl Tracer<'_> {
         let mut before: Option<(Point, Solved, Direction)> = None;
         // The ends of a zone may move at a load that does not change.
         let mut ahead = direction;
-        // Behind the limit point of a cut the states are those in front of it, up to where the cut is seen no longer.
+        // Behind the limit point of a cut the states are those in front of it, up to where the cut is seen no longer, if it
+        // is before the branch has come back to its start.
         let mut has_cut_turned = false;
         let driven_speed = |point: &Point| {
             let of = |vector| family.own(vector)[DriveProblem::DRIVEN_SPEED];
@@ -238,9 +239,14 @@ impl Tracer<'_> {
                 && point.kind == Kind::Regular
                 && rises(&point)
                 && before.as_ref().is_some_and(|(passed, ..)| rises(passed));
+            let is_back = has_cut_turned && self.is_back(&point, value, ahead);
+            if is_back || (point.kind == Kind::LimitPoint && self.locks(&point, &here)) {
+                self.convergence.count(&last);
+                return not_converged(difficulty::TOO_ABRUPT);
+            }
             let effect = branch.system().smoothing_effect(&point.z);
             let precise = || precise(&family, branch.system(), &point, (&options, &steps));
-            let outcome = self.take(&point, &here, &precise, effect, ahead);
+            let outcome = self.take(&point, &here, &precise, effect, ahead, has_cut_turned);
             progress(self.share(self.value(point.lambda())), "tracing");
             if let (
                 Some((passed, solved, towards)),
@@ -277,7 +283,8 @@ impl Tracer<'_> {
     }
 
     /// Takes in a point of the branch with its solution, the relative effect of ℓ or ε on it, and the
-    /// direction in which the branch goes on. Returns an end if the piece ends there.
+    /// direction in which the branch goes on. Returns an end if the piece ends there. A point that repeats states is
+    /// looked at and not recorded.
     fn take(
         &mut self,
         point: &Point,
@@ -285,6 +292,7 @@ impl Tracer<'_> {
         precise: &dyn Fn() -> Option<Solved>,
         effect: Option<f64>,
         ahead: Direction,
+        repeats: bool,
     ) -> Option<PieceEnd> {
         let drive = self.drive_at(self.value(point.lambda()));
         self.convergence.continuation_steps += 1;
@@ -317,6 +325,9 @@ impl Tracer<'_> {
                 false => PieceEnd::Branch(BranchEnd::NotConverged { cause }),
             });
         }
+        if repeats {
+            return restart.then(|| self.next_piece(point, here, &drive, ahead));
+        }
         let has_direction = here.problem.has_direction();
         let place = self.record(point, kind, &state, effect, has_direction);
         if kind != Some(EventKind::LimitPoint) {
@@ -334,6 +345,28 @@ impl Tracer<'_> {
             Some(end) => Some(PieceEnd::Branch(end)),
             None => restart.then(|| self.next_piece(point, here, &drive, ahead)),
         }
+    }
+
+    /// Whether a branch that shall go on in a direction is back at the value at which it began.
+    fn is_back(&self, point: &Point, start: f64, ahead: Direction) -> bool {
+        let value = self.value(point.lambda());
+        match ahead {
+            Direction::Increasing => value <= start,
+            Direction::Decreasing => value >= start,
+        }
+    }
+
+    /// Whether the belt locks on both pulleys. Then every number of the drive follows from an equation of its own, which rises
+    /// with that number (see `locked`), so that the state has no limit point. That of the equations is where the slip of a turn
+    /// changes its sense: behind it the direction of friction turns the other way round, and that state is another one.
+    fn locks(&self, point: &Point, here: &Solved) -> bool {
+        let drive = self.drive_at(self.value(point.lambda()));
+        let state = describe(&Path::new(&drive, self.tolerance), here);
+        let pulleys = [state.driver, state.driven];
+        pulleys.iter().all(|pulley| {
+            let least = pulley.least_slip;
+            least.is_some_and(|least| least.slip < LeastSlip::LOCKED)
+        })
     }
 
     /// The state at an end of the range with its zones found anew, if they have changed on the last step and are found.

@@ -299,6 +299,12 @@ impl Path<'_> {
         }
     }
 
+    /// The steady state of a drive with Coulomb or scalar EPP friction whose belt locks on both pulleys, if it is found.
+    pub(super) fn at_locked_load(&mut self) -> Option<Solved> {
+        let (drive, tight) = (self.drive, self.target());
+        self.locked(&AtLoad { drive, tight })
+    }
+
     /// The steady state of a drive with Coulomb or EPP friction with its direction as a state, if it is found.
     pub(super) fn with_direction(&mut self) -> Option<Solved> {
         let (drive, tight) = (self.drive, self.target());
