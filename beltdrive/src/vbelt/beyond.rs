@@ -21,8 +21,8 @@ const BEYOND: [f64; 4] = [1e-3, 1e-2, 0.03, 0.1];
 /// The same as shares of the value for a belt that locks: there the slip of a turn may change its sense, and within 0.03 %
 /// of such a load the branch of the drive of Kim (2009) takes ten times as long as 0.1 % from it.
 const BEYOND_LOCKED: [f64; 3] = [1e-3, 3e-4, 1e-4];
-/// A state is one of the branch if its constants are off the line through two states behind it by no more than this
-/// share of their change along that, ...
+/// A state is one of the branch if its constants are off the line through two states behind it, or off the only one, by no
+/// more than this share of their change along that, ...
 const OFF: f64 = 0.5;
 /// ... or by this share of 1 + |value|, within which constants that hardly change stay.
 const SAME: f64 = 1e-3;
@@ -145,7 +145,10 @@ impl Tracer<'_> {
             .into_iter()
             .zip(at_last.iter().zip(at_behind));
         each.all(|(found, (one, other))| {
-            let change = (one - other) * way / (last - behind);
+            let change = match last == behind {
+                true => 0.0,
+                false => (one - other) * way / (last - behind),
+            };
             (found - (one + change)).abs() <= OFF * change.abs() + SAME * (1.0 + one.abs())
         })
     }

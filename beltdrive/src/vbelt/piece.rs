@@ -44,6 +44,8 @@ const MAX_INTERVALS: usize = 4000;
 /// The longest step, where the range of the entry counts as one.
 const LARGEST_STEP: f64 = 0.15;
 
+/// A branch whose steps become shorter than this leads to a place that it does not pass.
+const SMALLEST_STEP: f64 = 1e-6;
 /// The first step of a piece.
 const FIRST_STEP: f64 = 0.05;
 /// Where the driven speed may have fallen below this share of that of the driver within a step, or zones have changed
@@ -111,6 +113,7 @@ pub(super) fn steps(tolerance: f64, problem: &DriveProblem, [low, high]: [f64; 2
     Options {
         largest_step: LARGEST_STEP,
         first_step: FIRST_STEP,
+        smallest_step: SMALLEST_STEP,
         steps: MAX_STEPS,
         accuracy: accuracy * tolerance,
         location: LOCATION,
@@ -212,7 +215,12 @@ impl Tracer<'_> {
                     has_cut_turned = true;
                 }
             } else if !has_cut_turned {
-                ahead = onward(&point);
+                ahead = match point.kind {
+                    // Where a zone vanishes its end may be a double root, and the branch with it a limit point.
+                    Kind::Event(_) => ahead,
+                    Kind::LimitPoint => reversed(ahead),
+                    _ => onward(&point),
+                };
             }
             let solution = branch.system().family.solution(&point.z);
             last = *solution.stats();
@@ -492,6 +500,14 @@ fn precise(
         problem: family.member(&[point.lambda()]),
         solution: found.system().solution(&point.z),
     })
+}
+
+/// The other direction.
+fn reversed(direction: Direction) -> Direction {
+    match direction {
+        Direction::Increasing => Direction::Decreasing,
+        Direction::Decreasing => Direction::Increasing,
+    }
 }
 
 /// The sense in which the entry changes at a point.

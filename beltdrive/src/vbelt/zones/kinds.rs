@@ -1,6 +1,6 @@
 //! Zones of one kind of friction, from what is seen along a pulley.
 
-use super::samples::{Sample, breakaway, crossing, turn};
+use super::samples::{BEHIND_ENTRY, Sample, breakaway, crossing, turn};
 use crate::vbelt::Regime;
 
 /// A zone shorter than this share of the contact is not told from its neighbours.
@@ -190,21 +190,24 @@ pub(super) fn friction_zones(samples: &[Sample], length: f64) -> Vec<Zone> {
     if let Some(zone) = zones.last_mut() {
         zone.to = length;
     }
-    merge_short(zones, SHORTEST_ZONE * length)
+    merge_short(zones, length)
 }
 
-/// Gives zones shorter than `shortest` to their neighbours and joins zones of one kind. A slip zone at the exit stays: with
+/// Gives short zones of a contact of this length to their neighbours and joins zones of one kind. A slip zone at the exit stays: with
 /// soft friction it may be as short as 1e-6 of the contact, and without it the normal force is negative there. So does an
-/// elastic zone at the entry, which is short with stiff friction.
-fn merge_short(zones: Vec<Zone>, shortest: f64) -> Vec<Zone> {
-    let is_short = |zone: &Zone, stays: bool| !stays && zone.to - zone.from < shortest;
+/// elastic zone at the entry, which is short with stiff friction, if it is long enough to be looked for: where it vanishes
+/// along a branch something of its length is left.
+fn merge_short(zones: Vec<Zone>, length: f64) -> Vec<Zone> {
+    let shorter = |zone: &Zone, share: f64| zone.to - zone.from < share * length;
+    let is_short = |zone: &Zone, stays: bool| !stays && shorter(zone, SHORTEST_ZONE);
     let mut merged: Vec<Zone> = Vec::with_capacity(zones.len());
+    let stays_at_entry = |zone: &Zone| zone.regime.is_elastic() && !shorter(zone, BEHIND_ENTRY[0]);
     let at_exit = zones.len().saturating_sub(1);
     for (index, mut zone) in zones.into_iter().enumerate() {
         let slips_at_exit = index == at_exit && zone.regime == Regime::Slip;
         let is_second = merged.len() == 1;
         match merged.last_mut() {
-            Some(last) if is_short(last, is_second && last.regime.is_elastic()) => {
+            Some(last) if is_short(last, is_second && stays_at_entry(last)) => {
                 zone.from = last.from;
                 *last = zone;
             }

@@ -29,7 +29,7 @@ const ROOM: f64 = 0.01;
 
 /// Shares of the contact behind the entry at which elastic friction is looked for. The pressure grows over some hundredths of
 /// the contact, so that friction on a shorter way than the first is below what the checks allow.
-const BEHIND_ENTRY: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
+pub(super) const BEHIND_ENTRY: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 
 /// What is seen of a solution at a place on a pulley.
 #[derive(Clone, Copy, Debug)]
