@@ -172,6 +172,18 @@ fn assert_agrees(number: usize, seed: u64, index: usize) {
     assert_eq!(faulty, 0);
 }
 
+/// Asserts that the branch of one drive of a survey reaches the limit.
+fn assert_branch_agrees(number: usize, seed: u64, index: usize) {
+    let faulty = survey_of(
+        branch_faults,
+        number,
+        index + 1,
+        seed + number as u64,
+        Some(index),
+    );
+    assert_eq!(faulty, 0);
+}
+
 #[test]
 fn limits_with_bristles_agree_with_states() {
     assert_eq!(survey(3, 5, SEED + 3, None), 0);
@@ -246,6 +258,30 @@ fn zones_that_are_not_found_at_first_are_along_the_branch() {
 fn stiffer_bristles_show_where_a_belt_sticks() {
     // With those that are tried first the direction of friction turns the wrong way round.
     assert_agrees(1, SEED, 66);
+}
+
+#[test]
+fn the_load_is_followed_on_in_its_direction_where_a_zone_vanishes_at_an_entry() {
+    // At 1953 N; the limit is 19 482 N.
+    assert_agrees(2, 777, 24);
+}
+
+#[test]
+fn a_zone_that_has_vanished_at_an_entry_is_dropped() {
+    // At 4806 N. What was left of its length was a zone once more, 40 times.
+    assert_agrees(2, 777, 40);
+}
+
+#[test]
+fn a_branch_from_a_light_load_reaches_the_limit() {
+    // The slip of a turn changes its sense at 60.627 N, 1.003 of the slack tension; the limit is 763.9 N.
+    assert_branch_agrees(0, 777, 2);
+}
+
+#[test]
+fn a_mesh_interval_as_short_as_rounding_is_searched_for_its_deepest_place() {
+    // Behind the limit point at 19 337 N.
+    assert_branch_agrees(2, 777, 3);
 }
 
 #[test]

@@ -4,6 +4,7 @@ use super::SLIPPING_BRISTLES;
 use super::groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 use super::path::Solved;
 use super::{BeltProblem, Contact, EndAngles, Groove, Law, Regime, Units, limit_excess};
+use crate::mechanics::maximum;
 use crate::{LeastSlip, Profile, Zone, ZoneKind};
 use bvp::Solution;
 
@@ -23,6 +24,9 @@ const GAUSS: [(f64, f64); 6] = [
 const PROFILE_POINTS: usize = 240;
 /// Samples of the slip per mesh interval.
 const SLIP_SAMPLES: usize = 8;
+/// Accuracy of the place of the largest penetration, as a share of the way between the places beside it: near it the
+/// penetration changes by the square of the distance.
+const SUMMIT: f64 = 1e-6;
 /// Multiple of ε by which a slip may be off: on the drive of Kim (2009) without load and at 300 and 400 N it was by 20 to 60.
 const NORMALISED: f64 = 100.0;
 /// Integrals over the contact with one pulley, scaled.
@@ -406,7 +410,8 @@ impl OnPulley<'_> {
                 places[highest.saturating_sub(1)],
                 places[(highest + 1).min(places.len() - 1)],
             ];
-            depths[highest].max(summit(beside, depth))
+            let summit = maximum::between(&mut depth, beside, SUMMIT);
+            depths[highest].max(depth(summit))
         });
         deepest.fold(0.0, f64::max) * self.radius
     }
@@ -422,27 +427,6 @@ fn halved([mut from, mut to]: [f64; 2], mut is_so: impl FnMut(f64) -> bool) -> f
         }
     }
     to
-}
-
-/// The largest value between two places with one summit between them, by golden sections. Near it the value changes by
-/// the square of the distance, so that a millionth of the way is enough.
-fn summit([mut from, mut to]: [f64; 2], mut value: impl FnMut(f64) -> f64) -> f64 {
-    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let enough = 1e-6 * (to - from);
-    let mut inner = [to - golden * (to - from), from + golden * (to - from)];
-    let mut values = inner.map(&mut value);
-    while to - from > enough {
-        if values[0] > values[1] {
-            to = inner[1];
-            inner = [to - golden * (to - from), inner[0]];
-            values = [value(inner[0]), values[0]];
-        } else {
-            from = inner[0];
-            inner = [inner[1], from + golden * (to - from)];
-            values = [values[1], value(inner[1])];
-        }
-    }
-    values[0].max(values[1])
 }
 
 /// Calls `visit(s, weight, y)` at the points of a rule that integrates over s on a segment.

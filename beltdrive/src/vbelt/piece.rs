@@ -44,7 +44,8 @@ const MAX_INTERVALS: usize = 4000;
 /// The longest step, where the range of the entry counts as one.
 const LARGEST_STEP: f64 = 0.15;
 
-/// A branch whose steps become shorter than this leads to a place that it does not pass.
+/// A branch whose steps become shorter than this leads to a place that it does not pass. Down to 1e-8 one of 60 branches from
+/// light loads takes 14 s in place of 3 s, and the limit of one of 60 drives with vector EPP friction is not found.
 const SMALLEST_STEP: f64 = 1e-6;
 /// The first step of a piece.
 const FIRST_STEP: f64 = 0.05;
