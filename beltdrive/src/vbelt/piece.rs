@@ -16,6 +16,7 @@ use crate::results::difficulty;
 use crate::{BranchEnd, Drive, EventKind, LeastSlip, Role};
 use bvp::{Control, Family, Scheme};
 use continuation::{Branch, Direction, Kind, Options, Point, Stop};
+use std::f64::consts::FRAC_PI_2;
 
 /// ℓ/R where the belt hardly slips somewhere, and where it slips everywhere. With 1e-10 in the first case rounding
 /// errors of the slip asked for up to 3000 mesh intervals; with 1e-8 in the second limits were off by up to 3e-7.
@@ -365,9 +366,10 @@ impl Tracer<'_> {
         }
     }
 
-    /// Whether the belt locks on both pulleys. Then every number of the drive follows from an equation of its own, which rises
-    /// with that number (see `locked`), so that the state has no limit point. That of the equations is where the slip of a turn
-    /// changes its sense: behind it the direction of friction turns the other way round, and that state is another one.
+    /// Whether the belt locks on both pulleys and overhangs on none. Then every number of the drive follows from an equation of
+    /// its own (see `locked`), and a limit point is where the slip of a turn changes its sense: behind it the direction of
+    /// friction turns the other way round, and that state is another one. At the limits of 60 random drives with Coulomb
+    /// friction a pulley slips by more than 1e-3 or the belt overhangs.
     fn locks(&self, point: &Point, here: &Solved) -> bool {
         let drive = self.drive_at(self.value(point.lambda()));
         let state = describe(&Path::new(&drive, self.tolerance), here);
@@ -375,6 +377,7 @@ impl Tracer<'_> {
         pulleys.iter().all(|pulley| {
             let least = pulley.least_slip;
             least.is_some_and(|least| least.slip < LeastSlip::LOCKED)
+                && pulley.inclination[1] < FRAC_PI_2
         })
     }
 
