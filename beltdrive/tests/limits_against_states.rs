@@ -279,6 +279,12 @@ fn a_branch_from_a_light_load_reaches_the_limit() {
 }
 
 #[test]
+fn a_branch_with_bristles_takes_short_steps_at_light_loads() {
+    // At 617 N, 1.02 of the slack tension.
+    assert_branch_agrees(3, 777, 40);
+}
+
+#[test]
 fn a_mesh_interval_as_short_as_rounding_is_searched_for_its_deepest_place() {
     // Behind the limit point at 19 337 N.
     assert_branch_agrees(2, 777, 3);

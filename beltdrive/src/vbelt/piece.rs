@@ -46,7 +46,8 @@ const MAX_INTERVALS: usize = 4000;
 const LARGEST_STEP: f64 = 0.15;
 
 /// A branch whose steps become shorter than this leads to a place that it does not pass. Down to 1e-8 one of 60 branches from
-/// light loads takes 14 s in place of 3 s, and the limit of one of 60 drives with vector EPP friction is not found.
+/// light loads takes 14 s in place of 3 s, and the limit of one of 60 drives with vector EPP friction is not found. Bristles take
+/// steps as short as that at light loads: with 1e-6 three of 60 of their branches end.
 const SMALLEST_STEP: f64 = 1e-6;
 /// The first step of a piece.
 const FIRST_STEP: f64 = 0.05;
@@ -112,16 +113,20 @@ pub(super) fn steps(tolerance: f64, problem: &DriveProblem, [low, high]: [f64; 2
         true => ACCURACY_OF_DIRECTION,
         false => ACCURACY,
     };
+    let usual = Options::within(low, high);
     Options {
         largest_step: LARGEST_STEP,
         first_step: FIRST_STEP,
-        smallest_step: SMALLEST_STEP,
+        smallest_step: match problem.law() {
+            Law::Bristle { .. } => usual.smallest_step,
+            _ => SMALLEST_STEP,
+        },
         steps: MAX_STEPS,
         accuracy: accuracy * tolerance,
         location: LOCATION,
         // Of 300 random drives with bristles that lock the limits of six were not found with them, in 600 steps.
         branch_points: false,
-        ..Options::within(low, high)
+        ..usual
     }
 }
 
