@@ -122,19 +122,11 @@ fn branch_faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
     (seconds, fault.into_iter().collect())
 }
 
-/// Prints the score of `count` drives with a law, and returns how many have a fault.
-fn survey(number: usize, count: usize, seed: u64, only: Option<usize>) -> usize {
-    survey_of(faults, number, count, seed, only)
-}
+/// The time of an examination, s, and what is wrong with a drive.
+type Faults = fn(&TwoPulleys) -> (f64, Vec<String>);
 
-/// As [`survey`], of faults of any kind.
-fn survey_of(
-    faults: fn(&TwoPulleys) -> (f64, Vec<String>),
-    number: usize,
-    count: usize,
-    seed: u64,
-    only: Option<usize>,
-) -> usize {
+/// Prints the score of `count` drives with a law, and returns how many have a fault.
+fn survey(faults: Faults, number: usize, count: usize, seed: u64, only: Option<usize>) -> usize {
     let mut random = Random(seed);
     let (mut wrong, mut times) = (0, Vec::new());
     for index in 0..count {
@@ -167,31 +159,29 @@ fn survey_of(
 }
 
 /// Asserts that one drive of a survey has no fault.
-fn assert_agrees(number: usize, seed: u64, index: usize) {
-    let faulty = survey(number, index + 1, seed + number as u64, Some(index));
+fn assert_faultless(faults: Faults, number: usize, seed: u64, index: usize) {
+    let faulty = survey(faults, number, index + 1, seed + number as u64, Some(index));
     assert_eq!(faulty, 0);
+}
+
+/// Asserts that the limits of one drive of a survey agree with states.
+fn assert_agrees(number: usize, seed: u64, index: usize) {
+    assert_faultless(faults, number, seed, index);
 }
 
 /// Asserts that the branch of one drive of a survey reaches the limit.
 fn assert_branch_agrees(number: usize, seed: u64, index: usize) {
-    let faulty = survey_of(
-        branch_faults,
-        number,
-        index + 1,
-        seed + number as u64,
-        Some(index),
-    );
-    assert_eq!(faulty, 0);
+    assert_faultless(branch_faults, number, seed, index);
 }
 
 #[test]
 fn limits_with_bristles_agree_with_states() {
-    assert_eq!(survey(3, 5, SEED + 3, None), 0);
+    assert_eq!(survey(faults, 3, 5, SEED + 3, None), 0);
 }
 
 #[test]
 fn limits_with_coulomb_friction_agree_with_states() {
-    assert_eq!(survey(0, 2, SEED, None), 0);
+    assert_eq!(survey(faults, 0, 2, SEED, None), 0);
 }
 
 #[test]
@@ -338,12 +328,12 @@ fn stiff_scalar_elastic_friction_has_the_limit_of_coulomb_friction() {
 
 /// Prints the score of as many drives as `DRIVES` says, 60 by default, with the law of the number `LAW`, or all; or of
 /// that of the index `ONLY`.
-fn score(faults: fn(&TwoPulleys) -> (f64, Vec<String>)) {
+fn score(faults: Faults) {
     let number = |name: &str| std::env::var(name).ok()?.parse().ok();
     let count = number("DRIVES").unwrap_or(60);
     let seed = number("SEED").map_or(SEED, |seed| seed as u64);
     for law in (0..4).filter(|&law| number("LAW").is_none_or(|asked| asked == law)) {
-        survey_of(faults, law, count, seed + law as u64, number("ONLY"));
+        survey(faults, law, count, seed + law as u64, number("ONLY"));
     }
 }
 

@@ -193,10 +193,10 @@ pub(super) fn friction_zones(samples: &[Sample], length: f64) -> Vec<Zone> {
     merge_short(zones, length)
 }
 
-/// Gives short zones of a contact of this length to their neighbours and joins zones of one kind. A slip zone at the exit stays: with
-/// soft friction it may be as short as 1e-6 of the contact, and without it the normal force is negative there. So does an
-/// elastic zone at the entry, which is short with stiff friction, if it is long enough to be looked for: where it vanishes
-/// along a branch something of its length is left.
+/// Gives short zones of a contact of this length to their neighbours and joins zones of one kind. A slip zone at the exit
+/// stays: with soft friction it may be as short as 1e-6 of the contact, and without it the normal force is negative there. So
+/// does an elastic zone at the entry, which is short with stiff friction, if it is long enough to be looked for: where it
+/// vanishes along a branch something of its length is left.
 fn merge_short(zones: Vec<Zone>, length: f64) -> Vec<Zone> {
     let shorter = |zone: &Zone, share: f64| zone.to - zone.from < share * length;
     let is_short = |zone: &Zone, stays: bool| !stays && shorter(zone, SHORTEST_ZONE);
