@@ -52,18 +52,18 @@ pub(crate) fn next_mesh(
                 .collect();
             return split(nodes, &pieces);
         }
-        let mut density: Vec<f64> = cuts
+        let lengths: Vec<f64> = cuts
             .iter()
             .zip(nodes.windows(2))
-            .map(|(cut, pair)| cut / (pair[1] - pair[0]))
+            .map(|(cut, pair)| (pair[1] - pair[0]) / cut)
             .collect();
-        grade(&mut density, grading);
+        let (nodes, density) = &graded(nodes, &lengths, grading);
         let total: f64 = density
             .iter()
             .zip(nodes.windows(2))
             .map(|(density, pair)| density * (pair[1] - pair[0]))
             .sum();
-        equidistribute(nodes, &density, ceil(total).clamp(2, MOST))
+        equidistribute(nodes, density, ceil(total).clamp(2, MOST))
     };
     mesh.iter().zip(defects).map(next).collect()
 }
@@ -144,14 +144,60 @@ fn wanted(r: f64, tolerance: f64, m: usize) -> f64 {
     cut.clamp(least, LARGEST_CUT)
 }
 
-/// Raises densities until neighbours differ by at most a factor.
-fn grade(density: &mut [f64], grading: f64) {
-    for i in 1..density.len() {
-        density[i] = density[i].max(density[i - 1] / grading);
+/// The density of nodes, piecewise constant between places of its own, for intervals of these `lengths` on a mesh that differ
+/// from their neighbours by a factor g at most.
+///
+/// Beside an interval of length h others may be g h, g² h, … long. Where the length is c h + σ ln g at the distance σ from
+/// its end, with c = g ln g/(g − 1), each of them has the share ∫ dσ/(c h + σ ln g) = 1. The length at a place is the least
+/// that the intervals before it and behind it, and its own, ask for.
+fn graded(nodes: &[f64], lengths: &[f64], g: f64) -> (Vec<f64>, Vec<f64>) {
+    let (slope, c) = (g.ln(), g * g.ln() / (g - 1.0));
+    // What the intervals behind each ask for at its end.
+    let mut behind = vec![f64::INFINITY; lengths.len()];
+    for i in (1..lengths.len()).rev() {
+        let passed = behind[i] + slope * (nodes[i + 1] - nodes[i]);
+        behind[i - 1] = passed.min(c * lengths[i]);
     }
-    for i in (1..density.len()).rev() {
-        density[i - 1] = density[i - 1].max(density[i] / grading);
+    let (mut places, mut density) = (vec![nodes[0]], vec![]);
+    let mut before = f64::INFINITY;
+    for ((pair, &length), behind) in nodes.windows(2).zip(lengths).zip(behind) {
+        let passed = before + slope * (pair[1] - pair[0]);
+        let top = length.min(0.5 * (behind + passed));
+        let mut until = |end: f64, value: f64| {
+            let end = end.min(pair[1]);
+            if end > places[places.len() - 1] {
+                places.push(end);
+                density.push(value);
+            }
+        };
+        let mut s = pair[0];
+        for (width, value) in ramp(before, top, g) {
+            s += width;
+            until(s, value);
+        }
+        let fall = ramp(behind, top, g);
+        s = pair[1] - fall.iter().map(|(width, _)| width).sum::<f64>();
+        until(s, 1.0 / top);
+        for (width, value) in fall.into_iter().rev() {
+            s += width;
+            until(s, value);
+        }
+        until(pair[1], 1.0 / top);
+        before = passed.min(c * length);
     }
+    (places, density)
+}
+
+/// Places along which the length of intervals rises with the slope ln g: their widths and mean densities of nodes.
+fn ramp(from: f64, to: f64, g: f64) -> Vec<(f64, f64)> {
+    let mut pieces = vec![];
+    let mut low = from;
+    while low < to {
+        let high = to.min(g * low);
+        pieces.push(((high - low) / g.ln(), (high / low).ln() / (high - low)));
+        low = high;
+    }
+    pieces
 }
 
 #[cfg(test)]
@@ -234,10 +280,45 @@ mod tests {
         assert!(!is_wasteful(&defects(0.51), tolerance, 4));
     }
 
+    /// Lengths of the intervals of the mesh that has the density of `graded`.
+    fn lengths_of(nodes: &[f64], lengths: &[f64], g: f64) -> Vec<f64> {
+        let (places, density) = graded(nodes, lengths, g);
+        assert_eq!(
+            (places.first(), places.last()),
+            (nodes.first(), nodes.last())
+        );
+        assert!(places.is_sorted_by(|a, b| a < b));
+        let widths = places.windows(2).map(|pair| pair[1] - pair[0]);
+        let total: f64 = widths
+            .zip(&density)
+            .map(|(width, density)| width * density)
+            .sum();
+        let mesh = equidistribute(&places, &density, ceil(total));
+        mesh.windows(2).map(|pair| pair[1] - pair[0]).collect()
+    }
+
     #[test]
     fn neighbouring_intervals_are_graded() {
-        let mut density = [1.0, 1.0, 100.0, 1.0];
-        grade(&mut density, 2.5);
-        assert_eq!(density, [16.0, 40.0, 100.0, 40.0]);
+        // Long intervals beside and between short ones: 1, 3, 9, … from each of these.
+        for (nodes, lengths) in [
+            (vec![0.0, 1.0, 400.0], vec![1.0, 399.0]),
+            (vec![-400.0, -1.0, 0.0], vec![399.0, 1.0]),
+            (vec![0.0, 1.0, 400.0, 401.0], vec![1.0, 399.0, 1.0]),
+        ] {
+            let widths = lengths_of(&nodes, &lengths, 3.0);
+            let shorts = lengths.len() - 1;
+            let steps = (2.0 * 399.0 / shorts as f64 / 3.0 + 1.0_f64).ln() / 3.0_f64.ln();
+            let fewest = steps * shorts as f64 + shorts as f64;
+            assert!((widths.len() as f64) < fewest + 2.0, "{widths:?}");
+            let ratios = widths.windows(2).map(|pair| pair[1] / pair[0]);
+            let largest = ratios
+                .map(|ratio| ratio.max(1.0 / ratio))
+                .fold(0.0, f64::max);
+            assert!(largest < 1.3 * 3.0, "{widths:?}");
+        }
+        // Lengths that differ by less than c stay.
+        let (places, density) = graded(&[0.0, 1.0, 3.0, 5.0], &[0.5, 0.8, 0.625], 3.0);
+        assert_eq!(places, [0.0, 1.0, 3.0, 5.0]);
+        assert_eq!(density, [2.0, 1.25, 1.6]);
     }
 }

@@ -70,5 +70,5 @@ fn work_of_a_boundary_layer() {
         let stats = solution.stats();
         [stats.factorisations, stats.meshes, intervals(&solution)]
     });
-    assert_eq!(work, [[3, 3, 9], [3, 3, 16], [4, 4, 41]]);
+    assert_eq!(work, [[3, 3, 11], [3, 3, 17], [4, 4, 30]]);
 }
