@@ -266,7 +266,7 @@ pub(super) fn in_groove<S: Real, T: Over<S>>(
     zero(entry[ANGLE]);
     let law = match groove.law {
         Law::Sliding { .. } => {
-            zero(contact(zones.start, entry).misalignment(entry));
+            zero(contact(zones.start, entry).misalignment());
             &entry[LAW + 1..]
         }
         Law::Vector { .. } => {

@@ -54,6 +54,9 @@ pub(crate) struct Contact<T> {
     pub(crate) slip: [T; 2],
     /// Normalised slip |e|.
     pub(crate) slip_norm: T,
+    /// Direction of friction along the pulley and up the groove face: sine and cosine of the angle of sliding friction,
+    /// normalised slip, or the state of bristles and of vector EPP friction.
+    direction: [T; 2],
     /// Transverse load k x of both faces.
     pub(crate) transverse: T,
     /// Normal load p of each face per length.
@@ -99,15 +102,20 @@ impl<T: Real> Contact<T> {
 
         let transverse = penetration * groove.radial_stiffness;
         let half_load = transverse * 0.5;
+        let direction = match groove.law {
+            Law::Normalised { .. } => [slip_t / slip_norm, slip_w / slip_norm],
+            Law::Sliding { .. } => state[LAW].sin_cos().into(),
+            Law::Bristle { .. } | Law::Vector { .. } => [state[LAW], state[LAW + 1]],
+        };
+        let mu = groove.friction_coefficient;
         let traction = match groove.law {
             Law::Bristle { .. } | Law::Vector { .. } => {
-                let mu = groove.friction_coefficient;
-                let slipping = groove.pressure(half_load, state[LAW + 1]);
+                let slipping = groove.pressure(half_load, direction[1]);
                 let carrying = match groove.elastic() {
                     Some(_) => groove.friction(regime, state, slipping * mu) / mu,
                     None => slipping,
                 };
-                [state[LAW] * carrying, state[LAW + 1] * carrying]
+                direction.map(|d| d * carrying)
             }
             _ if regime == Regime::Stick => {
                 // The outward load n is F/r, which keeps the inclination.
@@ -117,11 +125,6 @@ impl<T: Real> Contact<T> {
                 [T::from_f64(0.0), up]
             }
             Law::Normalised { .. } | Law::Sliding { .. } => {
-                let direction = match groove.law {
-                    Law::Sliding { .. } => state[LAW].sin_cos().into(),
-                    _ => [slip_t / slip_norm, slip_w / slip_norm],
-                };
-                let mu = groove.friction_coefficient;
                 let limit = groove.pressure(half_load, direction[1] * mu) * mu;
                 let friction = groove.friction(regime, state, limit);
                 direction.map(|d| d * friction)
@@ -138,6 +141,7 @@ impl<T: Real> Contact<T> {
             cos_theta,
             slip: [slip_t, slip_w],
             slip_norm,
+            direction,
             transverse,
             pressure,
             traction,
@@ -165,10 +169,12 @@ impl<T: Real> Contact<T> {
             Law::Normalised { .. } => {}
             Law::Sliding { .. } if self.regime == Regime::Stick => rates[LAW] = T::from_f64(0.0),
             Law::Sliding { lag, lead, .. } => {
-                let turning = self.across(self.slip_rates(groove, rates), state);
+                let direction = self.direction;
+                let turning = across(self.slip_rates(groove, rates), direction);
                 // |e| cos² of half the angle between slip and traction: |e| but where they are opposed.
-                let weight = (self.slip_norm + self.alignment(state)) * 0.5;
-                rates[LAW] = (self.misalignment(state) + turning * lead) / (weight * lead + lag);
+                let aligned = self.slip[0] * direction[0] + self.slip[1] * direction[1];
+                let weight = (self.slip_norm + aligned) * 0.5;
+                rates[LAW] = (self.misalignment() + turning * lead) / (weight * lead + lag);
             }
             Law::Bristle { stiffness, .. } => {
                 let saturation = self.slip_norm / groove.friction_coefficient;
@@ -201,22 +207,9 @@ impl<T: Real> Contact<T> {
         ]
     }
 
-    /// Component of a vector in the groove face across the direction γ of the traction, positive where γ
-    /// has to grow to follow it.
-    fn across(&self, [t, w]: [T; 2], state: &[T]) -> T {
-        let (sin, cos) = state[LAW].sin_cos();
-        t * cos - w * sin
-    }
-
-    /// Slip along the direction of the traction.
-    fn alignment(&self, state: &[T]) -> T {
-        let (sin, cos) = state[LAW].sin_cos();
-        self.slip[0] * sin + self.slip[1] * cos
-    }
-
     /// Slip across the direction of the traction.
-    pub(super) fn misalignment(&self, state: &[T]) -> T {
-        self.across(self.slip, state)
+    pub(super) fn misalignment(&self) -> T {
+        across(self.slip, self.direction)
     }
 
     /// Excess of the traction up the groove face over half of what lies between that which lets the
@@ -277,6 +270,12 @@ impl<T: Real> Contact<T> {
         };
         along.atan2(up * groove.cos_beta)
     }
+}
+
+/// Component of a vector in the groove face across the direction γ of the traction, given by its sine and cosine, positive
+/// where γ has to grow to follow it.
+fn across<T: Real>([t, w]: [T; 2], [sin, cos]: [T; 2]) -> T {
+    t * cos - w * sin
 }
 
 /// Share of friction along the pulley at which the belt breaks away. Smaller than the directions of zones in which
@@ -487,7 +486,7 @@ pub(super) mod tests {
         let sliding = contact(law, 0.0, Regime::Slip, &state);
         assert!((sliding.outward - coulomb.outward).abs() < 1e-14);
         assert!((sliding.retarding - coulomb.retarding).abs() < 1e-14);
-        assert!(sliding.misalignment(&state).abs() < 1e-15);
+        assert!(sliding.misalignment().abs() < 1e-15);
     }
 
     #[test]
@@ -520,7 +519,7 @@ pub(super) mod tests {
             let mut rates = [0.0; 5];
             let here = Contact::new(&groove, Regime::Slip, &state, OMEGA, FLOW);
             here.rates(&groove, &state, &mut rates);
-            let turning = here.across(here.slip_rates(&groove, &rates), &state);
+            let turning = across(here.slip_rates(&groove, &rates), here.direction);
             (here, rates[LAW], turning)
         };
         // Along the slip it turns as the slip does, but for ℓ against τ |e|.
