@@ -41,6 +41,8 @@ const SLOW: f64 = 0.5;
 const CREEP: f64 = 0.01;
 /// Step in the logarithm of the contact length that tells on which side.
 const SIDE_STEP: f64 = 1e-4;
+/// Rough states with larger differences of their constants from a state are others.
+const SAME: f64 = 1e-3;
 /// Relative accuracy of a limit.
 const LIMIT_ACCURACY: f64 = 1e-7;
 
@@ -138,16 +140,38 @@ impl Path<'_> {
     }
 
     /// Whether the branch can be followed from a state up to its limit.
-    ///
-    /// One that slips beyond the capstan may be of other states, to which no load leads from rest: those of one random
-    /// drive end at 26.3 kN, and others go from 2.3 kN, where the driven pulley stands, to beyond 60 kN.
     pub(super) fn is_below_limit(&mut self, solved: &Solved) -> bool {
-        solved.driven_speed() > 0.0 && !slips_beyond_capstan(solved) && self.is_before_limit(solved)
+        !may_be_another(solved) && self.is_before_limit(solved)
+    }
+
+    /// Whether a rising load leads from rest to a state that may be another: lowered until the state may not, by which the
+    /// driven pulley becomes faster with every step, it leads back to it.
+    pub(super) fn is_reached(&mut self, solved: &Solved) -> bool {
+        let target = solved.tight_tension().ln();
+        let slack = self.drive.pair().load.slack.value() / self.scales().units.force;
+        let member = |problem: &DriveProblem, t: f64| problem.clone().with_tight_tension(t.exp());
+        let (mut here, mut load) = (solved.clone(), target);
+        while slack.ln() < load - LOAD_STEP {
+            let range = [load, load - LOAD_STEP];
+            let Ok(lower) = self.follow(here.clone(), range, LOAD_STEP, Effort::Rough, member)
+            else {
+                return false;
+            };
+            if lower.driven_speed() <= here.driven_speed() {
+                return false;
+            }
+            (here, load) = (lower, load - LOAD_STEP);
+            if self.is_below_limit(&here) {
+                let back = self.follow(here, [load, target], LOAD_STEP, Effort::Rough, member);
+                return back.is_ok_and(|back| back.change_to(&solved.constants()) <= SAME);
+            }
+        }
+        false
     }
 
     /// Whether the tension rises with the contact length of the driver, as it does from no load to
     /// the first limit point. Looked at only where a limit point can be near.
-    fn is_before_limit(&mut self, solved: &Solved) -> bool {
+    pub(super) fn is_before_limit(&mut self, solved: &Solved) -> bool {
         let steep = solved.exit(DRIVER)[INCLINATION] > STEEP;
         if !steep && !is_slow(solved) {
             return true;
@@ -307,11 +331,16 @@ impl Path<'_> {
     }
 }
 
+/// Whether a state may be one of those to which no load leads from rest.
+pub(super) fn may_be_another(solved: &Solved) -> bool {
+    is_slow(solved) || slips_beyond_capstan(solved)
+}
+
 /// Whether the driven pulley has lost more than half of its speed.
 ///
 /// It may stand at one load and turn at a larger one again, to which no load leads from rest: that of one random drive stops at
 /// 1418 N, and turns at up to a quarter of its speed from 1917 to 2320 N.
-pub(super) fn is_slow(solved: &Solved) -> bool {
+fn is_slow(solved: &Solved) -> bool {
     solved.driven_speed() <= SLOW
 }
 
@@ -322,7 +351,9 @@ pub(super) fn is_slow(solved: &Solved) -> bool {
 /// |ln(F_out/F_in)| > μ φ/sin β
 /// ```
 ///
-/// Then its own friction presses the belt into the groove.
+/// Then its own friction presses the belt into the groove. Such states of one random drive end at 26.3 kN, and others go from
+/// 2.3 kN, where the driven pulley stands, to beyond 60 kN; states with as much slip are also reached from rest, as those of the
+/// drive of Kim (2009) from 5.7 kN on.
 fn slips_beyond_capstan(solved: &Solved) -> bool {
     [DRIVEN, DRIVER].into_iter().any(|pulley| {
         let on = solved.on_pulley(pulley);

@@ -2,7 +2,7 @@
 
 use super::by_branch::by_branch;
 use super::found::{carried, checked};
-use super::limit::{Found, is_slow};
+use super::limit::{Found, may_be_another};
 use super::path::{Path, Stuck};
 use crate::{Drive, SolveError, SolveOptions, SteadyState};
 use std::mem::discriminant;
@@ -15,12 +15,12 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
     let tolerance = options.tolerance;
     let mut path = Path::new(drive, tolerance);
     let direct = match path.at_load(path.target()) {
-        Ok(solved) if path.is_below_limit(&solved) => {
-            let may_be_beyond = is_slow(&solved);
+        Ok(solved) if solved.driven_speed() > 0.0 && path.is_before_limit(&solved) => {
+            let is_sure = !may_be_another(&solved) || path.is_reached(&solved);
             match checked(&path, solved, start) {
                 fault @ Err(SolveError::Violated(_) | SolveError::Impossible(_)) => Some(fault),
-                state if may_be_beyond => Some(state),
-                answer => return answer,
+                answer if is_sure => return answer,
+                answer => Some(answer),
             }
         }
         _ => None,

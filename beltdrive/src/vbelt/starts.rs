@@ -1,6 +1,5 @@
 //! States of a drive under other loads, from which the branch of its load is followed.
 
-use super::limit::is_slow;
 use super::path::{Path, Solved};
 use crate::Drive;
 use crate::input::Key;
@@ -55,7 +54,7 @@ impl StartLoad {
             true => search.with_direction(),
             false => search.start(),
         };
-        let found = found.filter(|solved| search.is_below_limit(solved) && !is_slow(solved));
+        let found = found.filter(|solved| search.is_below_limit(solved));
         path.stats += search.stats;
         path.problems += search.problems;
         found.map(|solved| (near, solved))
