@@ -339,7 +339,8 @@ pub(super) fn may_be_another(solved: &Solved) -> bool {
 /// Whether the driven pulley has lost more than half of its speed.
 ///
 /// It may stand at one load and turn at a larger one again, to which no load leads from rest: that of one random drive stops at
-/// 1418 N, and turns at up to a quarter of its speed from 1917 to 2320 N.
+/// 1418 N, and turns at up to a quarter of its speed from 1917 to 2320 N. That of the drive of Kim (2009) with Coulomb friction
+/// is slow from 5.8 kN on, and a rising load leads to all these states.
 fn is_slow(solved: &Solved) -> bool {
     solved.driven_speed() <= SLOW
 }
@@ -351,9 +352,8 @@ fn is_slow(solved: &Solved) -> bool {
 /// |ln(F_out/F_in)| > μ φ/sin β
 /// ```
 ///
-/// Then its own friction presses the belt into the groove. Such states of one random drive end at 26.3 kN, and others go from
-/// 2.3 kN, where the driven pulley stands, to beyond 60 kN; states with as much slip are also reached from rest, as those of the
-/// drive of Kim (2009) from 5.7 kN on.
+/// Then its own friction presses the belt into the groove. The states of one random drive that are reached from rest end at
+/// 26.3 kN, and others, with such slip, go from 2.3 kN, where the driven pulley stands, to beyond 60 kN.
 fn slips_beyond_capstan(solved: &Solved) -> bool {
     [DRIVEN, DRIVER].into_iter().any(|pulley| {
         let on = solved.on_pulley(pulley);

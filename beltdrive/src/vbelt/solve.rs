@@ -13,7 +13,7 @@ use web_time::Instant;
 pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
     let tolerance = options.tolerance;
-    let mut path = Path::new(drive, tolerance);
+    let mut path = Path::new(drive, tolerance).for_error();
     let direct = match path.at_load(path.target()) {
         Ok(solved) if solved.driven_speed() > 0.0 && path.is_before_limit(&solved) => {
             let is_sure = !may_be_another(&solved) || path.is_reached(&solved);
@@ -25,6 +25,8 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
         }
         _ => None,
     };
+    // Beside the ends of contacts the pressure, which may not be negative, may need a small defect.
+    path.for_error = false;
     if let Some(answer) = by_branch(&mut path, start).or(direct) {
         return answer;
     }
@@ -47,7 +49,7 @@ pub(crate) fn solve_from(
     if law(drive) != law(&neighbour.drive) || tolerance < neighbour.convergence.tolerance {
         return solve(drive, options);
     }
-    let mut path = Path::new(drive, tolerance);
+    let mut path = Path::new(drive, tolerance).for_error();
     path.smoothing_effect = neighbour.convergence.slip_normalisation_effect;
     match path.neighbour(solved) {
         Ok(solved) => {
