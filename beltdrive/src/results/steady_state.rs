@@ -268,7 +268,8 @@ impl Check {
 pub struct Convergence {
     /// Relative tolerance asked for.
     pub tolerance: f64,
-    /// Largest relative defect of the profiles in the differential equations.
+    /// Largest relative defect of the profiles in the differential equations. With Coulomb friction, whose meshes are for the
+    /// error, it may be above the tolerance.
     pub defect: f64,
     /// Estimated largest relative error of all profiles and constants.
     pub error_estimate: f64,
