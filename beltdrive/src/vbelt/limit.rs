@@ -109,7 +109,7 @@ impl Path<'_> {
             // The effect of ℓ or ε belongs to the state.
             beyond_or_stuck => beyond_or_stuck.map(|solved| (solved, self.smoothing_effect)),
         };
-        let slack = self.drive.pair().load.slack.value() / self.scales().units.force;
+        let slack = self.slack();
         let ratio = target / slack;
         let smaller = SMALLER_LOADS.map(|share| slack * ratio.powf(share));
         let larger = LARGER_LOADS.map(|factor| target * factor);
@@ -148,10 +148,9 @@ impl Path<'_> {
     /// driven pulley becomes faster with every step, it leads back to it.
     pub(super) fn is_reached(&mut self, solved: &Solved) -> bool {
         let target = solved.tight_tension().ln();
-        let slack = self.drive.pair().load.slack.value() / self.scales().units.force;
         let member = |problem: &DriveProblem, t: f64| problem.clone().with_tight_tension(t.exp());
         let (mut here, mut load) = (solved.clone(), target);
-        while slack.ln() < load - LOAD_STEP {
+        while self.slack().ln() < load - LOAD_STEP {
             let range = [load, load - LOAD_STEP];
             let Ok(lower) = self.follow(here.clone(), range, LOAD_STEP, Effort::Rough, member)
             else {

@@ -283,6 +283,11 @@ impl Path<'_> {
         Scales::new(&self.drive.pair())
     }
 
+    /// The scaled slack tension of the drive.
+    pub(super) fn slack(&self) -> f64 {
+        self.drive.pair().load.slack.value() / self.scales().units.force
+    }
+
     /// The scaled tight tension of the drive.
     pub(super) fn target(&self) -> f64 {
         self.drive.pair().load.tight.value() / self.scales().units.force
