@@ -248,13 +248,14 @@ impl<'a> Path<'a> {
         guess: &dyn bvp::Guess,
         effort: Effort,
     ) -> Result<Solved<P>, bvp::Error> {
+        let effort = match problem.law() {
+            Law::Sliding { elastic: None, .. } if self.for_error && effort == Effort::Final => {
+                Effort::Close
+            }
+            _ => effort,
+        };
         let mut options = effort.options(self.tolerance);
         options.max_intervals = options.max_intervals.max(intervals(guess));
-        if let (Effort::Final, true, Law::Sliding { elastic: None, .. }) =
-            (effort, self.for_error, problem.law())
-        {
-            options.control = Control::Error;
-        }
         let outcome = bvp::solve(&problem, guess, &options);
         self.count(&outcome);
         outcome.map(|solution| Solved { problem, solution })
