@@ -19,8 +19,8 @@ const SHORTER: f64 = 0.7;
 /// Neighbouring intervals may differ in length by about this factor. With 3 one of 28 branches of the
 /// perturbed problem of Bratu ended early.
 pub(crate) const GRADING: f64 = 2.5;
-/// The same where the mesh is made for the error. With 2.5 two more of 1500 random problems with jumps were
-/// solved wrongly.
+/// The same where the mesh is made for the error. With 2.5 another 92 of 7500 random problems with jumps were
+/// solved, but boundary-layer equations on a mapped infinite interval were not at 1e-9, nor one of those branches.
 pub(crate) const GRADING_BY_ERROR: f64 = 3.0;
 /// Where at most this share of the intervals is too long, only they are cut: without this 150 random shocks
 /// took 55 % more factorisations.
@@ -54,13 +54,8 @@ pub(crate) fn next_mesh(
             .zip(nodes.windows(2))
             .map(|(cut, pair)| (pair[1] - pair[0]) / cut)
             .collect();
-        let (nodes, density) = &graded(nodes, &lengths, grading);
-        let total: f64 = density
-            .iter()
-            .zip(nodes.windows(2))
-            .map(|(density, pair)| density * (pair[1] - pair[0]))
-            .sum();
-        equidistribute(nodes, density, ceil(total).max(2))
+        let (nodes, density) = graded(nodes, &lengths, grading);
+        equidistribute(&nodes, &density)
     };
     mesh.iter().zip(defects).map(next).collect()
 }
@@ -285,12 +280,7 @@ mod tests {
             (nodes.first(), nodes.last())
         );
         assert!(places.is_sorted_by(|a, b| a < b));
-        let widths = places.windows(2).map(|pair| pair[1] - pair[0]);
-        let total: f64 = widths
-            .zip(&density)
-            .map(|(width, density)| width * density)
-            .sum();
-        let mesh = equidistribute(&places, &density, ceil(total));
+        let mesh = equidistribute(&places, &density);
         mesh.windows(2).map(|pair| pair[1] - pair[0]).collect()
     }
 

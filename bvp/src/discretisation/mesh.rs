@@ -56,11 +56,12 @@ pub(crate) fn split(nodes: &[f64], pieces: &[usize]) -> Vec<f64> {
     refined
 }
 
-/// Places `intervals` intervals so that each holds the same share of the piecewise constant
-/// `density` (one positive number per old interval).
-pub(crate) fn equidistribute(nodes: &[f64], density: &[f64], intervals: usize) -> Vec<f64> {
+/// The intervals that the piecewise constant `density` asks for (one positive number per old interval, intervals
+/// per length), two at least, so that each holds the same share of it.
+pub(crate) fn equidistribute(nodes: &[f64], density: &[f64]) -> Vec<f64> {
     let share = |i: usize| density[i] * (nodes[i + 1] - nodes[i]);
     let total: f64 = (0..density.len()).map(share).sum();
+    let intervals = ceil(total).max(2);
     let mut placed = Vec::with_capacity(intervals + 1);
     placed.push(nodes[0]);
     let (mut old, mut passed) = (0, 0.0);
@@ -119,7 +120,7 @@ mod tests {
     #[test]
     fn equidistribution_gives_every_interval_the_same_share() {
         let nodes = [0.0, 0.5, 1.0];
-        let placed = equidistribute(&nodes, &[3.0, 1.0], 4);
+        let placed = equidistribute(&nodes, &[6.0, 2.0]);
         let expected = [0.0, 1.0 / 6.0, 1.0 / 3.0, 0.5, 1.0];
         for (found, exact) in placed.iter().zip(expected) {
             assert!((found - exact).abs() < 1e-15, "{placed:?}");
