@@ -1,7 +1,7 @@
 //! Coulomb friction whose direction is a state.
 //!
-//! The direction follows the slip over a length ℓ, without a lead at first, which is what Newton's method
-//! likes, and with a lead from there on, which needs few mesh intervals however short ℓ is.
+//! The direction follows the slip over a length ℓ with a lead, which needs few mesh intervals however short ℓ is. Where that is not
+//! found at once it follows without a lead at first, which is what Newton's method likes.
 
 use super::Asked;
 use super::astray::Astray;
@@ -16,7 +16,7 @@ use crate::vbelt::{BeltProblem, Law};
 /// that works: 1e-3 and 1e-2 of the smallest radius for the softest bristles. A belt that locks with stiff bristles only
 /// slips with these.
 const FIRST_LAGS: [f64; 2] = [1.0, 10.0];
-/// Lengths ℓ/R at which a lead is tried, in this order. On the drive of Kim (2009) the first works from
+/// Lengths ℓ/R at which a lead is tried behind a way without one, in this order. On the drive of Kim (2009) the first works from
 /// 1.006 times the slack tension on.
 const LED_LAGS: [f64; 3] = [1e-5, 1e-6, 1e-7];
 /// ℓ/R at which the profile is first resolved to the tolerance: with 1e-7 the effect on the drive of Kim (2009) is 2e-7 to
@@ -42,9 +42,16 @@ impl Path<'_> {
     ) -> Option<Solved<A::Problem>> {
         let cut = Cut::of(bristles);
         let developed = developed_after(&bristles.problem);
+        let entry = |lag, is_led| cut.apply(asked.problem(FrictionLaw::Coulomb, lag).led(is_led));
+        if let Ok(led) = self.attempt(entry(developed, true), &cut, Effort::Rough)
+            && let Ok((sharp, gains)) = self.shorten_led(led)
+            && gains.share() <= WRONG_WAY
+            && let Ok(found) = self.finish_obeying(sharp)
+        {
+            return Some(found);
+        }
         let entered = FIRST_LAGS.into_iter().find_map(|times| {
-            let problem = asked.problem(FrictionLaw::Coulomb, times * developed);
-            let problem = cut.apply(problem.led(false));
+            let problem = entry(times * developed, false);
             self.attempt(problem, &cut, Effort::Rough).ok()
         });
         self.sharpen(entered?).ok()
@@ -103,14 +110,7 @@ impl Path<'_> {
         let led = self
             .attempt(led.clone(), &Carried(following), Effort::Rough)
             .map_err(|cause| Unled::Failed(Astray::of(&led, &cause)))?;
-        let resolved = match led.problem.sticks() {
-            true => RESOLVED_LAG_WITH_STICK,
-            false => RESOLVED_LAG,
-        };
-        let sharp = self
-            .smooth_less(led, resolved, Effort::Rough)
-            .map_err(|stuck| Unled::Failed(stuck.astray))?;
-        let gains = Gains::of(&sharp);
+        let (sharp, gains) = self.shorten_led(led).map_err(Unled::Failed)?;
         let gained = gains.share();
         if gained <= WRONG_WAY {
             return Ok(sharp);
@@ -120,6 +120,22 @@ impl Path<'_> {
             true => Unled::WrongWay(astray),
             false => Unled::Failed(astray),
         })
+    }
+
+    /// ℓ of a direction that is led shortened to its end, and what the belt gains from friction then.
+    fn shorten_led<P: BeltProblem>(
+        &mut self,
+        led: Solved<P>,
+    ) -> Result<(Solved<P>, Gains), Astray> {
+        let resolved = match led.problem.sticks() {
+            true => RESOLVED_LAG_WITH_STICK,
+            false => RESOLVED_LAG,
+        };
+        let sharp = self
+            .smooth_less(led, resolved, Effort::Rough)
+            .map_err(|stuck| stuck.astray)?;
+        let gains = Gains::of(&sharp);
+        Ok((sharp, gains))
     }
 }
 
