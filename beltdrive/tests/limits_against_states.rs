@@ -7,8 +7,8 @@ mod random;
 mod wide_family;
 
 use beltdrive::{
-    Belt, BeltKind, Drive, EventKind, FrictionLaw, Load, RangeEnd, SolveError, SolveOptions,
-    SpanTension, TwoPulleys, VBelt, input::Key, limits, solve, trace,
+    Belt, BeltKind, Drive, EventKind, FrictionLaw, LimitReason, Load, RangeEnd, SolveError,
+    SolveOptions, SpanTension, TwoPulleys, VBelt, input::Key, limits, solve, trace,
 };
 use random::Random;
 use std::time::Instant;
@@ -324,6 +324,57 @@ fn stiff_scalar_elastic_friction_has_the_limit_of_coulomb_friction() {
         (elastic / coulomb - 1.0).abs() < 1e-6,
         "{elastic} {coulomb}"
     );
+}
+
+#[test]
+fn a_driven_pulley_that_all_but_stands_ends_the_loads() {
+    // No state is found at which it stands, but at 3e-5 of its speed, less than 1e-6 N in front of that.
+    let drive = |tight: f64| {
+        Drive::from(TwoPulleys {
+            belt: Belt {
+                ribs: 1,
+                mass_per_length: 0.04657,
+                axial_stiffness: 184_992.5,
+                kind: BeltKind::V(VBelt {
+                    radial_stiffness: 5.24524e6,
+                    half_angle: 0.345_314,
+                    height: None,
+                }),
+            },
+            friction_coefficient: 0.301_51,
+            law: FrictionLaw::Epp {
+                stiffness: 3.28524e6,
+            },
+            driver_radius: 0.045_809_8,
+            driver_speed: 23.567,
+            driven_radius: 0.136_040_5,
+            centre_distance: 0.578_743,
+            load: Load {
+                slack: SpanTension::Tractive(166.7257),
+                tight: SpanTension::Tractive(tight),
+            },
+        })
+    };
+    let options = SolveOptions::default();
+    let near = drive(168.0);
+    let found = limits(&near, &Key::load(&near), &options, &mut |_, _| {}).unwrap();
+    let largest = found.largest;
+    assert_eq!(
+        largest.reason,
+        RangeEnd::Limit(LimitReason::DrivenSlips),
+        "{largest:?}"
+    );
+    assert!(largest.value_error.unwrap() < 1e-6);
+    assert!(solve(&drive(0.9999 * largest.value), &options).is_ok());
+    for tight in [1.001 * largest.value, 197.44, 500.0] {
+        match solve(&drive(tight), &options) {
+            Err(SolveError::NoSteadyState { limit, reason, .. }) => {
+                assert_eq!(reason, LimitReason::DrivenSlips);
+                assert!((limit / largest.value - 1.0).abs() < 1e-6, "{limit}");
+            }
+            other => panic!("{tight} N: {other:?}"),
+        }
+    }
 }
 
 /// Prints the score of as many drives as `DRIVES` says, 60 by default, with the law of the number `LAW`, or all; or of

@@ -17,7 +17,7 @@ use super::zones::Refused;
 use crate::input::Key;
 use crate::results::difficulty;
 use crate::{
-    BranchEnd, BranchEvent, Drive, EventKind, StateErrors, StateSummary, SteadyState,
+    BranchEnd, BranchEvent, Drive, EventKind, Role, StateErrors, StateSummary, SteadyState,
     TraceConvergence, TracePoint,
 };
 use continuation::{Direction, Kind, Point, Stop};
@@ -27,6 +27,10 @@ use web_time::Instant;
 pub(super) const MAX_PIECES: usize = 40;
 /// Behind a limit point a branch is followed until the entry has come back by this share of its way.
 const WAY_BACK: f64 = 0.25;
+
+/// A driven pulley slower than this share of the speed of the driver stands. Elastic friction may not let a state be found
+/// at which it does, but others down to 3e-5.
+const STANDS: f64 = 1e-3;
 
 /// Where a trace shall end, apart from the ends of its range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -134,6 +138,12 @@ impl<'d> Tracer<'d> {
             if let PieceEnd::Branch(BranchEnd::NotConverged { .. }) = next {
                 next = self.beyond(direction).unwrap_or(next);
             }
+            if let PieceEnd::Branch(BranchEnd::NotConverged { .. }) = next
+                && let Some(event) = self.stand()
+            {
+                self.events.push(event);
+                next = PieceEnd::Branch(BranchEnd::GrossSlip(Role::Driven));
+            }
             match next {
                 PieceEnd::Branch(reason) => {
                     end = Some(reason);
@@ -161,6 +171,21 @@ impl<'d> Tracer<'d> {
         }
         self.convergence.seconds += start.elapsed().as_secs_f64();
         end
+    }
+
+    /// Gross slip of a driven pulley that all but stands at the last point, if it does, with the value at which it would, to first
+    /// order, as its error.
+    fn stand(&self) -> Option<BranchEvent> {
+        let (_, solved) = self.near.as_ref()?;
+        let [before, last] = self.points.last_chunk()?;
+        let [fast, slow] = [before, last].map(|point| point.state.driven.angular_speed);
+        let stands = solved.driven_speed() < STANDS && slow < fast;
+        stands.then(|| BranchEvent {
+            kind: EventKind::GrossSlip(Role::Driven),
+            point: last.clone(),
+            value_error: Some((last.value - before.value).abs() * slow / (fast - slow)),
+            errors: None,
+        })
     }
 
     /// The state at the upper end of the range and the value there, if the branch has ended there, from which it goes on
