@@ -5,10 +5,11 @@ use crate::Drive;
 use crate::input::Key;
 
 /// How far a load is lowered, as powers of its ratio to the slack tension: the nearer, the shorter the way, but not all
-/// states are found. Of 10 000 drives with Coulomb friction two that are overloaded were not refused without 0.5. The last
-/// are for soft elastic friction on a stiff belt, which carries 3 % and 0.3 % more than no load where Coulomb friction carries
-/// eight times as much.
-const LIGHTER: [f64; 10] = [0.8, 0.6, 0.5, 0.4, 0.25, 0.15, 0.08, 0.03, 0.01, 1e-3];
+/// states are found. Of 10 000 drives with Coulomb friction two that are overloaded were not refused without 0.5.
+const LIGHTER: [f64; 9] = [0.8, 0.6, 0.5, 0.4, 0.25, 0.15, 0.08, 0.03, 0.01];
+/// Multiples of the slack tension at which one may begin at last: soft scalar elastic friction on a stiff belt carries no more
+/// than 0.02 to 0.3 % more than no load, where Coulomb friction carries up to twenty times as much.
+const LIGHTEST: [f64; 4] = [1.001, 1.0005, 1.0002, 1.0001];
 /// Multiples of the slack tension at which a branch may begin in place of the load of the drive, and first does if that
 /// is less than the last of them: nearer to no load the belt hardly slips, and states are hard to find and to follow.
 const HEAVIER: [f64; 4] = [2.0, 3.0, 1.5, 1.2];
@@ -31,10 +32,11 @@ pub(super) fn start_loads(drive: &Drive, with_own: bool) -> impl Iterator<Item =
     let lighter = own
         .into_iter()
         .chain(LIGHTER.map(|power| ratio.powf(power)));
-    let ratios: Vec<f64> = match (1.0..HEAVIER[3]).contains(&ratio) {
+    let mut ratios: Vec<f64> = match (1.0..HEAVIER[3]).contains(&ratio) {
         true => HEAVIER.into_iter().chain(lighter).collect(),
         false => lighter.chain(HEAVIER).collect(),
     };
+    ratios.extend(LIGHTEST);
     [true, false].into_iter().flat_map(move |has_direction| {
         ratios.clone().into_iter().map(move |ratio| StartLoad {
             value: slack * ratio,
