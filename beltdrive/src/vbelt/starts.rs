@@ -8,7 +8,7 @@ use crate::input::Key;
 /// states are found. Of 10 000 drives with Coulomb friction two that are overloaded were not refused without 0.5.
 const LIGHTER: [f64; 9] = [0.8, 0.6, 0.5, 0.4, 0.25, 0.15, 0.08, 0.03, 0.01];
 /// Multiples of the slack tension at which one may begin at last: soft scalar elastic friction on a stiff belt carries no more
-/// than 0.02 to 0.3 % more than no load, where Coulomb friction carries up to twenty times as much.
+/// than 0.02 to 0.3 % more than no load, where vector EPP friction carries 18 and 52 times as much.
 const LIGHTEST: [f64; 4] = [1.001, 1.0005, 1.0002, 1.0001];
 /// Multiples of the slack tension at which a branch may begin in place of the load of the drive, and first does if that
 /// is less than the last of them: nearer to no load the belt hardly slips, and states are hard to find and to follow.
