@@ -11,6 +11,20 @@ struct Junction {
     place: f64,
 }
 
+impl Junction {
+    /// Whether zones of these kinds that are seen may meet there: of the same kinds, of one where elastic friction is not told
+    /// from slip, or where the belt comes to rest or breaks loose, whatever is in front of that or behind it.
+    fn is_between(&self, seen: [Regime; 2]) -> bool {
+        let sticks = |kinds: [Regime; 2]| kinds.map(|kind| kind == Regime::Stick);
+        match sticks(seen) {
+            [false, false] => {
+                self.kinds == seen || (self.kinds == [Regime::Either; 2] && seen[0] == seen[1])
+            }
+            ends => sticks(self.kinds) == ends,
+        }
+    }
+}
+
 /// The junctions on a pulley.
 fn junctions<P: BeltProblem>(solved: &Solved<P>, pulley: usize) -> impl Iterator<Item = Junction> {
     let (problem, p) = (&solved.problem, solved.solution.parameters());
@@ -42,7 +56,8 @@ pub(super) fn keep_junctions<P: BeltProblem>(
         let kinds = [in_front.regime, behind.regime];
         let distance = |place: f64| (place - behind.from).abs();
         let known = junctions(solved, pulley)
-            .filter(|junction| junction.kinds == kinds && distance(junction.place) <= near)
+            .filter(|junction| junction.is_between(kinds))
+            .filter(|junction| kinds.contains(&Regime::Stick) || distance(junction.place) <= near)
             .map(|junction| junction.place)
             .filter(|&place| in_front.from < place && place < behind.to)
             .min_by(|&one, &other| distance(one).total_cmp(&distance(other)));
