@@ -3,7 +3,7 @@
 use beltdrive::input::Key;
 use beltdrive::{
     Belt, BeltKind, BranchEnd, Drive, EventKind, FrictionLaw, Load, RangeEnd, SolveError,
-    SolveOptions, SpanTension, TwoPulleys, VBelt, examples, input, limits, solve, trace,
+    SolveOptions, SpanTension, TwoPulleys, VBelt, ZoneKind, examples, input, limits, solve, trace,
 };
 
 /// The drive of Kim (2009) with EPP friction.
@@ -153,6 +153,65 @@ fn a_belt_that_rests_only_as_long_as_friction_is_elastic_has_the_limit_of_single
         load: [91.462_678, 115.961_25],
     };
     assert_limit(&drive.drive(), 3_870.221_8);
+}
+
+#[test]
+fn a_belt_that_sticks_has_the_limit_of_single_states() {
+    // Cut anew from a rough solution, its zone ended beside the places at which the direction turns. The branch then went on
+    // without seeing zones change, and ended at 1695.4 N.
+    let drive = Numbers {
+        belt: [
+            0.406_608_747_1,
+            313_593.709_8,
+            1_332_943.397,
+            0.287_424_290_5,
+        ],
+        friction: [0.196_357_582_9, 1_553_403.11],
+        pulleys: [0.356_059_728_9, 13.604_378_74, 1.176_835_334, 2.559_692_524],
+        load: [281.105_424_6, 685.385_732_5],
+    };
+    assert_limit(&drive.drive(), 1_757.235);
+}
+
+/// From 564 N on the belt comes to rest on the driven pulley just before friction would reach its limit. Sliding friction went on
+/// to pull it in the direction in which it sank, so that the branch ended and single states were sought with a normalised
+/// direction, for a second.
+#[test]
+fn a_belt_comes_to_rest_where_friction_is_still_elastic() {
+    let drive = Numbers {
+        belt: [0.409_296_214_5, 26_215.742_66, 11_460_467.33, 0.227_408_086],
+        friction: [0.616_574_455, 8_575_734.508],
+        pulleys: [
+            0.154_175_843_8,
+            73.549_478_96,
+            0.389_755_052_6,
+            2.055_455_605,
+        ],
+        load: [189.116_485_4, 523.446_842],
+    }
+    .drive();
+    let options = SolveOptions::default();
+    let range = [523.446_842, 720.0];
+    let branch = trace(&drive, &Key::load(&drive), range, &options, &mut |_, _| {}).unwrap();
+    assert_eq!(branch.end, BranchEnd::Target);
+    for point in branch.points.iter().step_by(3) {
+        let state = solve(&at(&drive, point.value), &options).unwrap();
+        close(
+            point.state.driven.angular_speed,
+            state.driven.angular_speed,
+            1e-6,
+        );
+        let kinds = state.driven.zones.iter().map(|zone| zone.kind);
+        assert_eq!(
+            kinds.collect::<Vec<_>>().contains(&ZoneKind::Adhesion),
+            point.value > 564.5
+        );
+    }
+    // That of the formulation with a normalised direction.
+    let state = solve(&at(&drive, 700.0), &options).unwrap();
+    close(state.driven.angular_speed, 28.474_018, 1e-6);
+    let steps = state.convergence.newton_iterations;
+    assert!(steps <= 110, "{steps}");
 }
 
 /// The same drive with vector EPP friction.

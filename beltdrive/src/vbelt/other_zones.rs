@@ -50,6 +50,13 @@ impl Path<'_> {
         solved.filter(|solved| is_same(solved, here))
     }
 
+    /// A state at which elastic friction pulls with the slip with a belt that sticks there, if it is found.
+    pub(super) fn with_belt_at_rest(&mut self, pulled: &Solved) -> Option<Solved> {
+        let resting = self.come_to_rest(pulled)?;
+        let solved = self.finish_obeying(resting).ok();
+        solved.filter(|solved| is_same(solved, pulled))
+    }
+
     /// The state of the drive from nothing, if it is `here` but for the zones.
     fn anew(&mut self, here: &Solved) -> Option<Solved> {
         let solved = self.with_direction();

@@ -263,6 +263,12 @@ impl Tracer<'_> {
             let precise = || precise(&family, branch.system(), &point, (&options, &steps));
             let outcome = self.take(&point, &here, &precise, effect, ahead, has_cut_turned);
             progress(self.share(self.value(point.lambda())), "tracing");
+            if let Some(PieceEnd::Branch(BranchEnd::NotConverged { .. })) = &outcome
+                && let Some(resting) = self.at_rest(&point, &here)
+            {
+                self.convergence.count(&last);
+                return self.goes_on(&point, resting, ahead);
+            }
             if let (
                 Some((passed, solved, towards)),
                 Some(PieceEnd::Branch(BranchEnd::NotConverged { .. })),
@@ -392,6 +398,18 @@ impl Tracer<'_> {
             && here.problem.has_junctions()
             && !self.refused.are_all(here);
         has_others.then(|| path.with_other_zones(here).ok())?
+    }
+
+    /// The state at a point at which elastic friction pulls with the slip with a belt that sticks there, if it is found.
+    fn at_rest(&mut self, point: &Point, pulled: &Solved) -> Option<Solved> {
+        let drive = self.drive_at(self.value(point.lambda()));
+        let mut path = Path::new(&drive, self.tolerance);
+        let resting = path.with_belt_at_rest(pulled);
+        self.convergence.count(&path.stats);
+        let resting = resting?;
+        self.refused = Refused::by(&resting);
+        self.refinements = 0;
+        Some(resting)
     }
 
     /// The state at a point with the zones that it shows, if they are found.

@@ -15,6 +15,7 @@
 //! Coulomb or EPP friction that is not found in this way is sought once more with a normalised direction.
 
 mod astray;
+mod at_rest;
 mod epp;
 mod finish;
 mod locked;

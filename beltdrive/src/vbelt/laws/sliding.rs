@@ -5,7 +5,7 @@
 
 use super::Asked;
 use super::astray::Astray;
-use super::obeyed::{Gains, power_gained};
+use super::obeyed::{Gains, obeys_friction, power_gained};
 use crate::FrictionLaw;
 use crate::vbelt::carried::Carried;
 use crate::vbelt::path::{Effort, Path, Solved};
@@ -24,7 +24,7 @@ const LED_LAGS: [f64; 3] = [1e-5, 1e-6, 1e-7];
 pub(super) const RESOLVED_LAG: f64 = 1e-8;
 /// The same where the belt sticks somewhere: on that drive with elastic friction of 1.2e6 N/m² a rough solution with 1e-8
 /// takes up to 100 Newton steps more, from one with 1e-7 that is resolved it does not.
-const RESOLVED_LAG_WITH_STICK: f64 = 1e-7;
+pub(super) const RESOLVED_LAG_WITH_STICK: f64 = 1e-7;
 /// Share of the power of friction that the belt may gain from a traction on the way that is not against its
 /// slip. Where the traction turns the wrong way round it is 0.03 and more, elsewhere less than 1e-6.
 pub(in crate::vbelt) const WRONG_WAY: f64 = 1e-4;
@@ -98,10 +98,14 @@ impl Path<'_> {
     ) -> Result<Solved<P>, Astray> {
         let solved = self.finish(sharp).map_err(|stuck| stuck.astray)?;
         let gains = Gains::of(&solved);
-        match gains.obey_friction(&solved, self.tolerance) {
-            true => Ok(solved),
-            false => Err(gains.astray(&solved, self.tolerance)),
+        if gains.obey_friction(&solved, self.tolerance) {
+            return Ok(solved);
         }
+        let resting = self.come_to_rest(&solved);
+        let resting = resting.and_then(|resting| self.finish(resting).ok());
+        resting
+            .filter(|resting| obeys_friction(resting, self.tolerance))
+            .ok_or_else(|| gains.astray(&solved, self.tolerance))
     }
 
     /// A direction that is led, with a short ℓ, if the belt gains no power from friction then.

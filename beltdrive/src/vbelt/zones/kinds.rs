@@ -76,6 +76,23 @@ pub(super) fn cut_at_breakaway(zones: Vec<Zone>, samples: &[Sample], margin: f64
     }
 }
 
+/// Makes the belt stick between two places.
+pub(super) fn stick_between(zones: &mut Vec<Zone>, [from, to]: [f64; 2]) {
+    let behind = zones.partition_point(|zone| zone.to <= to);
+    let in_front = zones.partition_point(|zone| zone.from < from);
+    let regime = Regime::Stick;
+    let mut last = zones.split_off(behind);
+    zones.truncate(in_front);
+    if let Some(zone) = zones.last_mut() {
+        zone.to = from;
+    }
+    if let Some(zone) = last.first_mut() {
+        zone.from = to;
+    }
+    zones.push(Zone { regime, from, to });
+    zones.append(&mut last);
+}
+
 /// Makes all between the first and the last elastic zone one.
 pub(super) fn join_elastic(zones: &mut Vec<Zone>) {
     let is_elastic = |zone: &Zone| zone.regime == Regime::Elastic;
@@ -235,6 +252,26 @@ pub(super) fn join(zones: &mut Vec<Zone>, is_joined: impl Fn(Regime) -> bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_belt_sticks_between_two_places() {
+        let zone = |regime, from, to| Zone { regime, from, to };
+        let mut zones = vec![
+            zone(Regime::Elastic, 0.0, 1.0),
+            zone(Regime::Slip, 1.0, 2.0),
+            zone(Regime::Slip, 2.0, 3.0),
+        ];
+        stick_between(&mut zones, [0.75, 2.0]);
+        let expected = vec![
+            zone(Regime::Elastic, 0.0, 0.75),
+            zone(Regime::Stick, 0.75, 2.0),
+            zone(Regime::Slip, 2.0, 3.0),
+        ];
+        assert_eq!(zones, expected);
+        stick_between(&mut zones, [0.75, 2.5]);
+        let ends: Vec<_> = zones.iter().map(|zone| [zone.from, zone.to]).collect();
+        assert_eq!(ends, [[0.0, 0.75], [0.75, 2.5], [2.5, 3.0]]);
+    }
 
     #[test]
     fn a_new_elastic_zone_ends_behind_the_zero_of_the_plastic_rate() {

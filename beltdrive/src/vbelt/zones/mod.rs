@@ -15,10 +15,11 @@ use super::path::Solved;
 use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
 use kinds::{
     SHORTEST_CUT, SHORTEST_ZONE, Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, join,
-    join_elastic, one_zone, prolong_elastic, sticks, without_kinks, without_short_elastic,
+    join_elastic, one_zone, prolong_elastic, stick_between, sticks, without_kinks,
+    without_short_elastic,
 };
 use places::{ends, keep_junctions, locate};
-use samples::{CLEAR_TURN, Sample, samples};
+use samples::{CLEAR_TURN, Sample, pulled_from, samples};
 
 /// Nodes nearer than this to each other or to the ends of a zone, in its length, are left out.
 const NODE_MARGIN: f64 = 1e-4;
@@ -64,6 +65,23 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
     /// presses no longer.
     pub(super) fn with_ends(solved: &'a Solved<P>) -> Self {
         Self::new(solved, true, |_| Loose::Seen)
+    }
+
+    /// As [`Cut::of`], with the belt at rest on every pulley from where scalar elastic friction pulls it to where it breaks away,
+    /// if there is such a pulley.
+    pub(super) fn with_belt_at_rest(solved: &'a Solved<P>) -> Option<Self> {
+        let mut cut = Self::of(solved);
+        let mut rests = false;
+        for (pulley, zones) in cut.pulleys.iter_mut().enumerate() {
+            let first = solved.problem.zones(pulley).start;
+            let locked = solved.problem.breakaway(pulley);
+            let breakaway = locked.and_then(|segment| ends(solved, pulley).nth(segment - first));
+            if let (Some(from), Some(to)) = (pulled_from(&cut.samples[pulley]), breakaway) {
+                stick_between(zones, [from, to]);
+                rests = true;
+            }
+        }
+        rests.then_some(cut)
     }
 
     /// As [`Cut::of`], with all between the first and the last elastic zone of a pulley as one.

@@ -46,6 +46,8 @@ pub(super) struct Sample {
     pub(super) direction: f64,
     /// Whether friction holds the belt.
     pub(super) sticks: bool,
+    /// Power that the belt gains from scalar elastic friction, which pulls with the slip, per length; zero where it loses some.
+    pub(super) gained: f64,
     /// Friction as a share of its limit.
     share: f64,
 }
@@ -104,6 +106,10 @@ pub(super) fn samples<P: BeltProblem>(
                     direction + turns.round() * TAU
                 }),
                 sticks: is_at_rest || is_held(groove.law, share),
+                gained: match groove.elastic().is_some() && regime.is_elastic() {
+                    true => (-contact.friction_power_densities().iter().sum::<f64>()).max(0.0),
+                    false => 0.0,
+                },
                 share,
             });
         }
@@ -165,6 +171,17 @@ fn keep_first_stick(samples: &mut [Sample], loose: Loose) {
     for (index, sample) in samples.iter_mut().enumerate() {
         sample.sticks &= (first..first + count).contains(&index) && sample.place < latest;
     }
+}
+
+/// Where elastic friction begins to pull with the slip, if it does: in front of where it pulls most.
+pub(super) fn pulled_from(samples: &[Sample]) -> Option<f64> {
+    let gained = |index: &usize| samples[*index].gained;
+    let most = (0..samples.len()).max_by(|one, other| gained(one).total_cmp(&gained(other)))?;
+    let first = (0..=most)
+        .rev()
+        .take_while(|index| gained(index) > 0.0)
+        .last();
+    first.map(|index| samples[index].place)
 }
 
 /// The place of the turn, if the excess passes zero by more than `clear` there.
