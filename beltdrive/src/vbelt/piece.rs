@@ -18,9 +18,10 @@ use bvp::{Control, Family, Scheme};
 use continuation::{Branch, Direction, Kind, Options, Point, Stop};
 use std::f64::consts::FRAC_PI_2;
 
-/// ℓ/R where the belt hardly slips somewhere, and where it slips everywhere. With 1e-10 in the first case rounding
-/// errors of the slip asked for up to 3000 mesh intervals; with 1e-8 in the second limits were off by up to 3e-7.
-const LAGS: [f64; 2] = [1e-8, 1e-10];
+/// ℓ/R where the belt hardly slips somewhere with elastic friction and with Coulomb friction, and where it slips everywhere.
+/// Rounding errors of the slip ask for up to 3800 mesh intervals with 1e-8 in the first case, for up to 3000 with 1e-10 in the
+/// second; with 1e-7 and 1e-8 in the first and third limits were off by up to 6e-6 and 3e-7.
+const LAGS: [f64; 3] = [3e-8, 1e-8, 1e-10];
 /// ε where the direction is normalised. Places at which the belt breaks loose move with the load the more abruptly
 /// the smaller it is.
 const EPSILON: f64 = 1e-6;
@@ -82,7 +83,11 @@ pub(super) enum PieceEnd {
 /// ℓ/R or ε along a piece with the zones of a problem.
 fn smoothing(problem: &DriveProblem) -> f64 {
     match problem.law() {
-        Law::Sliding { .. } => LAGS[usize::from(!problem.is_locked())],
+        Law::Sliding { elastic, .. } => match problem.is_locked() {
+            true if elastic.is_some() => LAGS[0],
+            true => LAGS[1],
+            false => LAGS[2],
+        },
         Law::Normalised { .. } => EPSILON,
         Law::Vector { .. } => BRANCH_LEAD,
         Law::Bristle { .. } => 0.0,
