@@ -225,9 +225,9 @@ fn cut<P: BeltProblem>(
         (false, _) => one_zone(length),
     };
     let margin = length
-        * match problem.breakaway(pulley) {
-            Some(_) => SHORTEST_ZONE,
-            None => SHORTEST_CUT,
+        * match problem.breakaway(pulley).is_some() || sticks(&zones) {
+            true => SHORTEST_ZONE,
+            false => SHORTEST_CUT,
         };
     let mut zones = match groove.law {
         Law::Normalised { .. } => zones,
