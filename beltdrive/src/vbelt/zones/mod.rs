@@ -219,11 +219,14 @@ fn cut<P: BeltProblem>(
         return (Vec::new(), whole.collect());
     };
     let samples = samples(solved, (pulley, groove), at_ends, loose);
-    let zones = match (problem.has_zones(), loose) {
+    let mut zones = match (problem.has_zones(), loose) {
         (true, Loose::Seen) => friction_zones(&samples, length),
         (true, _) => without_kinks(friction_zones(&samples, length)),
         (false, _) => one_zone(length),
     };
+    // Before they are cut, which depends on where they end, and the cuts behind it.
+    let near = ELSEWHERE * length;
+    keep_junctions(&mut zones, (solved, pulley), near);
     let margin = length
         * match problem.breakaway(pulley).is_some() || sticks(&zones) {
             true => SHORTEST_ZONE,
@@ -253,7 +256,7 @@ fn cut<P: BeltProblem>(
         _ if loose == Loose::Turning && sticks(&zones) => zones,
         _ => cut_at_turn(zones, &samples, length, 0.0, margin),
     };
-    keep_junctions(&mut zones, (solved, pulley), ELSEWHERE * length);
+    keep_junctions(&mut zones, (solved, pulley), near);
     (samples, zones)
 }
 
