@@ -76,7 +76,9 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
             let first = solved.problem.zones(pulley).start;
             let locked = solved.problem.breakaway(pulley);
             let breakaway = locked.and_then(|segment| ends(solved, pulley).nth(segment - first));
-            if let (Some(from), Some(to)) = (pulled_from(&cut.samples[pulley]), breakaway) {
+            if let (Some(from), Some(to)) = (pulled_from(&cut.samples[pulley]), breakaway)
+                && from < to
+            {
                 stick_between(zones, [from, to]);
                 rests = true;
             }
