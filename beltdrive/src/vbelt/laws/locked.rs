@@ -12,6 +12,12 @@ use crate::vbelt::path::{Effort, Path, Solved};
 use crate::vbelt::zones::Cut;
 use crate::vbelt::{BeltProblem, Regime};
 
+/// ℓ/R over the slip at which the belt breaks away, so that friction follows the slip through the turn behind that. Of 400 random
+/// drives at no load and just above, states of two are not found with 0.1, of none with this or three times as much.
+const LAG_SHARE: f64 = 3e-3;
+/// The shortest ℓ/R: with a tenth of it states take three to ten times as long.
+const SHORTEST_LAG: f64 = 1e-10;
+
 impl Path<'_> {
     /// The steady state of a drive with Coulomb or scalar EPP friction whose belt locks on both pulleys and hardly slides
     /// along them, if it is found and friction obeys its law.
@@ -28,7 +34,9 @@ impl Path<'_> {
     fn locked_coulomb(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
         let problem = asked.problem(FrictionLaw::Coulomb, RESOLVED_LAG);
         let guess = Locked::of(&problem)?;
+        let lag = (LAG_SHARE * guess.slip()).clamp(SHORTEST_LAG, RESOLVED_LAG);
         let problem = problem.with_zones(&Locked::zones(Regime::Slip));
+        let problem = problem.with_smoothing(lag);
         // The turn of a belt that hardly slips needs a fine mesh at first, and patience.
         let rough = self.attempt(problem.clone(), &guess, Effort::Rough);
         let sharp = rough.or_else(|_| self.attempt(problem, &guess, Effort::Start));
@@ -37,7 +45,7 @@ impl Path<'_> {
 
     fn locked_epp(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
         let coulomb = self.locked_coulomb(asked)?;
-        let epp = asked.problem(asked.law(), RESOLVED_LAG);
+        let epp = asked.problem(asked.law(), coulomb.problem.smoothing());
         // Without its share EPP friction only adds the displacement.
         let unblended = epp.clone().with_zones(&Locked::zones(Regime::Either));
         let unblended = unblended.with_epp_weight(0.0);
