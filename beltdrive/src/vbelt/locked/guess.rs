@@ -148,7 +148,10 @@ fn leaving((saddle, entry): (Saddle, Vec<Point>), span: SpanTension) -> Option<E
 fn exit(saddle: &Saddle, tractive: f64, theta: f64, slip: f64) -> Option<Vec<Point>> {
     let [mut low, mut high] = EXITS.map(|share| share * theta);
     let mut nearest: Option<Origin> = None;
-    loop {
+    while nearest
+        .as_ref()
+        .is_none_or(|nearest| nearest.off > EXIT_ACCURACY)
+    {
         let middle = 0.5 * (low + high);
         if middle == low || middle == high {
             break;
@@ -164,16 +167,10 @@ fn exit(saddle: &Saddle, tractive: f64, theta: f64, slip: f64) -> Option<Vec<Poi
         {
             nearest = Some(origin);
         }
-        if nearest
-            .as_ref()
-            .is_some_and(|nearest| nearest.off <= EXIT_ACCURACY)
-        {
-            break;
-        }
     }
     nearest
         .filter(|nearest| nearest.off.is_finite())
-        .map(|origin| origin.arc)
+        .map(|origin| saddle.arc_from(origin))
 }
 
 impl Ends {
