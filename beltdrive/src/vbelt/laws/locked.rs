@@ -1,7 +1,6 @@
 //! Coulomb and scalar EPP friction of a drive whose belt locks on both pulleys, from its integrals.
 //!
-//! The direction of Coulomb friction is led from the start, at the ℓ at which it is first resolved elsewhere. EPP friction is
-//! that up to the place at which elastic friction would be smaller: with the displacement of the belt the state shows it.
+//! The direction of friction is led from the start, at the ℓ at which it is first resolved elsewhere.
 
 use super::sliding::RESOLVED_LAG;
 use super::{Asked, AtLoad};
@@ -23,36 +22,49 @@ impl Path<'_> {
     /// The steady state of a drive with Coulomb or scalar EPP friction whose belt locks on both pulleys and hardly slides
     /// along them, if it is found and friction obeys its law.
     pub(super) fn locked(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
-        let sharp = match asked.law() {
-            FrictionLaw::Coulomb => self.locked_coulomb(asked)?,
-            FrictionLaw::Epp { .. } => self.locked_epp(asked)?,
-            _ => return None,
-        };
-        let sharp = self.keep_zones(sharp, Effort::Rough).ok()?;
-        self.finish_obeying(sharp).ok()
+        match asked.law() {
+            FrictionLaw::Coulomb => {
+                let sharp = self.put_together(asked, FrictionLaw::Coulomb)?;
+                self.finish_obeying(sharp).ok()
+            }
+            FrictionLaw::Epp { .. } => {
+                let sharp = self.put_together(asked, asked.law());
+                let found = sharp.and_then(|sharp| self.finish_obeying(sharp).ok());
+                found.or_else(|| {
+                    let sharp = self.by_coulomb(asked)?;
+                    self.finish_obeying(sharp).ok()
+                })
+            }
+            _ => None,
+        }
     }
 
-    fn locked_coulomb(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
-        let problem = asked.problem(FrictionLaw::Coulomb, RESOLVED_LAG);
+    /// The state with a law from its integrals, roughly.
+    fn put_together(&mut self, asked: &AtLoad<'_>, law: FrictionLaw) -> Option<Solved> {
+        let problem = asked.problem(law, RESOLVED_LAG);
         let guess = Locked::of(&problem)?;
+        let problem = problem.with_zones(&guess.zones());
         let lag = (LAG_SHARE * guess.slip()).clamp(SHORTEST_LAG, RESOLVED_LAG);
-        let problem = problem.with_zones(&Locked::zones(Regime::Slip));
         let problem = problem.with_smoothing(lag);
         // The turn of a belt that hardly slips needs a fine mesh at first, and patience.
         let rough = self.attempt(problem.clone(), &guess, Effort::Rough);
         let sharp = rough.or_else(|_| self.attempt(problem, &guess, Effort::Start));
-        sharp.ok()
+        self.keep_zones(sharp.ok()?, Effort::Rough).ok()
     }
 
-    fn locked_epp(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
-        let coulomb = self.locked_coulomb(asked)?;
+    /// EPP friction from Coulomb friction, roughly: with the displacement of the belt that state shows its zones.
+    fn by_coulomb(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
+        let coulomb = self.put_together(asked, FrictionLaw::Coulomb)?;
+        let zones: Vec<Vec<_>> = coulomb.problem.regimes();
+        let blended = zones.iter().map(|zones| vec![Regime::Either; zones.len()]);
         let epp = asked.problem(asked.law(), coulomb.problem.smoothing());
         // Without its share EPP friction only adds the displacement.
-        let unblended = epp.clone().with_zones(&Locked::zones(Regime::Either));
+        let unblended = epp.clone().with_zones(&blended.collect::<Vec<_>>());
         let unblended = unblended.with_epp_weight(0.0);
         let shown = self.attempt(unblended, &Carried(&coulomb), Effort::Rough);
         let shown = shown.ok()?;
         let cut = Cut::of(&shown);
-        self.attempt(cut.apply(epp), &cut, Effort::Rough).ok()
+        let sharp = self.attempt(cut.apply(epp), &cut, Effort::Rough).ok()?;
+        self.keep_zones(sharp, Effort::Rough).ok()
     }
 }

@@ -16,8 +16,12 @@
 //! needs to be. Where the belt slides far before it is lifted no such guess is made.
 
 mod arc;
+mod entry;
+mod exit;
 mod guess;
+mod held;
+mod pulley;
+mod rest;
 mod runge_kutta;
-mod saddle;
 
 pub(super) use guess::Locked;

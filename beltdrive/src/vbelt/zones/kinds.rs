@@ -9,6 +9,8 @@ pub(super) const SHORTEST_ZONE: f64 = 1e-4;
 /// method failed on 1 of 40 drives. Those of a belt that breaks away are kept as long as they are zones at all: the contact
 /// of a stiff belt with a light load is lifted within an arc as short as that.
 pub(super) const SHORTEST_CUT: f64 = 3e-3;
+/// The same of a belt that sticks, and slides an arc as short as its slip is small before it is lifted.
+pub(super) const SHORTEST_BEHIND_STICK: f64 = 1e-8;
 /// An elastic zone that gradual friction shows is left out if it is shorter than this share of the contact. With one of
 /// 5e-4 Newton's method failed; without one of 2e-3, which was there, it failed, too.
 const SHORTEST_SEEN: f64 = 1e-3;
@@ -19,10 +21,10 @@ const EARLIEST_TURN: f64 = 0.7;
 
 /// A zone of one kind between two places on a pulley, in scaled arc length from the entry.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Zone {
-    pub(super) regime: Regime,
-    pub(super) from: f64,
-    pub(super) to: f64,
+pub(in crate::vbelt) struct Zone {
+    pub(in crate::vbelt) regime: Regime,
+    pub(in crate::vbelt) from: f64,
+    pub(in crate::vbelt) to: f64,
 }
 
 /// One zone of sliding from entry to exit.

@@ -14,12 +14,15 @@ mod samples;
 use super::path::Solved;
 use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
 use kinds::{
-    SHORTEST_CUT, SHORTEST_ZONE, Zone, cut_at_breakaway, cut_at_turn, friction_zones, is_cut, join,
-    join_elastic, one_zone, prolong_elastic, stick_between, sticks, without_kinks,
-    without_short_elastic,
+    SHORTEST_BEHIND_STICK, SHORTEST_CUT, SHORTEST_ZONE, cut_at_breakaway, cut_at_turn,
+    friction_zones, is_cut, join, join_elastic, one_zone, prolong_elastic, stick_between, sticks,
+    without_kinks, without_short_elastic,
 };
 use places::{ends, keep_junctions, locate};
-use samples::{CLEAR_TURN, Sample, pulled_from, samples};
+use samples::{CLEAR_TURN, pulled_from, samples};
+
+pub(super) use kinds::Zone;
+pub(super) use samples::Sample;
 
 /// Nodes nearer than this to each other or to the ends of a zone, in its length, are left out.
 const NODE_MARGIN: f64 = 1e-4;
@@ -230,9 +233,10 @@ fn cut<P: BeltProblem>(
     let near = ELSEWHERE * length;
     keep_junctions(&mut zones, (solved, pulley), near);
     let margin = length
-        * match problem.breakaway(pulley).is_some() || sticks(&zones) {
-            true => SHORTEST_ZONE,
-            false => SHORTEST_CUT,
+        * match (sticks(&zones), problem.breakaway(pulley)) {
+            (true, _) => SHORTEST_BEHIND_STICK,
+            (_, Some(_)) => SHORTEST_ZONE,
+            _ => SHORTEST_CUT,
         };
     let mut zones = match groove.law {
         Law::Normalised { .. } => zones,
@@ -251,15 +255,31 @@ fn cut<P: BeltProblem>(
             zones
         }
         // Where the direction is not led yet the belt breaks away elsewhere.
-        Law::Sliding { lead, .. } if lead > 0.0 => {
-            let zones = cut_at_turn(zones, &samples, length, CLEAR_TURN, margin);
-            cut_at_breakaway(zones, &samples, margin)
-        }
+        Law::Sliding { lead, .. } if lead > 0.0 => cut_sliding(zones, &samples, length, margin),
         _ if loose == Loose::Turning && sticks(&zones) => zones,
         _ => cut_at_turn(zones, &samples, length, 0.0, margin),
     };
     keep_junctions(&mut zones, (solved, pulley), near);
     (samples, zones)
+}
+
+/// The zones with those of sliding friction cut where a direction that is led needs it.
+fn cut_sliding(zones: Vec<Zone>, samples: &[Sample], length: f64, margin: f64) -> Vec<Zone> {
+    let zones = cut_at_turn(zones, samples, length, CLEAR_TURN, margin);
+    cut_at_breakaway(zones, samples, margin)
+}
+
+/// The zones of Coulomb or scalar EPP friction of a contact that locks, from samples along it.
+pub(super) fn zones_of(samples: &[Sample], length: f64, has_zones: bool) -> Vec<Zone> {
+    let zones = match has_zones {
+        true => friction_zones(samples, length),
+        false => one_zone(length),
+    };
+    let margin = match sticks(&zones) {
+        true => SHORTEST_BEHIND_STICK,
+        false => SHORTEST_ZONE,
+    };
+    cut_sliding(zones, samples, length, margin * length)
 }
 
 /// The kinds of friction along one pulley with the swept angles where they begin and end.

@@ -33,23 +33,23 @@ pub(super) const BEHIND_ENTRY: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 
 /// What is seen of a solution at a place on a pulley.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sample {
+pub(in crate::vbelt) struct Sample {
     /// Scaled arc length from the entry.
-    pub(super) place: f64,
+    pub(in crate::vbelt) place: f64,
     /// Excess of elastic friction over its limit.
-    pub(super) limit: f64,
+    pub(in crate::vbelt) limit: f64,
     /// The displacement of scalar EPP friction; zero with other laws.
-    pub(super) displacement: f64,
+    pub(in crate::vbelt) displacement: f64,
     /// Excess of the traction over that in the middle of the turn, as a share of friction.
-    pub(super) turn: f64,
+    pub(in crate::vbelt) turn: f64,
     /// Direction of the traction, continuous along the pulley.
-    pub(super) direction: f64,
+    pub(in crate::vbelt) direction: f64,
     /// Whether friction holds the belt.
-    pub(super) sticks: bool,
+    pub(in crate::vbelt) sticks: bool,
     /// Power that the belt gains from scalar elastic friction, which pulls with the slip, per length; zero where it loses some.
-    pub(super) gained: f64,
+    pub(in crate::vbelt) gained: f64,
     /// Friction as a share of its limit.
-    share: f64,
+    pub(in crate::vbelt) share: f64,
 }
 
 /// Looks at a solution along one pulley, at the exit and just behind the entry too if asked for.
