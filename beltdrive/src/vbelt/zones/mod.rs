@@ -232,10 +232,13 @@ fn cut<P: BeltProblem>(
     // Before they are cut, which depends on where they end, and the cuts behind it.
     let near = ELSEWHERE * length;
     keep_junctions(&mut zones, (solved, pulley), near);
+    let mut cuts = problem
+        .zones(pulley)
+        .filter(|&segment| problem.is_cut(segment));
     let margin = length
-        * match (sticks(&zones), problem.breakaway(pulley)) {
-            (true, _) => SHORTEST_BEHIND_STICK,
-            (_, Some(_)) => SHORTEST_ZONE,
+        * match (sticks(&zones), cuts.next(), cuts.next()) {
+            (true, Some(_), _) => SHORTEST_BEHIND_STICK,
+            (true, ..) | (.., Some(_)) => SHORTEST_ZONE,
             _ => SHORTEST_CUT,
         };
     let mut zones = match groove.law {
