@@ -12,6 +12,10 @@ use crate::vbelt::groove::{LAW, TENSION};
 const TENSION_ACCURACY: f64 = 1e-9;
 /// The most secant steps to that.
 const MOST_SECANTS: usize = 20;
+/// Accuracy of the displacement at the entry over that at which friction reaches its limit, and the most secant steps to that from
+/// one near by: three to five, where they are not the first.
+const DISPLACEMENT_ACCURACY: f64 = 1e-9;
+const MOST_SECANTS_NEAR: usize = 8;
 /// The displacements over that at which elastic friction reaches its limit with which it is tried whether friction holds a belt:
 /// the largest, by how much the next one is smaller, and the smallest.
 const JUST_HELD: f64 = 0.999;
@@ -26,8 +30,22 @@ pub(super) fn entering(on: On, groove: &Groove, span: SpanTension) -> Option<Ent
     let asked = span.value();
     let mut tractive = groove.strand.tractive_of(span, 1.0);
     let mut before: Option<[f64; 2]> = None;
+    let mut displaced = None;
     for _ in 0..MOST_SECANTS {
-        let (there, entry) = coming_to_rest(on, groove, tractive)?;
+        let to_rest = ToRest {
+            on,
+            groove,
+            tractive,
+        };
+        let (there, entry) = match groove.elastic() {
+            None => to_rest.with(0.0)?,
+            Some(_) => {
+                let found = displaced.and_then(|near| to_rest.displaced_near(near));
+                let found = found.or_else(|| to_rest.displaced())?;
+                displaced = Some(found);
+                to_rest.with(found)?
+            }
+        };
         let found = entry[0].states[TENSION];
         let excess = groove.strand.prescribed(span, found, there.rim.flow) - asked;
         if excess.abs() <= TENSION_ACCURACY * asked {
@@ -41,49 +59,81 @@ pub(super) fn entering(on: On, groove: &Groove, span: SpanTension) -> Option<Ent
     None
 }
 
-/// The way to rest with a tractive tension there, on which the displacement of elastic friction grows from zero.
-fn coming_to_rest(on: On, groove: &Groove, tractive: f64) -> Option<Entering> {
-    let of = |displaced: f64| {
-        let rest = Rest::new(groove, on, tractive, displaced)?;
-        rest.entry().map(|entry| (rest, entry))
-    };
-    if groove.elastic().is_none() {
-        return of(0.0);
-    }
-    let growing = Rest::new(groove, on, tractive, 1.0)?.growing().signum();
-    [growing, -growing].into_iter().find_map(|sense| {
-        let displaced = with_sense(|displaced| of(sense * displaced))?;
-        // A displacement that falls lets a belt go.
-        let holds = displaced > 1.0 || sense == growing;
-        holds.then(|| of(sense * displaced))?
-    })
+/// A belt that comes to rest with a tractive tension.
+struct ToRest<'g> {
+    on: On,
+    groove: &'g Groove,
+    tractive: f64,
 }
 
-/// The displacement over that at the limit with which it is zero at the entry, if there is one.
-fn with_sense(of: impl Fn(f64) -> Option<Entering>) -> Option<f64> {
-    // The displacement at the entry over that at the limit.
-    let at_entry = |displaced: f64| {
-        of(displaced).map_or(f64::NAN, |(rest, entry)| {
+impl ToRest<'_> {
+    /// The place of rest and the way there with a displacement, as in [`Rest::new`].
+    fn with(&self, displaced: f64) -> Option<Entering> {
+        let rest = Rest::new(self.groove, self.on, self.tractive, displaced)?;
+        rest.entry().map(|entry| (rest, entry))
+    }
+
+    /// The displacement at the entry over that at the limit.
+    fn at_entry(&self, displaced: f64) -> f64 {
+        self.with(displaced).map_or(f64::NAN, |(rest, entry)| {
             displaced * entry[0].states[LAW + 1] / rest.displacement
         })
-    };
-    let mut from = (JUST_HELD, at_entry(JUST_HELD));
-    // Where the belt slides into its place of rest the displacement is only carried along.
-    let is_held = from.1 > 0.0;
-    let mut further = -from.1;
-    loop {
-        let to = match is_held {
-            true => SMALLER * from.0,
-            false => from.0 + further,
-        };
-        let to = (to, at_entry(to));
-        if to.1.is_nan() || to.0 < LEAST_HELD {
-            return None;
+    }
+
+    /// The displacement with which it is zero at the entry, if there is one.
+    fn displaced(&self) -> Option<f64> {
+        let growing = Rest::new(self.groove, self.on, self.tractive, 1.0)?.growing();
+        let sense = growing.signum();
+        [sense, -sense].into_iter().find_map(|sense| {
+            let displaced = self.with_sense(sense)?;
+            // A displacement that falls lets a belt go.
+            let holds = displaced.abs() > 1.0 || displaced * growing > 0.0;
+            holds.then_some(displaced)
+        })
+    }
+
+    /// The same with a sense, from where friction is just held to either side.
+    fn with_sense(&self, sense: f64) -> Option<f64> {
+        let at_entry = |displaced| sense * self.at_entry(displaced);
+        let mut from = (sense * JUST_HELD, at_entry(sense * JUST_HELD));
+        // Where the belt slides into its place of rest the displacement is only carried along.
+        let is_held = from.1 > 0.0;
+        let mut further = -from.1;
+        loop {
+            let to = match is_held {
+                true => SMALLER * from.0,
+                false => from.0 + sense * further,
+            };
+            let to = (to, at_entry(to));
+            if to.1.is_nan() || to.0.abs() < LEAST_HELD {
+                return None;
+            }
+            if is_held != (to.1 > 0.0) {
+                return bracketed(at_entry, [from.0, to.0], [from.1, to.1]);
+            }
+            from = to;
+            further *= 2.0;
         }
-        if is_held != (to.1 > 0.0) {
-            return bracketed(at_entry, [from.0, to.0], [from.1, to.1]);
+    }
+
+    /// The same by the secant from a displacement near by, with which friction is at its limit or not, too.
+    fn displaced_near(&self, near: f64) -> Option<f64> {
+        let mut place = near;
+        let mut before: Option<[f64; 2]> = None;
+        for _ in 0..MOST_SECANTS_NEAR {
+            let off = self.at_entry(place);
+            if off.abs() <= DISPLACEMENT_ACCURACY {
+                return Some(place);
+            }
+            // What is there too much at the rest is so at the entry.
+            let slope = before.map_or(1.0, |[other, then]| (off - then) / (place - other));
+            before = Some([place, off]);
+            place -= off / slope;
+            let is_alike = place * near > 0.0 && (place.abs() < 1.0) == (near.abs() < 1.0);
+            if !is_alike {
+                return None;
+            }
         }
-        from = to;
-        further *= 2.0;
+        None
     }
 }

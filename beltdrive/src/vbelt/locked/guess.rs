@@ -232,7 +232,6 @@ mod tests {
                 slack: SpanTension::Tractive(553.489_9),
                 tight: SpanTension::Tractive(553.489_9),
             },
-            ..loaded(100.0, 0.25)
         }
     }
 
