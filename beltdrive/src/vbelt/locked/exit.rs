@@ -84,7 +84,8 @@ fn sliding(rest: &Rest, span: SpanTension) -> Option<Leaving> {
     })
 }
 
-/// A belt that friction held and that leaves with a displacement, if it is known with an inclination beside this.
+/// A belt that friction held and that leaves into a span with the displacement `at_exit`, at about the inclination `beside` if one is
+/// known.
 fn loose(rest: &Rest, span: SpanTension, at_exit: f64, beside: Option<f64>) -> Option<Leaving> {
     let asked = rest.rim.groove.strand.tractive_of(span, rest.rim.flow);
     let within = |range| {
