@@ -14,9 +14,9 @@ const NEAR: f64 = 1e-6;
 /// A belt is followed back until λ times the way left to where it was held is this, from where on its slip is in proportion to that
 /// way, ...
 ///
-/// With 0.05 the arcs of one of 30 random drives take 1 s, with 1 the states of three more are not found from their integrals.
+/// With 0.05 the arcs of one of 30 random drives take 1 s, with 1 the states of four more are not found from their integrals.
 const WAY_LEFT: f64 = 0.2;
-/// ... and until its slip has the direction of that, to this share: with 0.05 those of six more are not.
+/// ... and until its slip has the direction of that, to this share: with 0.05 those of eight more are not.
 const STEADY: f64 = 0.01;
 /// Where points lie on the way that is left.
 const PLACES_LEFT: [f64; 5] = [0.1, 0.3, 0.5, 0.75, 1.0];

@@ -23,7 +23,7 @@ const LONGER: f64 = 1.3;
 const DISPLACEMENT: usize = LAW + 1;
 
 /// Accuracy of the displacement of elastic friction where a belt that it held breaks loose: with 1e-6, below what rounding of the
-/// steps of its arc makes of it, the states of three more of 30 random drives are not found from their integrals.
+/// steps of its arc makes of it, three more of 30 random drives have no guess.
 const DISPLACEMENT_ACCURACY: f64 = 1e-4;
 
 /// A pulley on which the belt locks.

@@ -10,7 +10,7 @@ pub(super) const SHORTEST_ZONE: f64 = 1e-4;
 /// of a stiff belt with a light load is lifted within an arc as short as that.
 pub(super) const SHORTEST_CUT: f64 = 3e-3;
 /// The same where a belt that sticks, and slides an arc as short as its slip is small before it is lifted, is known to turn. With
-/// 1e-4 the states of seven more of 30 random drives without load are not found from their integrals.
+/// 1e-4 the states of six more of 30 random drives without load are not found from their integrals.
 pub(super) const SHORTEST_BEHIND_STICK: f64 = 1e-8;
 /// An elastic zone that gradual friction shows is left out if it is shorter than this share of the contact. With one of
 /// 5e-4 Newton's method failed; without one of 2e-3, which was there, it failed, too.
