@@ -162,11 +162,6 @@ impl<S: Real> Strand<S> {
         T::from(self.compliance) / (stretch * stiffening)
     }
 
-    /// Change of the belt tension T per tractive tension F.
-    pub(crate) fn stretched<T: Over<S>>(&self, flow: T) -> T {
-        T::from_f64(1.0) / (T::from_f64(1.0) - flow * flow * (self.inertia * self.compliance))
-    }
-
     /// Strain T/EA.
     pub(crate) fn strain<T: Over<S>>(&self, tension: T) -> T {
         tension * self.compliance

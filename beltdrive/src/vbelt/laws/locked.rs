@@ -22,21 +22,18 @@ impl Path<'_> {
     /// The steady state of a drive with Coulomb or scalar EPP friction whose belt locks on both pulleys and hardly slides
     /// along them, if it is found and friction obeys its law.
     pub(super) fn locked(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
-        match asked.law() {
-            FrictionLaw::Coulomb => {
-                let sharp = self.put_together(asked, FrictionLaw::Coulomb)?;
-                self.finish_obeying(sharp).ok()
-            }
-            FrictionLaw::Epp { .. } => {
-                let sharp = self.put_together(asked, asked.law());
-                let found = sharp.and_then(|sharp| self.finish_obeying(sharp).ok());
-                found.or_else(|| {
-                    let sharp = self.by_coulomb(asked)?;
-                    self.finish_obeying(sharp).ok()
-                })
-            }
-            _ => None,
+        let is_elastic = match asked.law() {
+            FrictionLaw::Coulomb => false,
+            FrictionLaw::Epp { .. } => true,
+            _ => return None,
+        };
+        let sharp = self.put_together(asked, asked.law());
+        let found = sharp.and_then(|sharp| self.finish_obeying(sharp).ok());
+        if found.is_some() || !is_elastic {
+            return found;
         }
+        let sharp = self.by_coulomb(asked)?;
+        self.finish_obeying(sharp).ok()
     }
 
     /// The state with a law from its integrals, roughly.

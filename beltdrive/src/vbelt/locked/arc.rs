@@ -123,9 +123,7 @@ impl Rim {
         };
         along.into_iter().map(point).collect()
     }
-}
 
-impl Rim {
     /// What is seen of a belt at a point of an arc.
     pub(super) fn sample(&self, point: &Point) -> Sample {
         let [tension, theta, x, phi, direction, displacement] = point.states;

@@ -13,7 +13,7 @@ const TENSION_ACCURACY: f64 = 1e-9;
 /// The most secant steps to that.
 const MOST_SECANTS: usize = 20;
 /// Accuracy of the displacement at the entry over that at which friction reaches its limit, and the most secant steps to that from
-/// one near by: three to five, where they are not the first.
+/// one near by: from afar five to nine are taken before there is a bracket.
 const DISPLACEMENT_ACCURACY: f64 = 1e-9;
 const MOST_SECANTS_NEAR: usize = 8;
 /// The displacements over that at which elastic friction reaches its limit with which it is tried whether friction holds a belt:
@@ -40,10 +40,13 @@ pub(super) fn entering(on: On, groove: &Groove, span: SpanTension) -> Option<Ent
         let (there, entry) = match groove.elastic() {
             None => to_rest.with(0.0)?,
             Some(_) => {
-                let found = displaced.and_then(|near| to_rest.displaced_near(near));
-                let found = found.or_else(|| to_rest.displaced())?;
+                let near = displaced.and_then(|near| to_rest.displaced_near(near));
+                let (found, entering) = near.or_else(|| {
+                    let found = to_rest.displaced()?;
+                    Some((found, to_rest.with(found)?))
+                })?;
                 displaced = Some(found);
-                to_rest.with(found)?
+                entering
             }
         };
         let found = entry[0].states[TENSION];
@@ -75,9 +78,8 @@ impl ToRest<'_> {
 
     /// The displacement at the entry over that at the limit.
     fn at_entry(&self, displaced: f64) -> f64 {
-        self.with(displaced).map_or(f64::NAN, |(rest, entry)| {
-            displaced * entry[0].states[LAW + 1] / rest.displacement
-        })
+        let with = self.with(displaced);
+        with.map_or(f64::NAN, |entering| over_limit(&entering, displaced))
     }
 
     /// The displacement with which it is zero at the entry, if there is one.
@@ -116,14 +118,15 @@ impl ToRest<'_> {
         }
     }
 
-    /// The same by the secant from a displacement near by, with which friction is at its limit or not, too.
-    fn displaced_near(&self, near: f64) -> Option<f64> {
+    /// The same, and the way there, by the secant from a displacement near by with which friction is at its limit or not, too.
+    fn displaced_near(&self, near: f64) -> Option<(f64, Entering)> {
         let mut place = near;
         let mut before: Option<[f64; 2]> = None;
         for _ in 0..MOST_SECANTS_NEAR {
-            let off = self.at_entry(place);
+            let entering = self.with(place)?;
+            let off = over_limit(&entering, place);
             if off.abs() <= DISPLACEMENT_ACCURACY {
-                return Some(place);
+                return Some((place, entering));
             }
             // What is there too much at the rest is so at the entry.
             let slope = before.map_or(1.0, |[other, then]| (off - then) / (place - other));
@@ -136,4 +139,9 @@ impl ToRest<'_> {
         }
         None
     }
+}
+
+/// The displacement at the entry of a belt that comes to rest with one, over that at the limit.
+fn over_limit((rest, entry): &Entering, displaced: f64) -> f64 {
+    displaced * entry[0].states[LAW + 1] / rest.displacement
 }

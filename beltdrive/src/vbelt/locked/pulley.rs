@@ -215,10 +215,11 @@ impl Pulley {
     fn carry_displacement(&self, points: &mut [Point]) {
         let rim = &self.rest.rim;
         let growing = |point: &Point| rim.growing(point.states[TENSION]);
+        // T is linear in F.
+        let slope = rim.growing(1.0) - rim.growing(0.0);
         for index in 1..points.len() {
             let [before, after] = [points[index - 1], points[index]];
             let length = after.s - before.s;
-            let slope = rim.groove.strand.stretched(rim.flow);
             let bent = (before.rates[TENSION] - after.rates[TENSION]) * slope * length / 6.0;
             let mean = 0.5 * (growing(&before) + growing(&after) + bent);
             let point = &mut points[index];
@@ -238,7 +239,7 @@ fn course(points: &[Point], [from, to]: [f64; 2]) -> Course {
 }
 
 /// The belt at a place, as it arrives there or as it leaves it.
-fn at(points: &[Point], s: f64, arrives: bool) -> Point {
+pub(super) fn at(points: &[Point], s: f64, arrives: bool) -> Point {
     let next = match arrives {
         true => points.partition_point(|point| point.s < s),
         false => points.partition_point(|point| point.s <= s),
@@ -257,7 +258,7 @@ fn at(points: &[Point], s: f64, arrives: bool) -> Point {
 }
 
 /// The states at a place between two points, on the cubic with the states and rates there (Hermite).
-pub(super) fn cubic(before: &Point, after: &Point, place: f64) -> [f64; LAW + 2] {
+fn cubic(before: &Point, after: &Point, place: f64) -> [f64; LAW + 2] {
     let length = after.s - before.s;
     let share = (place - before.s) / length;
     let rest = 1.0 - share;
