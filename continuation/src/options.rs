@@ -38,7 +38,8 @@ pub struct Options {
     pub accuracy: f64,
     /// Limit points, cusps and events are located and corrected to this length in the arclength norm; 0, the default,
     /// stands for down to rounding, which is what branch points and points with a prescribed λ are corrected to always.
-    /// At a limit point λ is then off by about the square of it.
+    /// At a limit point λ is then off by about the square of it. Labelled points on a refined system, with which their errors
+    /// are found, are corrected to this length, too.
     #[cfg_attr(feature = "serde", serde(default))]
     pub location: f64,
     /// Whether branch points are looked for; default true. For that a second null vector is followed, and steps are

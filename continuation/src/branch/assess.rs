@@ -3,7 +3,7 @@
 use crate::branch::discretisation::{CORRECTIONS, Discretisation};
 use crate::branch::events::Events;
 use crate::branch::progress::Progress;
-use crate::curve::corrector::{Accuracy, Condition};
+use crate::curve::corrector::Condition;
 use crate::curve::curve::{Curve, reverse};
 use crate::curve::metric::Metric;
 use crate::difficulty::Difficulty;
@@ -130,86 +130,95 @@ impl<S: System> Assessment<'_, '_, S> {
         let (z, tangent, kind) = (&point.z[..], &point.tangent[..], point.kind);
         let n = z.len() - 1;
         let mut curve = Curve::new(system, metric.clone(), self.options.bounds);
-        let to = |curve: &mut Curve<'_, S>, mut z: Vec<f64>, condition: &Condition| {
+        curve.location = self.options.location;
+        let accuracy = curve.located();
+        let to = |curve: &mut Curve<'_, S>, condition: &Condition| {
+            let mut z = z.to_vec();
             curve
-                .correct(&mut z, condition, Accuracy::Rounding, CORRECTIONS)
+                .correct(&mut z, condition, accuracy, CORRECTIONS)
                 .map(|_| z)
         };
+        let at_lambda = Condition::lambda(n + 1, z[n]);
+        let across = Condition::plane(metric, tangent, z);
         match kind {
-            Kind::Target | Kind::Bound => {
-                let condition = Condition::lambda(n + 1, z[n]);
-                to(&mut curve, z.to_vec(), &condition)
-            }
+            Kind::Target | Kind::Bound => to(&mut curve, &at_lambda),
             // A limit point is not determined by its λ.
-            Kind::Start => {
-                to(&mut curve, z.to_vec(), &Condition::lambda(n + 1, z[n])).or_else(|_| {
-                    to(
-                        &mut curve,
-                        z.to_vec(),
-                        &Condition::plane(metric, tangent, z),
-                    )
-                })
-            }
-            Kind::Regular | Kind::Closed => to(
-                &mut curve,
-                z.to_vec(),
-                &Condition::plane(metric, tangent, z),
-            ),
+            Kind::Start => to(&mut curve, &at_lambda).or_else(|_| to(&mut curve, &across)),
+            Kind::Regular | Kind::Closed => to(&mut curve, &across),
             Kind::BranchPoint => {
                 set_borders(&mut curve, z)?;
                 branch_point(&mut curve, z).map(|found| found.z)
             }
             Kind::LimitPoint | Kind::Cusp | Kind::Event(_) => {
-                let mut value = |curve: &mut Curve<'_, S>, s: f64, place: &[f64]| {
-                    let mut t = curve.tangent(place)?;
-                    if metric.dot(&t, tangent) < 0.0 {
-                        reverse(&mut t);
+                let unit = metric.dot(tangent, tangent);
+                let mut value = |curve: &mut Curve<'_, S>, s: f64, z: Vec<f64>| {
+                    let mut tangent_here = curve.tangent(&z)?;
+                    if metric.dot(&tangent_here, tangent) < 0.0 {
+                        reverse(&mut tangent_here);
                     }
-                    if let Kind::Event(index) = kind {
-                        let mut node = Node::new(place.to_vec(), t);
-                        node.arclength = point.arclength + s * metric.norm(tangent);
-                        return Ok(self.events.value(index, curve.system, &node));
-                    }
-                    let cusp = curve.system.cusp_function().filter(|_| kind == Kind::Cusp);
-                    Ok(cusp.unwrap_or(t[n]))
+                    let rate = tangent_here[n];
+                    let mut node = Node::new(z, tangent_here);
+                    node.arclength = point.arclength + s * unit.sqrt();
+                    let value = match kind {
+                        Kind::Event(index) => self.events.value(index, curve.system, &node),
+                        Kind::Cusp => curve.system.cusp_function().unwrap_or(rate),
+                        _ => rate,
+                    };
+                    Ok(Place { s, node, value })
                 };
-                let mut at = |curve: &mut Curve<'_, S>,
-                              s: f64|
-                 -> Result<(Vec<f64>, f64), Difficulty> {
-                    let near: Vec<f64> = z.iter().zip(tangent).map(|(z, t)| z + s * t).collect();
-                    let plane = Condition::plane(metric, tangent, &near);
-                    let found = to(curve, near, &plane)?;
-                    let value = value(curve, s, &found)?;
-                    Ok((found, value))
+                let first = to(&mut curve, &across)?;
+                let first = value(&mut curve, 0.0, first)?;
+                let onward = |from: &Place, s: f64| {
+                    let Node {
+                        z: here,
+                        tangent: t,
+                        ..
+                    } = &from.node;
+                    let way = (s - from.s) * unit / metric.dot(t, tangent);
+                    let mut next: Vec<f64> = here.iter().zip(t).map(|(z, t)| z + way * t).collect();
+                    let through: Vec<f64> = z.iter().zip(tangent).map(|(z, t)| z + s * t).collect();
+                    let plane = Condition::plane(metric, tangent, &through);
+                    curve.correct_nearby(&mut next, &plane, accuracy, CORRECTIONS)?;
+                    value(&mut curve, s, next)
                 };
-                secant(|s| at(&mut curve, s))
+                secant(first, onward, self.options.location)
             }
         }
     }
 }
 
-/// The place where the value is zero near s = 0, by the secant method down to rounding.
+/// A place of a branch on the refined system.
+struct Place {
+    /// How far it is along the tangent of the point that is sought.
+    s: f64,
+    node: Node,
+    /// The function whose zero is sought.
+    value: f64,
+}
+
+/// The place where the value is zero near that at s = 0, by the secant method down to steps of this length or rounding.
 fn secant(
-    mut at: impl FnMut(f64) -> Result<(Vec<f64>, f64), Difficulty>,
+    mut here: Place,
+    mut onward: impl FnMut(&Place, f64) -> Result<Place, Difficulty>,
+    length: f64,
 ) -> Result<Vec<f64>, Difficulty> {
-    let (mut s, (mut place, mut value)) = (0.0, at(0.0)?);
-    let (mut other, (_, mut before)) = (SECANT, at(SECANT)?);
+    let mut s = here.s + SECANT;
     let mut last = f64::INFINITY;
     for _ in 0..SECANT_STEPS {
-        let step = -value * (s - other) / (value - before);
-        if value.is_nan() {
+        if here.value == 0.0 {
+            return Ok(here.node.z);
+        }
+        let next = onward(&here, s)?;
+        let before = std::mem::replace(&mut here, next);
+        if here.value.is_nan() {
             break;
         }
-        if !step.is_finite() || step.abs() >= 0.5 * last && last < SECANT {
-            return Ok(place);
+        let step = -here.value * (here.s - before.s) / (here.value - before.value);
+        if !step.is_finite() || step.abs() <= length || step.abs() >= 0.5 * last && last < SECANT {
+            return Ok(here.node.z);
         }
-        (other, before) = (s, value);
-        s += step;
-        (place, value) = at(s)?;
+        s = here.s + step;
         last = step.abs();
-        if value == 0.0 {
-            return Ok(place);
-        }
     }
     Err(Difficulty::NoConvergence {
         correction: last,

@@ -24,8 +24,9 @@ const CONTRACTION: f64 = 0.7;
 /// are rounding.
 const ROUNDING: f64 = 1e-8;
 const ROUNDING_FACTOR: f64 = 100.0;
-/// A first correction shorter than this keeps the linearisation for the second one.
-const SHORT: f64 = 1e-3;
+/// A first correction shorter than this keeps the linearisation for the second one, and a way shorter than this leads to a place
+/// nearby.
+pub(crate) const SHORT: f64 = 1e-3;
 /// A condition this nearly parallel to the curve determines nothing.
 const PARALLEL: f64 = 1e-13;
 
@@ -114,8 +115,33 @@ impl Corrector {
         accuracy: Accuracy,
         limit: usize,
     ) -> Result<Correction, Difficulty> {
-        let n = z.len() - 1;
         self.resize(z.len());
+        self.corrections(system, metric, z, condition, (accuracy, limit), false)
+    }
+
+    /// The same, beginning with the last linearisation, which was made at a place nearby: the drift is counted from there.
+    pub(crate) fn correct_nearby<S: System>(
+        &mut self,
+        system: &mut S,
+        metric: &Metric,
+        z: &mut [f64],
+        condition: &Condition,
+        accuracy: Accuracy,
+        limit: usize,
+    ) -> Result<Correction, Difficulty> {
+        self.corrections(system, metric, z, condition, (accuracy, limit), true)
+    }
+
+    fn corrections<S: System>(
+        &mut self,
+        system: &mut S,
+        metric: &Metric,
+        z: &mut [f64],
+        condition: &Condition,
+        (accuracy, limit): (Accuracy, usize),
+        mut keep: bool,
+    ) -> Result<Correction, Difficulty> {
+        let n = z.len() - 1;
         let mut report = Correction {
             first: 0.0,
             contraction: 0.0,
@@ -128,7 +154,7 @@ impl Corrector {
         };
         let rounding = ROUNDING.max(ROUNDING_FACTOR * wanted);
         // The length of the correction before, unless it is no measure for the next one.
-        let (mut before, mut keep) = (None, false);
+        let mut before = None;
         // A correction by an old linearisation that may be rounding.
         let mut doubted: Option<Vec<f64>> = None;
         for step in 0..limit {

@@ -51,6 +51,26 @@ impl<'a, S: System> Curve<'a, S> {
             .correct(self.system, &self.metric, z, condition, accuracy, limit)
     }
 
+    /// The same, by the last linearisation as long as that does: it was made at a place nearby.
+    pub(crate) fn correct_nearby(
+        &mut self,
+        z: &mut [f64],
+        condition: &Condition,
+        accuracy: Accuracy,
+        limit: usize,
+    ) -> Result<Correction, Difficulty> {
+        self.corrector
+            .correct_nearby(self.system, &self.metric, z, condition, accuracy, limit)
+    }
+
+    /// How accurately points between two others are located.
+    pub(crate) fn located(&self) -> Accuracy {
+        match self.location {
+            0.0 => Accuracy::Rounding,
+            length => Accuracy::Length(length),
+        }
+    }
+
     /// The distances from a solution `z` of the place this `way` ahead, in the plane across `normal`, after one
     /// correction with the last linearisation and after two. The first takes away what is linear; where it leads near
     /// enough, the second distance is zero.

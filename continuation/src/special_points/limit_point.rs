@@ -3,7 +3,7 @@
 use crate::curve::metric::Metric;
 use crate::difficulty::Difficulty;
 use crate::special_points::node::{Located, Node};
-use crate::special_points::span::{RESOLVED, Span, nearest};
+use crate::special_points::span::{RESOLVED, Span};
 use crate::system::system::System;
 
 /// Where the rate of λ seems to fall below this share of that at both nodes, it is evaluated in between, ...
@@ -99,7 +99,7 @@ fn turned_between<S: System>(span: &mut Span<'_, '_, S>) -> Result<Option<Locate
     let [mut below, mut above] = [(0.0, rates[0]), (1.0, rates[1])];
     let mut least: Option<(f64, f64)> = None;
     for _ in 0..TRIALS {
-        let found = span.at(u, nearest(&known, u))?;
+        let found = span.at(u, &known)?;
         let here = (u, sign * found.tangent[n]);
         if here.1 < 0.0 {
             return Ok(Some(found));

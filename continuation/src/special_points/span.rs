@@ -1,6 +1,6 @@
 //! The piece of a branch between two accepted points.
 
-use crate::curve::corrector::{Accuracy, Condition};
+use crate::curve::corrector::{Accuracy, Condition, SHORT};
 use crate::curve::curve::{Curve, reverse};
 use crate::curve::root::root;
 use crate::difficulty::Difficulty;
@@ -48,8 +48,7 @@ impl<S: System> Span<'_, '_, S> {
         condition: &Condition,
         accuracy: Accuracy,
     ) -> Result<Located, Difficulty> {
-        let pairs = near.z.iter().zip(&near.tangent);
-        let mut z: Vec<f64> = pairs.map(|(z, t)| z + shift * t).collect();
+        let mut z = near.ahead(shift);
         self.curve
             .correct(&mut z, condition, accuracy, CORRECTIONS)?;
         self.complete(z)
@@ -133,7 +132,7 @@ impl<S: System> Span<'_, '_, S> {
         let mut known: Vec<Located> = self.ends().into();
         let (location, length) = (self.curve.location, self.curve.metric.norm(&self.secant()));
         let search = |u: f64| -> Result<f64, Difficulty> {
-            let found = self.at(u, nearest(&known, u))?;
+            let found = self.at(u, &known)?;
             let value = test(self.curve.system, &found.z, &found.tangent);
             known.push(found);
             Ok(value)
@@ -143,19 +142,26 @@ impl<S: System> Span<'_, '_, S> {
         Ok(nearest(&known, u).clone())
     }
 
-    /// The point at u, in the plane across the secant, from a known one.
-    pub(crate) fn at(&mut self, u: f64, near: &Located) -> Result<Located, Difficulty> {
+    /// The point at u, in the plane across the secant, from the nearest of both ends and points completed since.
+    pub(crate) fn at(&mut self, u: f64, known: &[Located]) -> Result<Located, Difficulty> {
         let secant = self.secant();
         let base = self.from.z.iter().zip(&secant);
         let target: Vec<f64> = base.map(|(a, d)| a + u * d).collect();
         let plane = Condition::plane(&self.curve.metric, &secant, &target);
+        let near = nearest(known, u);
         let unit = self.curve.metric.dot(&secant, &secant);
         let shift = (u - near.u) * unit / self.curve.metric.dot(&secant, &near.tangent);
-        let accuracy = match self.curve.location {
-            0.0 => Accuracy::Rounding,
-            length => Accuracy::Length(length),
+        let accuracy = self.curve.located();
+        // The system is linearised at the last of them.
+        let is_linearised = known[2..].last().is_some_and(|last| last.u == near.u);
+        let found = if is_linearised && shift.abs() < SHORT {
+            let mut z = near.ahead(shift);
+            self.curve
+                .correct_nearby(&mut z, &plane, accuracy, CORRECTIONS)?;
+            self.complete(z)?
+        } else {
+            self.correct(near, shift, &plane, accuracy)?
         };
-        let found = self.correct(near, shift, &plane, accuracy)?;
         Ok(Located { u, ..found })
     }
 

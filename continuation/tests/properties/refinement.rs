@@ -3,6 +3,8 @@
 use crate::{of, trace};
 use continuation::Direction::Increasing;
 use continuation::{Branch, Cause, Kind, Options, Point, Stop, System};
+use std::cell::Cell;
+use std::rc::Rc;
 
 /// λ = 1 − x² + offset(level), finer and finer.
 #[derive(Clone)]
@@ -11,6 +13,8 @@ struct Refining {
     offset: fn(i32) -> f64,
     tolerance: f64,
     slope: f64,
+    /// How often refined systems were linearised.
+    linearisations: Rc<Cell<usize>>,
 }
 
 impl Refining {
@@ -21,6 +25,7 @@ impl Refining {
             offset,
             tolerance,
             slope,
+            linearisations: Rc::default(),
         }
     }
 }
@@ -36,6 +41,9 @@ impl System for Refining {
 
     fn linearise(&mut self, z: &[f64]) -> Result<(), Cause> {
         self.slope = 2.0 * z[0];
+        let is_refined = usize::from(self.level > 0);
+        self.linearisations
+            .set(self.linearisations.get() + is_refined);
         Ok(())
     }
 
@@ -126,4 +134,22 @@ fn the_error_of_a_change_is_not_asked_for() {
     assert_eq!((event.kind, change.kind), (Kind::Event(0), Kind::Event(1)));
     assert!((event.z[0] + 0.5).abs() < 1e-12 && (change.z[0] + 0.5).abs() < 1e-12);
     assert!(event.error.is_some() && change.error.is_none());
+}
+
+#[test]
+fn labelled_points_of_a_refined_system_take_few_linearisations() {
+    let mut system = Refining::new(|level| 1e-6 * 0.25f64.powi(level), 1e-3);
+    let options = Options {
+        targets: Vec::new(),
+        location: 1e-10,
+        ..options()
+    };
+    let (points, _) = trace(&mut system, &[-1.0, 0.0], Increasing, &options);
+    let limit = of(&points, Kind::LimitPoint)[0];
+    assert!((limit.error.unwrap().lambda - 7.5e-7).abs() < 1e-12);
+    let labelled = points.iter().filter(|point| point.kind != Kind::Regular);
+    assert_eq!(labelled.count(), 3);
+    // One each for the start and the bound. For the limit point one to begin with and those of the tangents at three places.
+    let count = system.linearisations.get();
+    assert!(count <= 2 + 4, "{count}");
 }
