@@ -204,7 +204,9 @@ impl Tracer<'_> {
             Ok(branch) => branch,
             Err(error) => return not_converged(difficulty::of_branch(&error)),
         };
-        let mut branch = self.with_events(branch, &solved, first);
+        let mut branch = self
+            .with_events(branch, &solved, first)
+            .unassessed(self.untold());
         let mut last = bvp::Stats::default();
         let mut before: Option<(Point, Solved, Direction)> = None;
         // The ends of a zone may move at a load that does not change.
@@ -261,7 +263,9 @@ impl Tracer<'_> {
                 self.convergence.count(&last);
                 return not_converged(difficulty::TOO_ABRUPT);
             }
-            let effect = branch.system().smoothing_effect(&point.z);
+            let is_told = !self.untold().contains(&point.kind);
+            let effect = is_told.then(|| branch.system().smoothing_effect(&point.z));
+            let effect = effect.flatten();
             let precise = || precise(&family, branch.system(), &point, (&options, &steps));
             let outcome = self.take(&point, &here, &precise, effect, ahead, has_cut_turned);
             progress(self.share(self.value(point.lambda())), "tracing");
@@ -302,6 +306,17 @@ impl Tracer<'_> {
                 self.goes_on(&point, next, ahead)
             }
             _ => PieceEnd::Branch(self.end(stop)),
+        }
+    }
+
+    /// The kinds of points whose errors are not told: of a branch up to a limit point those of its ends and of what happens on the
+    /// way are, and the first point of a later piece is the last one of the piece before. Each takes one linearisation or more: with
+    /// all of them `limits` of the drive of Kim (2009) takes 257 ms in place of 230 ms.
+    fn untold(&self) -> &'static [Kind] {
+        match self.until {
+            Until::LimitPoint => &[Kind::Start, Kind::Regular],
+            Until::RangeEnds if self.points.is_empty() => &[],
+            Until::RangeEnds => &[Kind::Start],
         }
     }
 

@@ -27,6 +27,8 @@ pub(crate) struct Assessment<'s, 'a, S> {
     pub(crate) events: &'s mut Events<'a, S>,
     pub(crate) progress: &'s mut Progress,
     pub(crate) options: &'s Options,
+    /// The kinds of points whose error is not asked for.
+    pub(crate) unassessed: &'s [Kind],
 }
 
 impl<S: System> Assessment<'_, '_, S> {
@@ -34,11 +36,7 @@ impl<S: System> Assessment<'_, '_, S> {
     /// system. Where the error exceeds the tolerance of the system, the branch goes over to the
     /// refined one; where it stays so, that is a reason to stop.
     pub(crate) fn assessed(&mut self, mut point: Point) -> (Point, Option<Stop>) {
-        let is_asked_for = match point.kind {
-            Kind::Regular => false,
-            Kind::Event(index) => self.events.is_assessed(index),
-            _ => true,
-        };
+        let is_asked_for = point.kind != Kind::Regular && !self.unassessed.contains(&point.kind);
         if !is_asked_for || point.approximate {
             return (point, None);
         }

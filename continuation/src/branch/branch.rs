@@ -49,6 +49,8 @@ pub struct Branch<'a, S: System> {
     options: Options,
     /// The length of the next step.
     step: f64,
+    /// The kinds of points whose discretisation error is not asked for.
+    unassessed: Vec<Kind>,
     stop: Option<Stop>,
 }
 
@@ -172,6 +174,7 @@ impl<'a, S: System> Branch<'a, S> {
             progress: Progress::at(Node::new(z.to_vec(), vec![0.0; unknowns])),
             options: options.clone(),
             step: options.first_step.min(options.largest_step),
+            unassessed: Vec::new(),
             stop: None,
         })
     }
@@ -198,27 +201,29 @@ impl<'a, S: System> Branch<'a, S> {
     /// # Ok::<(), continuation::Error>(())
     /// ```
     #[must_use]
-    pub fn event(self, function: impl FnMut(&S, &Point) -> f64 + 'a) -> Self {
-        self.with_event(function, true)
-    }
-
-    /// As [`event`](Self::event), numbered with these, but its points have no discretisation error
-    /// ([`Point::error`] is `None`): for a place at which the caller goes over to another system, which saves locating it
-    /// a second time on a finer discretisation.
-    #[must_use]
-    pub fn change(self, function: impl FnMut(&S, &Point) -> f64 + 'a) -> Self {
-        self.with_event(function, false)
-    }
-
-    fn with_event(
-        mut self,
-        mut function: impl FnMut(&S, &Point) -> f64 + 'a,
-        is_assessed: bool,
-    ) -> Self {
+    pub fn event(mut self, mut function: impl FnMut(&S, &Point) -> f64 + 'a) -> Self {
         let node = &mut self.progress.node;
         let value = function(self.curve.system, &node.point(Kind::Regular));
         node.events.push(value);
-        self.events.push(function, is_assessed);
+        self.events.push(function);
+        self
+    }
+
+    /// As [`event`](Self::event), numbered with these, but its points are [unassessed](Self::unassessed): for a place at
+    /// which the caller goes over to another system.
+    #[must_use]
+    pub fn change(self, function: impl FnMut(&S, &Point) -> f64 + 'a) -> Self {
+        let index = self.events.count();
+        self.event(function).unassessed(&[Kind::Event(index)])
+    }
+
+    /// Asks for no discretisation errors of points of these kinds: [`Point::error`] is `None` there, which saves locating
+    /// them a second time on a finer discretisation, and the branch does not go over to that one after them. To be
+    /// called before the first point is drawn, for instance for the start of a branch that goes on from the last point
+    /// of another one.
+    #[must_use]
+    pub fn unassessed(mut self, kinds: &[Kind]) -> Self {
+        self.unassessed.extend_from_slice(kinds);
         self
     }
 
@@ -393,6 +398,7 @@ impl<S: System> Iterator for Branch<'_, S> {
             events: &mut self.events,
             progress: &mut self.progress,
             options: &self.options,
+            unassessed: &self.unassessed,
         };
         let (point, stop) = assessment.assessed(point);
         if stop.is_some() {

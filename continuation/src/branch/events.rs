@@ -7,30 +7,25 @@ use crate::special_points::node::Node;
 /// A function of the system and a point.
 type Event<'a, S> = Box<dyn FnMut(&S, &Point) -> f64 + 'a>;
 
-/// Functions of the system and a point, by their numbers, and whether the errors of their zeros are asked for.
-pub(crate) struct Events<'a, S>(Vec<(Event<'a, S>, bool)>);
+/// Functions of the system and a point, by their numbers.
+pub(crate) struct Events<'a, S>(Vec<Event<'a, S>>);
 
 impl<'a, S> Events<'a, S> {
     pub(crate) fn none() -> Self {
         Self(Vec::new())
     }
 
-    pub(crate) fn push(&mut self, function: impl FnMut(&S, &Point) -> f64 + 'a, is_assessed: bool) {
-        self.0.push((Box::new(function), is_assessed));
+    pub(crate) fn push(&mut self, function: impl FnMut(&S, &Point) -> f64 + 'a) {
+        self.0.push(Box::new(function));
     }
 
     pub(crate) fn count(&self) -> usize {
         self.0.len()
     }
 
-    /// Whether the error of a zero of one function is asked for.
-    pub(crate) fn is_assessed(&self, index: usize) -> bool {
-        self.0[index].1
-    }
-
     /// The value of one function at a node.
     pub(crate) fn value(&mut self, index: usize, system: &S, node: &Node) -> f64 {
-        self.0[index].0(system, &node.point(Kind::Regular))
+        self.0[index](system, &node.point(Kind::Regular))
     }
 
     /// The value of one function at a place with this tangent, on the cubic that leaves a node.
@@ -50,7 +45,7 @@ impl<'a, S> Events<'a, S> {
     /// Gives a node the values of all functions.
     pub(crate) fn evaluate(&mut self, system: &S, node: &mut Node) {
         let point = node.point(Kind::Regular);
-        let values = self.0.iter_mut().map(|(event, _)| event(system, &point));
+        let values = self.0.iter_mut().map(|event| event(system, &point));
         node.events = values.collect();
     }
 }

@@ -137,6 +137,16 @@ fn the_error_of_a_change_is_not_asked_for() {
 }
 
 #[test]
+fn errors_of_unassessed_kinds_are_not_asked_for() {
+    let mut system = Refining::new(|level| 1e-6 * 0.25f64.powi(level), 1e-3);
+    let branch = Branch::new(&mut system, &[-1.0, 0.0], Increasing, &options()).unwrap();
+    let points: Vec<_> = branch.unassessed(&[Kind::Start, Kind::Bound]).collect();
+    let has_error = |kind| of(&points, kind)[0].error.is_some();
+    assert!(!has_error(Kind::Start) && !has_error(Kind::Bound));
+    assert!(has_error(Kind::LimitPoint) && has_error(Kind::Target));
+}
+
+#[test]
 fn labelled_points_of_a_refined_system_take_few_linearisations() {
     let mut system = Refining::new(|level| 1e-6 * 0.25f64.powi(level), 1e-3);
     let options = Options {
