@@ -220,6 +220,32 @@ fn the_bristle_branch_has_its_own_limit() {
 }
 
 #[test]
+fn the_errors_of_the_state_without_load_are_told_with_bristles() {
+    let without_load = |tolerance| {
+        let key = key(&kim(BRISTLE), TIGHT);
+        let options = SolveOptions { tolerance };
+        let found = limits(&kim(BRISTLE), &key, &options, &mut |_, _| {});
+        found.unwrap().smallest
+    };
+    let [found, known] = [1e-6, 1e-9].map(without_load);
+    assert_eq!(found.value_error, Some(0.0));
+    let errors = found.errors.unwrap();
+    let pulleys = [
+        (found.state.driver, known.state.driver, errors.driver),
+        (found.state.driven, known.state.driven, errors.driven),
+    ];
+    for (found, known, told) in pulleys {
+        let off = (found.wrap_angle - known.wrap_angle).abs();
+        assert!(
+            off <= told.wrap_angle && told.wrap_angle < 1e-5,
+            "{off} {told:?}"
+        );
+        let off = (found.torque - known.torque).abs();
+        assert!(off <= told.torque && told.torque < 1e-4, "{off} {told:?}");
+    }
+}
+
+#[test]
 fn a_limit_is_found_beyond_a_state_that_its_mesh_shows_pulling() {
     // Where the belt leaves the driven pulley its normal force is -8e-8 of the largest on a mesh for the error.
     let example = examples::find("kim2009-bristle").unwrap();

@@ -198,12 +198,21 @@ impl Traced<'_> {
                 cause: self.end.to_string(),
             });
         };
+        let tracer = &self.tracer;
+        let errors = || {
+            let relative = point.state.error_estimate?;
+            Some(StateErrors::relative(&point.state, tracer.drive, relative))
+        };
         Ok(Limit {
             value: point.value,
-            value_error: event.and_then(|event| event.value_error),
+            value_error: match event {
+                Some(event) => event.value_error,
+                // Without load it is the tension of the other span.
+                None => (reason == RangeEnd::NoLoad && !is_crossed(tracer.drive)).then_some(0.0),
+            },
             reason,
             state: point.state.clone(),
-            errors: event.and_then(|event| event.errors),
+            errors: event.map_or_else(errors, |event| event.errors),
         })
     }
 }
