@@ -279,10 +279,11 @@ impl Tracer<'_> {
                 Some((passed, solved, towards)),
                 Some(PieceEnd::Branch(BranchEnd::NotConverged { .. })),
             ) = (&before, &outcome)
-                && point.kind == Kind::Regular
+                && matches!(point.kind, Kind::Regular | Kind::Bound)
                 && self.refinements < MAX_REFINEMENTS
             {
-                // A zone that has just appeared is found more easily.
+                // A zone that has just appeared is found more easily, and a limit point between here and the end of the range,
+                // beyond which there are no states with that zone.
                 self.convergence.count(&last);
                 self.refinements += 1;
                 return self.goes_on(passed, solved.clone(), *towards);
