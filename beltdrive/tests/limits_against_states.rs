@@ -287,6 +287,19 @@ fn a_load_just_above_the_limit_is_refused_where_a_zone_appears_below_it() {
 }
 
 #[test]
+fn a_branch_begins_with_a_state_to_which_another_one_leads() {
+    // At 1500 N none is found from nothing.
+    fn faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
+        let drive = Drive::from(*drive);
+        let (key, options) = (Key::load(&drive), SolveOptions::default());
+        let branch = trace(&drive, &key, [1500.0, 1900.0], &options, &mut |_, _| {});
+        let fault = branch.err().map(|error| error.to_string());
+        (0.0, fault.into_iter().collect())
+    }
+    assert_faultless(faults, 2, 81_801, 10);
+}
+
+#[test]
 fn soft_elastic_friction_has_a_limit_just_above_no_load() {
     // The belt slips along the last 1e-5 of a contact only, and without that pulls at its end. It carries 1 % more than no load.
     assert_agrees(1, SEED, 119);

@@ -1,11 +1,15 @@
 //! Traces of V-belt drives: a drive and a range of one entry in, a branch out.
 
+use super::by_branch::by_branch;
 use super::found::{carried, find};
+use super::path::Solved;
 use super::state::describe;
 use super::tracer::{Tracer, Until};
 use crate::input::Key;
 use crate::{Branch, Drive, SolveError, SolveOptions};
+use bvp::Stats;
 use continuation::Direction;
+use std::sync::Arc;
 use web_time::Instant;
 
 /// The branch of steady states of a V-belt drive over one entry of the drive file.
@@ -23,9 +27,7 @@ pub(crate) fn trace(
     let mut tracer = Tracer::new(drive, *key, ascending, tolerance, Until::RangeEnds);
     progress(0.0, "solving the first state");
     let first = tracer.drive_at(from);
-    let (path, found) = find(&first, tolerance);
-    let solved = carried(&path, found)?;
-    describe(&path, &solved).verified()?;
+    let (solved, stats) = first_state(&first, tolerance)?;
     let direction = if to > from {
         Direction::Increasing
     } else {
@@ -33,7 +35,7 @@ pub(crate) fn trace(
     };
     let end = tracer.run(solved, from, direction, progress);
     let mut convergence = tracer.convergence;
-    convergence.count(&path.stats);
+    convergence.count(&stats);
     convergence.seconds = start.elapsed().as_secs_f64();
     Ok(Branch {
         key: *key,
@@ -43,4 +45,23 @@ pub(crate) fn trace(
         end,
         convergence,
     })
+}
+
+/// The state with which a branch begins, at its own load or, where it is not found there, at the end of the branch of the load
+/// that leads there, and what it costs.
+fn first_state(drive: &Drive, tolerance: f64) -> Result<(Solved, Stats), SolveError> {
+    let start = Instant::now();
+    let (mut path, found) = find(drive, tolerance);
+    let direct = carried(&path, found).and_then(|solved| {
+        describe(&path, &solved).verified()?;
+        Ok(solved)
+    });
+    let solved = match direct {
+        Err(error @ (SolveError::NotConverged { .. } | SolveError::Violated(_))) => {
+            let state = by_branch(&mut path, start).unwrap_or(Err(error.clone()))?;
+            state.restart.map(Arc::unwrap_or_clone).ok_or(error)
+        }
+        direct => direct,
+    };
+    Ok((solved?, path.stats))
 }
