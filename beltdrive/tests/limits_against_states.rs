@@ -287,6 +287,23 @@ fn a_load_just_above_the_limit_is_refused_where_a_zone_appears_below_it() {
 }
 
 #[test]
+fn a_limit_that_one_branch_does_not_reach_is_found_on_another() {
+    // The branch from the first state ends at 7979 N, where zones appear.
+    fn lost(drive: &TwoPulleys) -> (f64, Vec<String>) {
+        let drive = Drive::from(*drive);
+        let options = SolveOptions::default();
+        let found = limits(&drive, &Key::load(&drive), &options, &mut |_, _| {}).unwrap();
+        let is_found = matches!(found.largest.reason, RangeEnd::Limit(_));
+        let fault = format!("{:?}", found.largest);
+        (
+            found.branch.convergence.seconds,
+            if is_found { vec![] } else { vec![fault] },
+        )
+    }
+    assert_faultless(lost, 2, 81_801, 19);
+}
+
+#[test]
 fn a_branch_begins_with_a_state_to_which_another_one_leads() {
     // At 1500 N none is found from nothing.
     fn faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
