@@ -102,15 +102,8 @@ fn from<S: System>(
         length = metric.norm(&delta);
         if length <= CLOSE {
             let mut found = z.clone();
-            let accuracy = Accuracy::Rounding;
-            let outcome = corrector.correct(
-                system,
-                metric,
-                &mut found,
-                &condition,
-                accuracy,
-                CORRECTIONS,
-            );
+            let goal = (Accuracy::Rounding, CORRECTIONS);
+            let outcome = corrector.correct(system, metric, &mut found, &condition, goal, false);
             if outcome.is_ok() && known.iter().all(|x| metric.distance(&found, x) > DISTINCT) {
                 return Ok(found);
             }

@@ -4,7 +4,7 @@ use crate::branch::discretisation::{CORRECTIONS, Discretisation};
 use crate::branch::events::Events;
 use crate::branch::progress::Progress;
 use crate::curve::corrector::Condition;
-use crate::curve::curve::{Curve, reverse};
+use crate::curve::curve::{Curve, ahead, reverse};
 use crate::curve::metric::Metric;
 use crate::difficulty::Difficulty;
 use crate::options::Options;
@@ -167,16 +167,11 @@ impl<S: System> Assessment<'_, '_, S> {
                 let first = to(&mut curve, &across)?;
                 let first = value(&mut curve, 0.0, first)?;
                 let onward = |from: &Place, s: f64| {
-                    let Node {
-                        z: here,
-                        tangent: t,
-                        ..
-                    } = &from.node;
-                    let way = (s - from.s) * unit / metric.dot(t, tangent);
-                    let mut next: Vec<f64> = here.iter().zip(t).map(|(z, t)| z + way * t).collect();
-                    let through: Vec<f64> = z.iter().zip(tangent).map(|(z, t)| z + s * t).collect();
-                    let plane = Condition::plane(metric, tangent, &through);
-                    curve.correct_nearby(&mut next, &plane, accuracy, CORRECTIONS)?;
+                    let here = &from.node;
+                    let way = (s - from.s) * unit / metric.dot(&here.tangent, tangent);
+                    let mut next = ahead(&here.z, &here.tangent, way);
+                    let plane = Condition::plane(metric, tangent, &ahead(z, tangent, s));
+                    curve.locate_nearby(&mut next, &plane, CORRECTIONS)?;
                     value(&mut curve, s, next)
                 };
                 secant(first, onward, self.options.location)

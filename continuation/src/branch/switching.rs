@@ -2,7 +2,7 @@
 
 use crate::branch::start::CORRECTIONS;
 use crate::curve::corrector::{Accuracy, Condition};
-use crate::curve::curve::Curve;
+use crate::curve::curve::{Curve, ahead};
 use crate::error::Error;
 use crate::system::system::System;
 
@@ -31,8 +31,7 @@ pub(crate) fn first_step<S: System>(
     let between = cosine.abs().min(1.0).acos();
     let mut step = longest;
     while step >= SHORTEST {
-        let pairs = z.iter().zip(direction);
-        let mut end: Vec<f64> = pairs.map(|(z, t)| z + step * t).collect();
+        let mut end = ahead(z, direction, step);
         let plane = Condition::plane(&curve.metric, direction, &end);
         let corrected = curve.correct(&mut end, &plane, Accuracy::Length(accuracy), CORRECTIONS);
         let way: Vec<f64> = end.iter().zip(z).map(|(end, z)| end - z).collect();

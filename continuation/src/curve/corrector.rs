@@ -104,35 +104,10 @@ impl Corrector {
         self.null.resize(unknowns, 0.0);
     }
 
-    /// Corrects `z` onto the curve and `condition` by at most `limit` corrections. The null vector of
-    /// the last linearisation is left in [`null`](Self::null).
+    /// Corrects `z` onto the curve and `condition` by at most so many corrections. With `keep` it begins with the last
+    /// linearisation, which was made at a place nearby, and the drift is counted from there. The null vector of the last
+    /// linearisation is left in [`null`](Self::null).
     pub(crate) fn correct<S: System>(
-        &mut self,
-        system: &mut S,
-        metric: &Metric,
-        z: &mut [f64],
-        condition: &Condition,
-        accuracy: Accuracy,
-        limit: usize,
-    ) -> Result<Correction, Difficulty> {
-        self.resize(z.len());
-        self.corrections(system, metric, z, condition, (accuracy, limit), false)
-    }
-
-    /// The same, beginning with the last linearisation, which was made at a place nearby: the drift is counted from there.
-    pub(crate) fn correct_nearby<S: System>(
-        &mut self,
-        system: &mut S,
-        metric: &Metric,
-        z: &mut [f64],
-        condition: &Condition,
-        accuracy: Accuracy,
-        limit: usize,
-    ) -> Result<Correction, Difficulty> {
-        self.corrections(system, metric, z, condition, (accuracy, limit), true)
-    }
-
-    fn corrections<S: System>(
         &mut self,
         system: &mut S,
         metric: &Metric,
@@ -141,6 +116,7 @@ impl Corrector {
         (accuracy, limit): (Accuracy, usize),
         mut keep: bool,
     ) -> Result<Correction, Difficulty> {
+        self.resize(z.len());
         let n = z.len() - 1;
         let mut report = Correction {
             first: 0.0,

@@ -47,20 +47,21 @@ impl<'a, S: System> Curve<'a, S> {
         accuracy: Accuracy,
         limit: usize,
     ) -> Result<Correction, Difficulty> {
+        let (metric, goal) = (&self.metric, (accuracy, limit));
         self.corrector
-            .correct(self.system, &self.metric, z, condition, accuracy, limit)
+            .correct(self.system, metric, z, condition, goal, false)
     }
 
-    /// The same, by the last linearisation as long as that does: it was made at a place nearby.
-    pub(crate) fn correct_nearby(
+    /// Locates a point by the last linearisation as long as that does: it was made at a place nearby.
+    pub(crate) fn locate_nearby(
         &mut self,
         z: &mut [f64],
         condition: &Condition,
-        accuracy: Accuracy,
         limit: usize,
     ) -> Result<Correction, Difficulty> {
+        let (metric, goal) = (&self.metric, (self.located(), limit));
         self.corrector
-            .correct_nearby(self.system, &self.metric, z, condition, accuracy, limit)
+            .correct(self.system, metric, z, condition, goal, true)
     }
 
     /// How accurately points between two others are located.
@@ -115,6 +116,11 @@ impl<'a, S: System> Curve<'a, S> {
     pub(crate) fn rate(&self, tangent: &[f64]) -> f64 {
         tangent[tangent.len() - 1] / self.metric.range()
     }
+}
+
+/// The place this far along a direction.
+pub(crate) fn ahead(z: &[f64], direction: &[f64], way: f64) -> Vec<f64> {
+    z.iter().zip(direction).map(|(z, d)| z + way * d).collect()
 }
 
 /// Turns a tangent round.

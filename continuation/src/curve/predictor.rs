@@ -1,5 +1,7 @@
 //! Prediction of the next point.
 
+use crate::curve::curve::ahead;
+
 /// The number of earlier points that the prediction uses.
 const MEMORY: usize = 2;
 
@@ -34,7 +36,7 @@ impl History {
         arclength: f64,
         h: f64,
     ) -> (Vec<f64>, Vec<f64>) {
-        let mut to: Vec<f64> = z.iter().zip(t).map(|(z, t)| z + h * t).collect();
+        let mut to = ahead(z, t, h);
         let mut rate = t.to_vec();
         let places: Vec<f64> = self.arclengths.iter().map(|s| s - arclength).collect();
         match places[..] {

@@ -137,11 +137,3 @@ pub(crate) struct Located {
     /// Whether the system orients its null vector in the direction of travel.
     pub(crate) along: bool,
 }
-
-impl Located {
-    /// The place this far along the tangent.
-    pub(crate) fn ahead(&self, way: f64) -> Vec<f64> {
-        let pairs = self.z.iter().zip(&self.tangent);
-        pairs.map(|(z, t)| z + way * t).collect()
-    }
-}

@@ -1,5 +1,6 @@
 //! Second derivatives of a system along a line.
 
+use crate::curve::curve::ahead;
 use crate::system::difference::{Difference, Stencil, UNCHANGED, largest};
 use crate::system::system::System;
 
@@ -165,8 +166,7 @@ impl Line<'_> {
 
     /// The place at s.
     pub(crate) fn moved(&self, s: f64) -> Vec<f64> {
-        let pairs = self.z.iter().zip(self.direction);
-        let mut moved: Vec<f64> = pairs.map(|(z, d)| z + s * d).collect();
+        let mut moved = ahead(self.z, self.direction, s);
         let [low, high] = self.bounds;
         if let Some(last) = moved.last_mut() {
             // Rounding may lead beyond.

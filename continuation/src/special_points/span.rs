@@ -1,7 +1,7 @@
 //! The piece of a branch between two accepted points.
 
 use crate::curve::corrector::{Accuracy, Condition, SHORT};
-use crate::curve::curve::{Curve, reverse};
+use crate::curve::curve::{Curve, ahead, reverse};
 use crate::curve::root::root;
 use crate::difficulty::Difficulty;
 use crate::special_points::node::{Located, Node};
@@ -48,7 +48,7 @@ impl<S: System> Span<'_, '_, S> {
         condition: &Condition,
         accuracy: Accuracy,
     ) -> Result<Located, Difficulty> {
-        let mut z = near.ahead(shift);
+        let mut z = ahead(&near.z, &near.tangent, shift);
         self.curve
             .correct(&mut z, condition, accuracy, CORRECTIONS)?;
         self.complete(z)
@@ -145,22 +145,19 @@ impl<S: System> Span<'_, '_, S> {
     /// The point at u, in the plane across the secant, from the nearest of both ends and points completed since.
     pub(crate) fn at(&mut self, u: f64, known: &[Located]) -> Result<Located, Difficulty> {
         let secant = self.secant();
-        let base = self.from.z.iter().zip(&secant);
-        let target: Vec<f64> = base.map(|(a, d)| a + u * d).collect();
+        let target = ahead(&self.from.z, &secant, u);
         let plane = Condition::plane(&self.curve.metric, &secant, &target);
         let near = nearest(known, u);
         let unit = self.curve.metric.dot(&secant, &secant);
         let shift = (u - near.u) * unit / self.curve.metric.dot(&secant, &near.tangent);
-        let accuracy = self.curve.located();
         // The system is linearised at the last of them.
         let is_linearised = known[2..].last().is_some_and(|last| last.u == near.u);
         let found = if is_linearised && shift.abs() < SHORT {
-            let mut z = near.ahead(shift);
-            self.curve
-                .correct_nearby(&mut z, &plane, accuracy, CORRECTIONS)?;
+            let mut z = ahead(&near.z, &near.tangent, shift);
+            self.curve.locate_nearby(&mut z, &plane, CORRECTIONS)?;
             self.complete(z)?
         } else {
-            self.correct(near, shift, &plane, accuracy)?
+            self.correct(near, shift, &plane, self.curve.located())?
         };
         Ok(Located { u, ..found })
     }
