@@ -29,11 +29,14 @@ pub(super) fn by_branch(
     let mut refusal: Option<(f64, SolveError)> = None;
     let mut branches = 0;
     for load in start_loads(drive, false) {
-        if refusal
-            .as_ref()
-            .is_some_and(|&(limit, _)| load.value <= limit)
-        {
-            continue;
+        if let Some((limit, _)) = refusal {
+            // With a normalised direction none was found beyond the limits of 141 random drives, in half the time of a refusal.
+            if !load.has_direction {
+                break;
+            }
+            if load.value <= limit {
+                continue;
+            }
         }
         let Some((near, solved)) = load.state(path) else {
             continue;
@@ -102,4 +105,50 @@ fn from_state(
     let solved = path.finish(solved).ok()?;
     let state = checked(path, solved, start).ok()?;
     Some(Led::There(Box::new(state)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vbelt::scaling::tests::kim;
+    use crate::{Belt, BeltKind, Load, SpanTension, TwoPulleys, VBelt};
+
+    #[test]
+    fn beyond_a_limit_with_elastic_friction_no_normalised_direction_is_tried() {
+        let law = FrictionLaw::Epp {
+            stiffness: 3.205_731e6,
+        };
+        let kim = kim(law, 0.25);
+        let drive = TwoPulleys {
+            belt: Belt {
+                mass_per_length: 0.061_204_77,
+                axial_stiffness: 212_798.5,
+                kind: BeltKind::V(VBelt {
+                    radial_stiffness: 1.375_931e6,
+                    half_angle: 0.353_422_7,
+                    height: None,
+                }),
+                ..kim.belt
+            },
+            friction_coefficient: 0.716_296_7,
+            driver_radius: 0.327_539_7,
+            driver_speed: 12.092_17,
+            driven_radius: 0.241_27,
+            centre_distance: 1.358_765,
+            load: Load {
+                slack: SpanTension::Tractive(316.717_4),
+                tight: SpanTension::Tractive(942.983_7),
+            },
+            ..kim
+        };
+        let drive = Drive::from(drive);
+        let mut path = Path::new(&drive, 1e-6);
+        let refused = by_branch(&mut path, Instant::now()).unwrap();
+        let Err(SolveError::NoSteadyState { limit, .. }) = refused else {
+            panic!("{refused:?}");
+        };
+        assert!((limit / 396.9556 - 1.0).abs() < 1e-5, "{limit}");
+        let steps = path.stats.newton_steps;
+        assert!(steps <= 1000, "{steps}");
+    }
 }

@@ -20,7 +20,7 @@ pub(super) struct StartLoad {
     /// The tight tension or tractive tension, SI.
     pub(super) value: f64,
     /// Whether friction is to have its direction as a state: a normalised direction is harder to follow.
-    has_direction: bool,
+    pub(super) has_direction: bool,
 }
 
 /// Loads from which the branch of the load of a drive may begin, the best first; its own load among them if that is
@@ -29,9 +29,13 @@ pub(super) fn start_loads(drive: &Drive, with_own: bool) -> impl Iterator<Item =
     let slack = drive.pair().load.slack.value();
     let ratio = Key::load(drive).get(drive) / slack;
     let own = with_own.then_some(ratio);
-    let lighter = own
+    // Nearer to no load than the lightest ones they are hardly other loads.
+    let least = LIGHTEST[3] - 1.0;
+    let lighter = LIGHTER.map(|power| ratio.powf(power));
+    let lighter = lighter
         .into_iter()
-        .chain(LIGHTER.map(|power| ratio.powf(power)));
+        .filter(|ratio| (ratio - 1.0).abs() >= least);
+    let lighter = own.into_iter().chain(lighter);
     let mut ratios: Vec<f64> = match (1.0..HEAVIER[3]).contains(&ratio) {
         true => HEAVIER.into_iter().chain(lighter).collect(),
         false => lighter.chain(HEAVIER).collect(),
