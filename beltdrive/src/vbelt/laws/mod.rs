@@ -299,9 +299,17 @@ impl Path<'_> {
     pub(super) fn at_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
         let drive = self.drive;
         let asked = AtLoad { drive, tight };
-        match self.locked(&asked) {
+        if let Some(solved) = self.locked(&asked) {
+            return Ok(solved);
+        }
+        let FrictionLaw::Epp { stiffness } = drive.law else {
+            return self.seek(&asked);
+        };
+        let start = self.cold(&asked, asked.softest(), Effort::Start)?;
+        let sliding = self.sliding(&asked, &start);
+        match sliding.or_else(|| self.locked_beside(&asked, stiffness)) {
             Some(solved) => Ok(solved),
-            None => self.seek(&asked),
+            None => self.normalised(&asked, start),
         }
     }
 
@@ -329,13 +337,13 @@ impl Path<'_> {
     /// lock.
     pub(super) fn at_no_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
         let drive = self.drive;
+        let FrictionLaw::Coulomb = drive.law else {
+            return self.at_load(tight);
+        };
         let asked = AtLoad { drive, tight };
         if let Some(solved) = self.locked(&asked) {
             return Ok(solved);
         }
-        let FrictionLaw::Coulomb = drive.law else {
-            return self.seek(&asked);
-        };
         let start = self.cold(&asked, asked.softest(), Effort::Start)?;
         self.normalised_roughly(&asked, start)
     }
