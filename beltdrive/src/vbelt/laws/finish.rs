@@ -177,7 +177,11 @@ impl Path<'_> {
                 return Ok(here);
             }
             gained_before = gained;
-            here = self.smooth_less(here, SHORTER * lag, Effort::Close)?;
+            let effort = match has_effect {
+                true => Effort::Close,
+                false => Effort::Lagging,
+            };
+            here = self.smooth_less(here, SHORTER * lag, effort)?;
         }
     }
 
