@@ -110,36 +110,23 @@ fn from_state(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vbelt::scaling::tests::kim;
-    use crate::{Belt, BeltKind, Load, SpanTension, TwoPulleys, VBelt};
+    use crate::TwoPulleys;
+    use crate::vbelt::scaling::tests::{kim, tractive, v_belt};
 
     #[test]
     fn beyond_a_limit_with_elastic_friction_no_normalised_direction_is_tried() {
         let law = FrictionLaw::Epp {
             stiffness: 3.205_731e6,
         };
-        let kim = kim(law, 0.25);
         let drive = TwoPulleys {
-            belt: Belt {
-                mass_per_length: 0.061_204_77,
-                axial_stiffness: 212_798.5,
-                kind: BeltKind::V(VBelt {
-                    radial_stiffness: 1.375_931e6,
-                    half_angle: 0.353_422_7,
-                    height: None,
-                }),
-                ..kim.belt
-            },
+            belt: v_belt([0.061_204_77, 212_798.5, 1.375_931e6, 0.353_422_7]),
             friction_coefficient: 0.716_296_7,
             driver_radius: 0.327_539_7,
             driver_speed: 12.092_17,
             driven_radius: 0.241_27,
             centre_distance: 1.358_765,
-            load: Load {
-                slack: SpanTension::Tractive(316.717_4),
-                tight: SpanTension::Tractive(942.983_7),
-            },
-            ..kim
+            load: tractive(316.717_4, 942.983_7),
+            ..kim(law, 0.25)
         };
         let drive = Drive::from(drive);
         let mut path = Path::new(&drive, 1e-6);

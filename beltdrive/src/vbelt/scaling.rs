@@ -183,29 +183,39 @@ pub(super) mod tests {
     use super::*;
     use crate::{BeltKind, FrictionLaw, Load, VBelt};
 
+    /// A V-belt with a mass, an axial and a radial stiffness and a half-angle of the groove, SI.
+    pub(in crate::vbelt) fn v_belt([mass, axial, radial, half_angle]: [f64; 4]) -> Belt {
+        Belt {
+            ribs: 1,
+            mass_per_length: mass,
+            axial_stiffness: axial,
+            kind: BeltKind::V(VBelt {
+                radial_stiffness: radial,
+                half_angle,
+                height: None,
+            }),
+        }
+    }
+
+    /// Tractive tensions of the slack and the tight span in N.
+    pub(in crate::vbelt) fn tractive(slack: f64, tight: f64) -> Load {
+        Load {
+            slack: SpanTension::Tractive(slack),
+            tight: SpanTension::Tractive(tight),
+        }
+    }
+
     /// The drive of Kim (2009), table 3, with unequal radii if asked for.
     pub(in crate::vbelt) fn kim(law: FrictionLaw, driven_radius: f64) -> TwoPulleys {
         TwoPulleys {
-            belt: Belt {
-                ribs: 1,
-                mass_per_length: 0.108,
-                axial_stiffness: 120e3,
-                kind: BeltKind::V(VBelt {
-                    radial_stiffness: 900e3,
-                    half_angle: 18_f64.to_radians(),
-                    height: None,
-                }),
-            },
+            belt: v_belt([0.108, 120e3, 900e3, 18_f64.to_radians()]),
             friction_coefficient: 0.4,
             law,
             driver_radius: 0.25,
             driver_speed: 1000.0 * std::f64::consts::PI / 30.0,
             driven_radius,
             centre_distance: 1.393_327_732_346_075,
-            load: Load {
-                slack: SpanTension::Tractive(100.0),
-                tight: SpanTension::Tractive(700.0),
-            },
+            load: tractive(100.0, 700.0),
         }
     }
 

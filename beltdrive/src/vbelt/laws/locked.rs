@@ -104,37 +104,23 @@ impl Path<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::vbelt::scaling::tests::kim;
-    use crate::{Belt, BeltKind, Drive, Load, SpanTension, TwoPulleys, VBelt};
+    use crate::vbelt::scaling::tests::{kim, tractive, v_belt};
+    use crate::{Drive, TwoPulleys};
 
     #[test]
     fn a_state_whose_arcs_are_lost_is_found_from_another_stiffness() {
         let law = FrictionLaw::Epp {
             stiffness: 4.578_444_4e7,
         };
-        let kim = kim(law, 0.25);
-        let tension = SpanTension::Tractive(75.785_82);
         let drive = Drive::from(TwoPulleys {
-            belt: Belt {
-                mass_per_length: 0.248_852_1,
-                axial_stiffness: 357_231.8,
-                kind: BeltKind::V(VBelt {
-                    radial_stiffness: 4.865_441e6,
-                    half_angle: 0.357_972_8,
-                    height: None,
-                }),
-                ..kim.belt
-            },
+            belt: v_belt([0.248_852_1, 357_231.8, 4.865_441e6, 0.357_972_8]),
             friction_coefficient: 0.390_459_3,
             driver_radius: 0.084_956_95,
             driver_speed: 11.133_492,
             driven_radius: 0.271_694_9,
             centre_distance: 0.849_851_2,
-            load: Load {
-                slack: tension,
-                tight: tension,
-            },
-            ..kim
+            load: tractive(75.785_82, 75.785_82),
+            ..kim(law, 0.25)
         });
         let mut path = Path::new(&drive, 1e-6);
         assert!(path.at_locked_load().is_none());

@@ -112,19 +112,15 @@ impl bvp::Guess for Locked {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::SpanTension;
     use crate::vbelt::laws::AtLoad;
     use crate::vbelt::path::Path;
-    use crate::vbelt::scaling::tests::kim;
+    use crate::vbelt::scaling::tests::{kim, tractive, v_belt};
     use crate::vbelt::{BeltProblem, Scales};
-    use crate::{Belt, BeltKind, Drive, FrictionLaw, Load, TwoPulleys, VBelt};
+    use crate::{Drive, FrictionLaw, TwoPulleys};
 
     fn loaded(tight: f64, driven_radius: f64) -> TwoPulleys {
         TwoPulleys {
-            load: Load {
-                slack: SpanTension::Tractive(100.0),
-                tight: SpanTension::Tractive(tight),
-            },
+            load: tractive(100.0, tight),
             ..kim(FrictionLaw::Coulomb, driven_radius)
         }
     }
@@ -175,25 +171,13 @@ mod tests {
     fn a_stiff_belt_comes_to_rest_on_a_curve() {
         // S/θ is 4e4: at the entry the way to the place of rest is straight only where friction along the pulley is 2e-4.
         let stiff = TwoPulleys {
-            belt: Belt {
-                mass_per_length: 0.109_932_6,
-                axial_stiffness: 487_863.0,
-                kind: BeltKind::V(VBelt {
-                    radial_stiffness: 594_450.8,
-                    half_angle: 0.284_936_2,
-                    height: None,
-                }),
-                ..loaded(100.0, 0.25).belt
-            },
+            belt: v_belt([0.109_932_6, 487_863.0, 594_450.8, 0.284_936_2]),
             friction_coefficient: 0.233_402_7,
             driver_radius: 0.140_955_4,
             driver_speed: 107.471_95,
             driven_radius: 0.076_843_4,
             centre_distance: 0.576_421_9,
-            load: Load {
-                slack: SpanTension::Tractive(26.626_23),
-                tight: SpanTension::Tractive(26.626_23),
-            },
+            load: tractive(26.626_23, 26.626_23),
             ..loaded(100.0, 0.25)
         };
         let (_, longest, ..) = off(stiff);
@@ -203,26 +187,14 @@ mod tests {
     /// A belt in soft friction, which holds it on both pulleys.
     fn held() -> TwoPulleys {
         TwoPulleys {
-            belt: Belt {
-                mass_per_length: 0.148_296_9,
-                axial_stiffness: 35_256.83,
-                kind: BeltKind::V(VBelt {
-                    radial_stiffness: 1_086_470.3,
-                    half_angle: 0.241_321_5,
-                    height: None,
-                }),
-                ..loaded(100.0, 0.25).belt
-            },
+            belt: v_belt([0.148_296_9, 35_256.83, 1_086_470.3, 0.241_321_5]),
             friction_coefficient: 0.461_251_2,
             law: FrictionLaw::Epp { stiffness: 2.621e6 },
             driver_radius: 0.182_384_2,
             driver_speed: 53.986_3,
             driven_radius: 0.228_941,
             centre_distance: 0.503_388_3,
-            load: Load {
-                slack: SpanTension::Tractive(553.489_9),
-                tight: SpanTension::Tractive(553.489_9),
-            },
+            load: tractive(553.489_9, 553.489_9),
         }
     }
 
