@@ -17,7 +17,7 @@ const ROUGH_INTERVALS: usize = 500;
 const FINAL_INTERVALS: usize = 40_000;
 /// Mesh intervals that one may have with a shorter ℓ that only shows whether friction pulls with the slip because it lags behind. Of
 /// 590 random drives at light loads two have more than 740, and are found with this, too; where the traction is a wrong one the
-/// mesh grows with every shorter ℓ: with 40 000 the limit of one drive takes 65 s in place of 8 s.
+/// mesh grows with every shorter ℓ: with 40 000 the limit of one drive takes 65 s in place of 13 s.
 const LAGGING_INTERVALS: usize = 1_000;
 /// Mesh intervals that one may have whose error is estimated only where that costs little.
 const LIGHT_INTERVALS: usize = 4_000;
