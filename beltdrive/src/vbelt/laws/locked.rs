@@ -49,7 +49,10 @@ impl Path<'_> {
     }
 
     /// A state with scalar EPP friction at a light load from one with another stiffness, if it is found and friction obeys its law.
-    pub(super) fn locked_beside(&mut self, asked: &AtLoad<'_>, stiffness: f64) -> Option<Solved> {
+    pub(super) fn locked_beside(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
+        let FrictionLaw::Epp { stiffness } = asked.law() else {
+            return None;
+        };
         if asked.tight > LIGHT * self.slack() {
             return None;
         }

@@ -62,6 +62,11 @@ pub(super) trait Asked {
     /// A state nearly without friction.
     fn guess<'p>(&'p self, problem: &'p Self::Problem) -> impl bvp::Guess + 'p;
 
+    /// Its state from that of another one near it, if there is a way to it; sought before the direction is normalised.
+    fn beside(&self, _: &mut Path<'_>) -> Option<Solved<Self::Problem>> {
+        None
+    }
+
     /// The friction law.
     fn law(&self) -> FrictionLaw {
         self.drive().law
@@ -107,6 +112,10 @@ impl Asked for AtLoad<'_> {
 
     fn guess<'p>(&'p self, problem: &'p DriveProblem) -> impl bvp::Guess + 'p {
         Guess::new(problem)
+    }
+
+    fn beside(&self, path: &mut Path<'_>) -> Option<Solved> {
+        path.locked_beside(self)
     }
 }
 
@@ -216,7 +225,8 @@ impl Path<'_> {
         if let FrictionLaw::VectorEpp { .. } = asked.law() {
             return self.vector(asked, &start);
         }
-        match self.sliding(asked, &start) {
+        let sliding = self.sliding(asked, &start);
+        match sliding.or_else(|| asked.beside(self)) {
             Some(solved) => Ok(solved),
             None => self.normalised(asked, start),
         }
@@ -299,17 +309,9 @@ impl Path<'_> {
     pub(super) fn at_load(&mut self, tight: f64) -> Result<Solved, Stuck> {
         let drive = self.drive;
         let asked = AtLoad { drive, tight };
-        if let Some(solved) = self.locked(&asked) {
-            return Ok(solved);
-        }
-        let FrictionLaw::Epp { stiffness } = drive.law else {
-            return self.seek(&asked);
-        };
-        let start = self.cold(&asked, asked.softest(), Effort::Start)?;
-        let sliding = self.sliding(&asked, &start);
-        match sliding.or_else(|| self.locked_beside(&asked, stiffness)) {
+        match self.locked(&asked) {
             Some(solved) => Ok(solved),
-            None => self.normalised(&asked, start),
+            None => self.seek(&asked),
         }
     }
 

@@ -3,7 +3,8 @@
 use super::super::super::belt_problem::tests::assert_dependences;
 use super::*;
 use crate::drive::layout::{Sense, Side};
-use crate::{Belt, BeltKind, Closure, Guide, Mount, Pulley, TensionerLoad, VBelt};
+use crate::vbelt::scaling::tests::v_belt;
+use crate::{Closure, Guide, Mount, Pulley, TensionerLoad};
 
 /// Angle of the arm, rad.
 const COORDINATE: f64 = 4.7;
@@ -27,16 +28,7 @@ fn drive() -> Drive {
     });
     Drive {
         title: None,
-        belt: Belt {
-            mass_per_length: 0.1,
-            axial_stiffness: 60e3,
-            ribs: 1,
-            kind: BeltKind::V(VBelt {
-                radial_stiffness: 3e7,
-                half_angle: 0.3,
-                height: None,
-            }),
-        },
+        belt: v_belt([0.1, 60e3, 3e7, 0.3]),
         law: FrictionLaw::Coulomb,
         sense: Sense::Clockwise,
         turning_number: 1,
