@@ -158,8 +158,12 @@ impl Path<'_> {
     ///
     /// A traction that lags behind a slip that turns within a length of about ℓ pulls with it for a while, with a shorter ℓ
     /// for less; one that has turned the wrong way round gains as much power with every ℓ.
+    ///
+    /// Rounding of the slip changes the direction in proportion to 1/ℓ. Where that is more than the tolerance at the ℓ whose effect
+    /// is small beside that, the shortest ℓ that is found is taken if its effect is not more than the tolerance.
     fn shorten_lag<P: BeltProblem>(&mut self, solved: Solved<P>) -> Result<Solved<P>, Stuck<P>> {
         let (mut here, mut gained_before) = (solved, f64::INFINITY);
+        let mut failure = None;
         loop {
             let lag = here.problem.smoothing();
             let shorter = here.problem.clone().with_smoothing(SHORTER * lag);
@@ -176,12 +180,29 @@ impl Path<'_> {
             if !(has_effect || lags_behind) || lag <= SHORTEST {
                 return Ok(here);
             }
+            if let Some(cause) = failure {
+                return match self.smoothing_effect <= self.tolerance {
+                    true => Ok(here),
+                    false => Err(Stuck::after(here, cause)),
+                };
+            }
             gained_before = gained;
             let effort = match has_effect {
                 true => Effort::Close,
                 false => Effort::Lagging,
             };
-            here = self.smooth_less(here, SHORTER * lag, effort)?;
+            here = match self.smooth_less(here, SHORTER * lag, effort) {
+                Ok(shorter) => shorter,
+                Err(Stuck {
+                    last: Some(last),
+                    cause,
+                    ..
+                }) => {
+                    failure = Some(cause);
+                    *last
+                }
+                Err(stuck) => return Err(stuck),
+            };
         }
     }
 
@@ -232,4 +253,41 @@ impl Path<'_> {
 /// The same problem with ℓ/R or ε of eᵗ.
 pub(super) fn with_smoothing<P: BeltProblem>(problem: &P, t: f64) -> P {
     problem.clone().with_smoothing(t.exp())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vbelt::scaling::tests::{kim, tractive, v_belt};
+    use crate::{Drive, FrictionLaw, TwoPulleys};
+
+    #[test]
+    fn the_shortest_length_that_rounding_allows_is_taken() {
+        // Rounding hides the direction with an ℓ/R of 1e-10.
+        let law = FrictionLaw::Epp {
+            stiffness: 1_004_147.0,
+        };
+        let drive = Drive::from(TwoPulleys {
+            belt: v_belt([0.128_013_5, 134_825.72, 1.337_009e7, 0.219_441_74]),
+            friction_coefficient: 0.395_502_7,
+            driver_radius: 0.326_170_9,
+            driver_speed: 27.385_488,
+            driven_radius: 0.337_381_2,
+            centre_distance: 0.869_771_8,
+            load: tractive(119.248_2, 340.974_3),
+            ..kim(law, 0.25)
+        });
+        let [coarse, fine] = [1e-7, 1e-8].map(|tolerance| {
+            let mut path = Path::new(&drive, tolerance);
+            let solved = path.at_load(path.target()).unwrap();
+            let effect = path.smoothing_effect;
+            assert!(effect <= tolerance, "{effect}");
+            let steps = path.stats.newton_steps;
+            assert!(steps <= 300, "{steps}");
+            solved
+        });
+        assert!(fine.problem.smoothing() < coarse.problem.smoothing());
+        let change = fine.change_to(&coarse.constants());
+        assert!(change < 1e-8, "{change}");
+    }
 }
