@@ -206,7 +206,7 @@ pub(super) struct Path<'a> {
     pub(super) problems: usize,
     /// Relative effect of the last ℓ or ε on the constants of the drive.
     pub(super) smoothing_effect: f64,
-    /// Whether the meshes of states with Coulomb friction are for the error alone.
+    /// Whether the meshes of states whose friction slides are for the error alone.
     pub(super) for_error: bool,
 }
 
@@ -222,9 +222,10 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// The same with meshes of states with Coulomb friction for the error alone. Speeds, torques, losses and wraps of the drive of
-    /// Kim (2009) have the errors from 102 to 8000 N that they have on meshes for the defect, of 99 intervals in place of 57 at
-    /// 700 N; with EPP friction, where the belt sticks at rest, speeds are off by more than the estimate tells.
+    /// The same with meshes for the error alone of states with Coulomb friction and, where the belt sticks nowhere, scalar EPP
+    /// friction. Speeds, torques, losses and wraps of the drive of Kim (2009) have the errors from 102 to 8000 N that they have on
+    /// meshes for the defect, of 99 intervals in place of 57 at 700 N; where the belt sticks at rest, speeds are off by more than the
+    /// estimate tells.
     pub(super) fn for_error(self) -> Self {
         Self {
             for_error: true,
@@ -258,7 +259,9 @@ impl<'a> Path<'a> {
         effort: Effort,
     ) -> Result<Solved<P>, bvp::Error> {
         let effort = match problem.law() {
-            Law::Sliding { elastic: None, .. } if self.for_error && effort == Effort::Final => {
+            Law::Sliding { .. }
+                if self.for_error && effort == Effort::Final && !problem.sticks() =>
+            {
                 Effort::Close
             }
             _ => effort,
