@@ -5,6 +5,16 @@ use nalgebra::{SMatrix, SVector};
 /// The root of a continuous function between two places at which it has these values; `None` if their
 /// signs are equal or a value is not a number.
 pub(crate) fn bracketed(
+    function: impl FnMut(f64) -> f64,
+    ends: [f64; 2],
+    values: [f64; 2],
+) -> Option<f64> {
+    bracketed_to(0.0, function, ends, values)
+}
+
+/// The same to an accuracy, of a function whose values have errors.
+pub(crate) fn bracketed_to(
+    accuracy: f64,
     mut function: impl FnMut(f64) -> f64,
     [one, other]: [f64; 2],
     [at_one, at_other]: [f64; 2],
@@ -17,7 +27,7 @@ pub(crate) fn bracketed(
         value if value.is_nan() => Err(NotANumber),
         value => Ok(value),
     };
-    continuation::root(number, (one, at_one), (other, at_other), 0.0).ok()
+    continuation::root(number, (one, at_one), (other, at_other), accuracy).ok()
 }
 
 /// Most steps of [`near`]: functions that are almost straight take three to five.
@@ -119,6 +129,18 @@ mod tests {
         assert!(bracketed(|x| x, [1.0, 2.0], [1.0, 2.0]).is_none());
         assert!(bracketed(|x| x, [1.0, 2.0], [f64::NAN, 2.0]).is_none());
         assert!(bracketed(|_| f64::NAN, [1.0, 2.0], [-1.0, 2.0]).is_none());
+    }
+
+    #[test]
+    fn errors_of_values_are_not_searched_for_roots() {
+        let mut count = 0;
+        let wrong = |x: f64| {
+            count += 1;
+            x.exp() - 3.0 + if count % 2 == 0 { 1e-6 } else { -1e-6 }
+        };
+        let root = bracketed_to(1e-6, wrong, [0.0, 2.0], [-2.0, 4.4]);
+        assert!((root.unwrap() - 3.0_f64.ln()).abs() < 2e-6);
+        assert!(count <= 12, "{count}");
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::arc::Point;
 use super::rest::{On, Rest};
 use crate::SpanTension;
-use crate::mechanics::root::bracketed;
+use crate::mechanics::root::bracketed_to;
 use crate::vbelt::Groove;
 use crate::vbelt::groove::{LAW, TENSION};
 
@@ -111,7 +111,8 @@ impl ToRest<'_> {
                 return None;
             }
             if is_held != (to.1 > 0.0) {
-                return bracketed(at_entry, [from.0, to.0], [from.1, to.1]);
+                let ends = [from, to].map(|end| end.0);
+                return bracketed_to(DISPLACEMENT_ACCURACY, at_entry, ends, [from.1, to.1]);
             }
             from = to;
             further *= 2.0;

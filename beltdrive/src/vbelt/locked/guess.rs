@@ -29,12 +29,10 @@ impl Locked {
         let [driven, driver] = [DRIVEN, DRIVER].map(|pulley| problem.groove(pulley));
         let on_driver = entering(On::Driver(1.0), driver, tight)?;
         let flow = on_driver.0.rim.flow;
+        let driver = Pulley::new(on_driver, slack)?;
         let on_driven = entering(On::Driven(flow), driven, slack)?;
         let driven_speed = on_driven.0.rim.omega;
-        let mut pulleys = [
-            Pulley::new(on_driven, tight)?,
-            Pulley::new(on_driver, slack)?,
-        ];
+        let mut pulleys = [Pulley::new(on_driven, tight)?, driver];
         // Where friction holds the belt its displacement there depends on the wraps, and they on where the belt leaves.
         for _ in 0..MOST_CORRECTIONS {
             let angles = [DRIVEN, DRIVER].map(|pulley| pulleys[pulley].angles());
