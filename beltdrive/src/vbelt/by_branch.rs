@@ -17,10 +17,11 @@ use web_time::Instant;
 const BRANCHES: usize = 4;
 
 /// The steady state of the drive of a search that began at `start`, or the limit of its load if that is lower; `None` if
-/// no branch leads there.
+/// no branch leads there. Where a state with a normalised direction `is_known`, no branch begins with one.
 pub(super) fn by_branch(
     path: &mut Path<'_>,
     start: Instant,
+    is_known: bool,
 ) -> Option<Result<SteadyState, SolveError>> {
     let drive = path.drive;
     // With scalar elastic friction a branch may end where the kinds of its zones change and others do not, so that its
@@ -29,6 +30,9 @@ pub(super) fn by_branch(
     let mut refusal: Option<(f64, SolveError)> = None;
     let mut branches = 0;
     for load in start_loads(drive, false) {
+        if is_known && !load.has_direction {
+            break;
+        }
         if let Some((limit, _)) = refusal {
             // With a normalised direction none was found beyond the limits of 141 random drives, in half the time of a refusal.
             if !load.has_direction {
@@ -130,7 +134,7 @@ mod tests {
         };
         let drive = Drive::from(drive);
         let mut path = Path::new(&drive, 1e-6);
-        let refused = by_branch(&mut path, Instant::now()).unwrap();
+        let refused = by_branch(&mut path, Instant::now(), false).unwrap();
         let Err(SolveError::NoSteadyState { limit, .. }) = refused else {
             panic!("{refused:?}");
         };

@@ -58,7 +58,7 @@ fn first_state(drive: &Drive, tolerance: f64) -> Result<(Solved, Stats), SolveEr
     });
     let solved = match direct {
         Err(error @ (SolveError::NotConverged { .. } | SolveError::Violated(_))) => {
-            let state = by_branch(&mut path, start).unwrap_or(Err(error.clone()))?;
+            let state = by_branch(&mut path, start, false).unwrap_or(Err(error.clone()))?;
             state.restart.map(Arc::unwrap_or_clone).ok_or(error)
         }
         direct => direct,
