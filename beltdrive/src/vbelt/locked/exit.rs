@@ -59,18 +59,30 @@ impl Leaving {
     }
 }
 
+/// Whether a belt that friction does not hold at its place of rest slides along the pulley before it leaves into a span.
+pub(super) fn slides_along(rest: &Rest, span: SpanTension) -> bool {
+    !rest.is_held && hardly_slipping(&rest.sliding(), span).is_none()
+}
+
+/// The arc on which a belt with full friction leaves its place of rest without slip, and the slip with which it breaks away if the
+/// span has another tension; `None` if it slides along the pulley with that.
+fn hardly_slipping(rest: &Rest, span: SpanTension) -> Option<(Vec<Point>, f64)> {
+    let plain = rest.plain_exit()?;
+    let [tractive, ..] = plain[plain.len() - 1].states;
+    let strand = rest.rim.groove.strand;
+    let asked = strand.tractive_of(span, rest.rim.flow);
+    let slip = strand.compliance * (asked - tractive).abs();
+    (slip * rest.turning <= SLIDES).then_some((plain, slip))
+}
+
 /// As [`leaving`], of a belt with full friction.
 fn sliding(rest: &Rest, span: SpanTension) -> Option<Leaving> {
-    let plain = rest.plain_exit()?;
-    let [tractive, theta, ..] = plain[plain.len() - 1].states;
-    let asked = rest.rim.groove.strand.tractive_of(span, rest.rim.flow);
-    let slip = rest.rim.groove.strand.compliance * (asked - tractive).abs();
-    if slip * rest.turning > SLIDES {
-        return None;
-    }
+    let (plain, slip) = hardly_slipping(rest, span)?;
     let exit = match slip < NO_SLIP {
         true => plain,
         false => {
+            let asked = rest.rim.groove.strand.tractive_of(span, rest.rim.flow);
+            let theta = plain[plain.len() - 1].states[INCLINATION];
             let range = EXITS.map(|share| share * theta);
             let origin = |theta| rest.origin(asked, theta, slip);
             rest.arc_from(search(range, EXIT_ACCURACY, origin)?)

@@ -1,6 +1,7 @@
 //! The guess of a drive whose belt locks on both pulleys.
 
 use super::entry::entering;
+use super::exit::slides_along;
 use super::pulley::{Course, Pulley, at};
 use super::rest::On;
 use crate::vbelt::{DRIVEN, DRIVER, DriveProblem, Regime};
@@ -28,11 +29,17 @@ impl Locked {
         let [slack, tight] = problem.load();
         let [driven, driver] = [DRIVEN, DRIVER].map(|pulley| problem.groove(pulley));
         let on_driver = entering(On::Driver(1.0), driver, tight)?;
+        // One arc tells that, the way to the place of rest on the driven pulley takes tens.
+        if slides_along(&on_driver.0, slack) {
+            return None;
+        }
         let flow = on_driver.0.rim.flow;
-        let driver = Pulley::new(on_driver, slack)?;
         let on_driven = entering(On::Driven(flow), driven, slack)?;
         let driven_speed = on_driven.0.rim.omega;
-        let mut pulleys = [Pulley::new(on_driven, tight)?, driver];
+        let mut pulleys = [
+            Pulley::new(on_driven, tight)?,
+            Pulley::new(on_driver, slack)?,
+        ];
         // Where friction holds the belt its displacement there depends on the wraps, and they on where the belt leaves.
         for _ in 0..MOST_CORRECTIONS {
             let angles = [DRIVEN, DRIVER].map(|pulley| pulleys[pulley].angles());
