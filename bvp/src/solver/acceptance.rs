@@ -120,17 +120,13 @@ impl Acceptance {
         }
         if is_open(a) && problem.rounds(solution) {
             let direction = problem.amplified(&solution.x);
-            return self
-                .doubt(problem, direction, a, solution)
-                .map(Confirmed::On);
+            let (mesh, _) = self.doubt(problem, direction, a, solution)?;
+            return Ok(Confirmed::On(mesh));
         }
-        if is_amplified(a)
-            && let Some(direction) = problem.direction(&solution.x, a)
-        {
-            return self
-                .doubt(problem, direction, a, solution)
-                .map(Confirmed::On);
-        }
+        let direction = match is_amplified(a) {
+            true => problem.direction(&solution.x, a),
+            false => None,
+        };
         problem
             .refuse_free(solution)
             .inspect_err(|_| self.refused = true)?;
@@ -141,18 +137,26 @@ impl Acceptance {
             true => None,
             false => problem.collocation.with_possible_layers(),
         };
+        let mut on_finer = None;
+        if let Some(direction) = direction {
+            let (mesh, isolated) = self.doubt(problem, direction, a, solution)?;
+            if isolated.is_none() {
+                return Ok(Confirmed::On(mesh));
+            }
+            on_finer = isolated;
+        }
         let tolerance = problem.options.tolerance;
-        let unsure = is_high(a) || vanishes(&solution.x, tolerance);
+        // What has been seen on the halved mesh is steady.
+        let unsure = on_finer.is_none() && (is_high(a) || vanishes(&solution.x, tolerance));
         let struggled = problem.struggled(&solution.mesh);
         if (unsure || struggled || is_amplified(grown)) && problem.may_halve(&solution.mesh) {
             let direction = problem.amplified(&solution.x);
             let finer = halved(&solution.mesh);
-            let on_finer = problem.on_mesh(finer.clone(), solution);
+            let on_finer = on_finer.unwrap_or_else(|| problem.on_mesh(finer.clone(), solution));
             let opens = is_amplified(on_finer.amplification);
             if (unsure || struggled && opens) && !is_steady(a, on_finer.amplification) {
-                return self
-                    .doubt(problem, direction, a, solution)
-                    .map(Confirmed::On);
+                let (mesh, _) = self.doubt(problem, direction, a, solution)?;
+                return Ok(Confirmed::On(mesh));
             }
             if is_amplified(grown)
                 && (on_finer.correction > tolerance
@@ -244,42 +248,44 @@ impl Acceptance {
     }
 
     /// The halved mesh on which a solution with the amplification `on_own` proves isolated that does not so on
-    /// its own, or on which it is to be sought again; an error if there is none.
+    /// its own, or on which it is to be sought again; an error if there is none. With what was seen on the mesh of
+    /// halved intervals if it proves isolated there, is as much amplified as on its own, and is within the tolerance of the
+    /// solution there: then it need not be sought again.
     fn doubt(
         &mut self,
         problem: &mut Discretised<'_>,
         direction: Direction,
         on_own: f64,
         solution: &Solution,
-    ) -> Result<Mesh, Error> {
+    ) -> Result<(Mesh, Option<OnMesh>), Error> {
         let mut mesh = solution.mesh.clone();
         if !is_high(on_own) && !problem.may_halve(&mesh) {
             // Nothing but the limit of intervals keeps it from a second look.
-            return Ok(halved(&mesh));
+            return Ok((halved(&mesh), None));
         }
         let mut before = f64::INFINITY;
-        for _ in 0..DOUBTS {
+        for doubts in 0..DOUBTS {
             if !problem.may_halve(&mesh) {
                 break;
             }
             mesh = halved(&mesh);
-            let OnMesh {
-                x,
-                amplification: a,
-                ..
-            } = problem.on_mesh(mesh.clone(), solution);
+            let seen = problem.on_mesh(mesh.clone(), solution);
+            let a = seen.amplification;
             if is_open(a) {
                 break;
             }
-            if !is_amplified(a) || is_steady(before, a) && problem.direction(&x, a).is_none() {
-                return Ok(mesh);
+            if !is_amplified(a) || is_steady(before, a) && problem.direction(&seen.x, a).is_none() {
+                let stays = doubts == 0
+                    && is_steady(on_own, a)
+                    && seen.correction <= problem.options.tolerance;
+                return Ok((mesh, stays.then_some(seen)));
             }
             // The amplification is that of the exact problem, as far as meshes tell. The right-hand side may
             // change within the error of the solution more than it does along the direction, as in a layer
             // thinner than that: a solution on the finer mesh has a smaller one.
             if is_steady(on_own, a) && self.repeated < DOUBTS {
                 self.repeated += 1;
-                return Ok(mesh);
+                return Ok((mesh, None));
             }
             before = a;
         }
