@@ -40,23 +40,42 @@ const ANY: Way = |path| path.with_direction();
 impl Tracer<'_> {
     /// The next piece, from a state beyond the last one in the direction in which the branch was followed.
     pub(super) fn beyond(&mut self, direction: Direction) -> Option<PieceEnd> {
+        let locked = self.beyond_locked(direction);
+        locked.or_else(|| {
+            let (first, last) = self.way_behind()?;
+            let steps = BEYOND.map(|share| share * (last - first).abs());
+            self.beyond_by(&steps, ANY, direction)
+        })
+    }
+
+    /// The same of a belt that locks.
+    pub(super) fn beyond_locked(&mut self, direction: Direction) -> Option<PieceEnd> {
+        let (_, last) = self.way_behind()?;
+        let steps = BEYOND_LOCKED.map(|share| share * last.abs());
+        self.beyond_by(&steps, LOCKED, direction)
+    }
+
+    /// The values of the first and of the last state, unless a limit point is behind.
+    fn way_behind(&self) -> Option<(f64, f64)> {
         let turned = self
             .events
             .iter()
             .any(|event| event.kind == EventKind::LimitPoint);
-        let (first, last) = match (self.passed.first(), self.passed.last()) {
-            (Some((first, _)), Some((last, _))) if !turned => (*first, *last),
-            _ => return None,
-        };
+        match (self.passed.first(), self.passed.last()) {
+            (Some((first, _)), Some((last, _))) if !turned => Some((*first, *last)),
+            _ => None,
+        }
+    }
+
+    /// The next piece, from a state that is found in some way by one of these steps beyond the last one.
+    fn beyond_by(&mut self, steps: &[f64], way: Way, direction: Direction) -> Option<PieceEnd> {
+        let (_, last) = self.way_behind()?;
         let sense = match direction {
             Direction::Increasing => 1.0,
             Direction::Decreasing => -1.0,
         };
         let [low, high] = self.range;
-        let steps = BEYOND.map(|share| share * (last - first).abs());
-        let locked_steps = BEYOND_LOCKED.map(|share| share * last.abs());
-        let tried = locked_steps.map(|step| (LOCKED, step)).into_iter();
-        for (way, step) in tried.chain(steps.map(|step| (ANY, step))) {
+        for step in steps {
             let value = last + sense * step;
             if value != last
                 && low < value

@@ -282,9 +282,14 @@ impl Tracer<'_> {
                 && matches!(point.kind, Kind::Regular | Kind::Bound)
                 && self.refinements < MAX_REFINEMENTS
             {
+                self.convergence.count(&last);
+                // Where the belt locks the slip of a turn may have changed its sense, and shorter steps do not pass that place.
+                let locks = self.locks(passed, solved);
+                if locks && let Some(next) = self.beyond_locked(*towards) {
+                    return next;
+                }
                 // A zone that has just appeared is found more easily, and a limit point between here and the end of the range,
                 // beyond which there are no states with that zone.
-                self.convergence.count(&last);
                 self.refinements += 1;
                 return self.goes_on(passed, solved.clone(), *towards);
             }
