@@ -284,7 +284,7 @@ impl Tracer<'_> {
             {
                 self.convergence.count(&last);
                 // Where the belt locks the slip of a turn may have changed its sense, and shorter steps do not pass that place.
-                let locks = self.locks(passed, solved);
+                let locks = self.refinements == 0 && self.locks(passed, solved);
                 if locks && let Some(next) = self.beyond_locked(*towards) {
                     return next;
                 }
