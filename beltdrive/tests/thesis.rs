@@ -277,6 +277,16 @@ fn vector_friction_sticks_where_an_independent_prototype_found_it() {
 }
 
 #[test]
+fn a_belt_that_locks_is_looked_at_on_a_halved_mesh_and_not_solved_there() {
+    // Its slip amplifies what forces it. Solved on that mesh there were 404 and 290 intervals.
+    for (tight, most) in [(101.0, 210), (105.0, 150)] {
+        let state = state(FrictionLaw::Coulomb, tight);
+        let intervals: usize = state.convergence.mesh_intervals.iter().sum();
+        assert!(intervals <= most, "{intervals} at {tight} N");
+    }
+}
+
+#[test]
 fn a_scalar_state_is_no_neighbour_of_a_vector_one() {
     let options = SolveOptions::default();
     let law = FrictionLaw::VectorEpp { stiffness: 8.1e6 };
