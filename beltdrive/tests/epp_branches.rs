@@ -258,3 +258,21 @@ fn a_branch_goes_on_beyond_an_arc_that_vanishes() {
         1e-5,
     );
 }
+
+#[test]
+fn a_load_beyond_a_limit_beside_no_load_is_refused() {
+    // The branch from 41.955 N is lost at 42.014 N, where friction ceases to hold the belt on the driver.
+    let drive = Numbers {
+        belt: [0.039_748_937, 488_652.9, 11_892_164.5, 0.298_805_69],
+        friction: [0.595_632_2, 1_899_597.54],
+        pulleys: [0.078_557_137, 48.345_356, 0.091_095_485, 0.386_731_98],
+        load: [41.912_712, 80.0],
+    }
+    .drive();
+    let error = solve(&drive, &SolveOptions::default()).unwrap_err();
+    let SolveError::NoSteadyState { limit, .. } = error else {
+        panic!("{error}");
+    };
+    // Single states are found up to there, and none beyond.
+    assert!((limit - 42.085_117).abs() < 1e-5, "{limit}");
+}

@@ -8,8 +8,9 @@ use crate::input::Key;
 /// states are found. Of 10 000 drives with Coulomb friction two that are overloaded were not refused without 0.5.
 const LIGHTER: [f64; 9] = [0.8, 0.6, 0.5, 0.4, 0.25, 0.15, 0.08, 0.03, 0.01];
 /// Multiples of the slack tension at which one may begin at last: soft scalar elastic friction on a stiff belt carries no more
-/// than 0.02 to 0.3 % more than no load, where vector EPP friction carries 18 and 52 times as much.
-const LIGHTEST: [f64; 4] = [1.001, 1.0005, 1.0002, 1.0001];
+/// than 0.02 to 0.4 % more than no load, where vector EPP friction carries 18 and 52 times as much. With the first one loads
+/// beyond 42.085 N are refused of a drive with a slack tension of 41.913 N, whose branch from 1.001 times that is lost at 42.01 N.
+const LIGHTEST: [f64; 5] = [1.003, 1.001, 1.0005, 1.0002, 1.0001];
 /// Multiples of the slack tension at which a branch may begin in place of the load of the drive, and first does if that
 /// is less than the last of them: nearer to no load the belt hardly slips, and states are hard to find and to follow.
 const HEAVIER: [f64; 4] = [2.0, 3.0, 1.5, 1.2];
@@ -30,7 +31,7 @@ pub(super) fn start_loads(drive: &Drive, with_own: bool) -> impl Iterator<Item =
     let ratio = Key::load(drive).get(drive) / slack;
     let own = with_own.then_some(ratio);
     // Nearer to no load than the lightest ones they are hardly other loads.
-    let least = LIGHTEST[3] - 1.0;
+    let least = LIGHTEST[4] - 1.0;
     let lighter = LIGHTER.map(|power| ratio.powf(power));
     let lighter = lighter
         .into_iter()
