@@ -84,6 +84,9 @@ fn from_state(
         true => {
             let up = upwards(near, &key, tolerance, solved, asked, &mut |_, _| {});
             path.count_trace(&up.tracer.convergence);
+            if let Some((reached, _)) = up.tracer.near {
+                path.reached = path.reached.max(reached / path.scales().units.force);
+            }
             if let Ok(limit) = up.limit()
                 && let RangeEnd::Limit(reason) = limit.reason
             {
@@ -115,7 +118,17 @@ fn from_state(
 mod tests {
     use super::*;
     use crate::TwoPulleys;
+    use crate::vbelt::limit::tests::lets_go;
     use crate::vbelt::scaling::tests::{kim, tractive, v_belt};
+
+    #[test]
+    fn a_branch_that_is_lost_tells_what_the_drive_carries() {
+        let drive = lets_go();
+        let mut path = Path::new(&drive, 1e-6);
+        assert!(by_branch(&mut path, Instant::now(), true).is_none());
+        let reached = path.reached * path.scales().units.force;
+        assert!(reached > 305.0, "{reached}");
+    }
 
     #[test]
     fn beyond_a_limit_with_elastic_friction_no_normalised_direction_is_tried() {

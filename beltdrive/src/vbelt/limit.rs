@@ -125,12 +125,17 @@ impl Path<'_> {
             };
             match self.classify(solved)? {
                 Found::State(solved) => {
-                    if let Ok(found) = self.approach(*solved, target) {
+                    if self.is_below_limit(&solved) {
+                        self.reached = self.reached.max(load);
+                    }
+                    if let Ok(found) = self.approach(*solved, target)
+                        && !self.is_refuted(&found)
+                    {
                         return Ok(found);
                     }
                 }
                 // The range ends between the two loads.
-                beyond if load <= target => return Ok(beyond),
+                beyond if load <= target && !self.is_refuted(&beyond) => return Ok(beyond),
                 Found::Beyond(_) => {}
             }
         }
@@ -138,6 +143,15 @@ impl Path<'_> {
         let (solved, effect) = direct?;
         self.smoothing_effect = effect;
         self.classify(solved)
+    }
+
+    /// Whether what was found is a limit below a load under which a state is known: with scalar elastic friction the way from a
+    /// lighter load may end where the zones of a belt that sticks change, and others lead on.
+    fn is_refuted(&self, found: &Found) -> bool {
+        match found {
+            Found::State(_) => false,
+            Found::Beyond(limit) => limit.state.tight_tension() < self.reached,
+        }
     }
 
     /// Whether the branch can be followed from a state up to its limit.
@@ -360,4 +374,40 @@ fn slips_beyond_capstan(solved: &Solved) -> bool {
         let load = (on.exit()[TENSION] / on.entry()[TENSION]).ln();
         load.abs() > friction * on.exit()[ANGLE] && on.least_slip().slip > CREEP
     })
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::vbelt::scaling::tests::{kim, tractive, v_belt};
+    use crate::{Drive, TwoPulleys};
+
+    /// A drive whose driver holds its belt up to 305.03 N. States at larger loads are found, some between not.
+    pub(in crate::vbelt) fn lets_go() -> Drive {
+        let law = FrictionLaw::Epp {
+            stiffness: 14_974_325.103,
+        };
+        Drive::from(TwoPulleys {
+            belt: v_belt([0.037_124_974, 49_509.164, 2_090_492.98, 0.261_502_04]),
+            friction_coefficient: 0.564_899_45,
+            driver_radius: 0.217_053_51,
+            driver_speed: 11.866_471,
+            driven_radius: 0.594_053_82,
+            centre_distance: 2.777_265_9,
+            load: tractive(256.172_35, 306.0),
+            ..kim(law, 0.25)
+        })
+    }
+
+    #[test]
+    fn a_limit_below_a_load_that_is_carried_is_none() {
+        // From 259.8 N, in steps of the load, the states end at 259.9 N.
+        let drive = lets_go();
+        let mut path = Path::new(&drive, 1e-6);
+        let force = path.scales().units.force;
+        if let Ok(Found::Beyond(limit)) = path.find(path.target()) {
+            panic!("{}", limit.state.tight_tension() * force);
+        }
+        assert!(path.reached > path.target());
+    }
 }

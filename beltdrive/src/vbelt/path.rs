@@ -208,6 +208,8 @@ pub(super) struct Path<'a> {
     pub(super) smoothing_effect: f64,
     /// Whether the meshes of states whose friction slides are for the error alone.
     pub(super) for_error: bool,
+    /// The largest scaled tight tension under which a state is known, to which a limit below it is none; zero at first.
+    pub(super) reached: f64,
 }
 
 impl<'a> Path<'a> {
@@ -219,6 +221,7 @@ impl<'a> Path<'a> {
             problems: 0,
             smoothing_effect: 0.0,
             for_error: false,
+            reached: 0.0,
         }
     }
 
