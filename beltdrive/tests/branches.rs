@@ -382,3 +382,49 @@ fn a_belt_that_sinks_beyond_its_height_is_an_event() {
     let sunk = event(&branch, EventKind::BeltHeight(Role::Driven));
     close(sunk.point.state.driven.max_penetration, 0.01, 1e-3);
 }
+
+#[test]
+fn the_limit_of_a_drive_whose_branch_takes_many_steps_is_found() {
+    // Where bristles hold a soft belt that hardly slips, steps are short: 600 of them end at 10 119 N.
+    let law = FrictionLaw::Bristle {
+        stiffness: 3_529.713_3,
+    };
+    let drive = Drive::from(TwoPulleys {
+        belt: Belt {
+            mass_per_length: 0.511_404_95,
+            axial_stiffness: 12_007.028_5,
+            kind: BeltKind::V(VBelt {
+                radial_stiffness: 10_176_960.4,
+                half_angle: 0.247_959_202,
+                height: None,
+            }),
+            ..kim(law).belt
+        },
+        friction_coefficient: 0.712_102_06,
+        driver_radius: 0.356_365_592,
+        driver_speed: 33.123_239_1,
+        driven_radius: 0.280_168_979,
+        centre_distance: 1.912_698_34,
+        load: Load {
+            slack: SpanTension::Tractive(262.263_879),
+            tight: SpanTension::Tractive(393.337_016),
+        },
+        law,
+    });
+    let options = SolveOptions::default();
+    let tight = key(&drive, TIGHT);
+    let limits = limits(&drive, &tight, &options, &mut |_, _| {}).unwrap();
+    let largest = limits.largest;
+    assert_eq!(largest.reason, RangeEnd::Limit(LimitReason::Overhang));
+    let at = |share: f64| {
+        let mut drive = drive.clone();
+        tight.set(&mut drive, share * largest.value);
+        solve(&drive, &options)
+    };
+    assert!(at(0.99).is_ok());
+    let error = at(1.01).unwrap_err();
+    let SolveError::NoSteadyState { limit, .. } = error else {
+        panic!("{error}");
+    };
+    close(limit, largest.value, 1e-6);
+}
