@@ -276,3 +276,22 @@ fn a_load_beyond_a_limit_beside_no_load_is_refused() {
     // Single states are found up to there, and none beyond.
     assert!((limit - 42.085_117).abs() < 1e-5, "{limit}");
 }
+
+#[test]
+fn a_limit_is_found_where_the_driver_lets_go_of_the_belt_on_the_way() {
+    // At 966.87 N friction ceases to hold the belt on the driver, and the branch from lighter loads is lost.
+    let drive = Numbers {
+        belt: [0.038_819_96, 350_229.97, 3_487_113.04, 0.221_379_51],
+        friction: [0.525_450_41, 41_292_345.7],
+        pulleys: [0.170_558_38, 15.959_011, 0.596_497_41, 1.407_183_2],
+        load: [612.780_875, 900.0],
+    }
+    .drive();
+    let options = SolveOptions::default();
+    let key = Key::load(&drive);
+    let largest = limits(&drive, &key, &options, &mut |_, _| {})
+        .unwrap()
+        .largest;
+    close(largest.value, 15_911.739, 1e-6);
+    solve(&at(&drive, 0.99 * largest.value), &options).unwrap();
+}
