@@ -137,27 +137,33 @@ impl Acceptance {
             true => None,
             false => problem.collocation.with_possible_layers(),
         };
-        let mut on_finer = None;
+        let mut isolated = None;
         if let Some(direction) = direction {
-            let (mesh, isolated) = self.doubt(problem, direction, a, solution)?;
-            if isolated.is_none() {
+            let (mesh, seen) = self.doubt(problem, direction, a, solution)?;
+            if seen.is_none() {
                 return Ok(Confirmed::On(mesh));
             }
-            on_finer = isolated;
+            isolated = seen;
         }
         let tolerance = problem.options.tolerance;
-        // What has been seen on the halved mesh is steady.
-        let unsure = on_finer.is_none() && (is_high(a) || vanishes(&solution.x, tolerance));
+        let unsure = is_high(a) || vanishes(&solution.x, tolerance);
         let struggled = problem.struggled(&solution.mesh);
         if (unsure || struggled || is_amplified(grown)) && problem.may_halve(&solution.mesh) {
-            let direction = problem.amplified(&solution.x);
             let finer = halved(&solution.mesh);
-            let on_finer = on_finer.unwrap_or_else(|| problem.on_mesh(finer.clone(), solution));
-            let opens = is_amplified(on_finer.amplification);
-            if (unsure || struggled && opens) && !is_steady(a, on_finer.amplification) {
-                let (mesh, _) = self.doubt(problem, direction, a, solution)?;
-                return Ok(Confirmed::On(mesh));
-            }
+            let on_finer = match isolated {
+                // What has been seen on the halved mesh is steady.
+                Some(seen) => seen,
+                None => {
+                    let direction = problem.amplified(&solution.x);
+                    let seen = problem.on_mesh(finer.clone(), solution);
+                    let opens = is_amplified(seen.amplification);
+                    if (unsure || struggled && opens) && !is_steady(a, seen.amplification) {
+                        let (mesh, _) = self.doubt(problem, direction, a, solution)?;
+                        return Ok(Confirmed::On(mesh));
+                    }
+                    seen
+                }
+            };
             if is_amplified(grown)
                 && (on_finer.correction > tolerance
                     || !is_steady(grown, problem.growth(&on_finer.x)))
