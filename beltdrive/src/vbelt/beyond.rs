@@ -45,7 +45,7 @@ impl Tracer<'_> {
         locked.or_else(|| {
             let (first, last) = self.way_behind()?;
             let steps = BEYOND.map(|share| share * (last - first).abs());
-            self.beyond_by(&steps, ANY, direction)
+            self.beyond_by((last, &steps), ANY, direction)
         })
     }
 
@@ -53,7 +53,7 @@ impl Tracer<'_> {
     pub(super) fn beyond_locked(&mut self, direction: Direction) -> Option<PieceEnd> {
         let (_, last) = self.way_behind()?;
         let steps = BEYOND_LOCKED.map(|share| share * last.abs());
-        self.beyond_by(&steps, LOCKED, direction)
+        self.beyond_by((last, &steps), LOCKED, direction)
     }
 
     /// The values of the first and of the last state, unless a limit point is behind.
@@ -68,9 +68,13 @@ impl Tracer<'_> {
         }
     }
 
-    /// The next piece, from a state that is found in some way by one of these steps beyond the last one.
-    fn beyond_by(&mut self, steps: &[f64], way: Way, direction: Direction) -> Option<PieceEnd> {
-        let (_, last) = self.way_behind()?;
+    /// The next piece, from a state that is found in some way by one of these steps beyond the last value.
+    fn beyond_by(
+        &mut self,
+        (last, steps): (f64, &[f64]),
+        way: Way,
+        direction: Direction,
+    ) -> Option<PieceEnd> {
         let sense = match direction {
             Direction::Increasing => 1.0,
             Direction::Decreasing => -1.0,

@@ -31,7 +31,8 @@ pub(super) fn start_loads(drive: &Drive, with_own: bool) -> impl Iterator<Item =
     let ratio = Key::load(drive).get(drive) / slack;
     let own = with_own.then_some(ratio);
     // Nearer to no load than the lightest ones they are hardly other loads.
-    let least = LIGHTEST[4] - 1.0;
+    let [.., lightest] = LIGHTEST;
+    let least = lightest - 1.0;
     let lighter = LIGHTER.map(|power| ratio.powf(power));
     let lighter = lighter
         .into_iter()
