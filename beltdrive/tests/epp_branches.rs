@@ -278,6 +278,28 @@ fn a_load_beyond_a_limit_beside_no_load_is_refused() {
 }
 
 #[test]
+fn what_friction_too_soft_to_carry_anything_carries_is_told() {
+    // What elastic friction carries beyond no load is proportional to its stiffness where that is small: 1.1, 2.2 and 4.4 mN here.
+    let excess = [62_500.0, 125_000.0, 250_000.0].map(|stiffness| {
+        let drive = Numbers {
+            belt: [0.039_018_47, 287_216.5, 6_294_816.3, 0.333_017_87],
+            friction: [0.235_783_75, stiffness],
+            pulleys: [0.073_469_276, 11.658_544, 0.149_276_36, 0.353_996_94],
+            load: [47.025_566, 175.325],
+        }
+        .drive();
+        let error = solve(&drive, &SolveOptions::default()).unwrap_err();
+        let SolveError::NoSteadyState { limit, .. } = error else {
+            panic!("{error}");
+        };
+        limit - 47.025_566
+    });
+    for [soft, twice] in [[excess[0], excess[1]], [excess[1], excess[2]]] {
+        assert!(soft > 0.0 && (twice / soft - 2.0).abs() < 0.1, "{excess:?}");
+    }
+}
+
+#[test]
 fn a_limit_is_found_where_the_driver_lets_go_of_the_belt_on_the_way() {
     // At 966.87 N friction ceases to hold the belt on the driver, and the branch from lighter loads is lost.
     let drive = Numbers {
