@@ -7,6 +7,7 @@
 //! end in a limit point at which no pulley slips grossly, and the drive goes over to states with the other, under which
 //! it carries more. The limit of its load is that of the last of them.
 
+use super::limit::slips_far;
 use super::path::{Path, Solved};
 use super::piece::PieceEnd;
 use super::state::describe;
@@ -147,7 +148,9 @@ impl Tracer<'_> {
         let drive = self.drive_at(value);
         let mut path = Path::new(&drive, self.tolerance);
         let found = way(&mut path).filter(|solved| {
-            path.is_below_limit(solved) && describe(&path, solved).verified().is_ok()
+            !slips_far(solved)
+                && path.is_before_limit(solved)
+                && describe(&path, solved).verified().is_ok()
         });
         self.convergence.count(&path.stats);
         found

@@ -89,6 +89,8 @@ fn conclude(
 mod tests {
     use super::*;
     use crate::TwoPulleys;
+    use crate::input::Key;
+    use crate::trace;
     use crate::vbelt::scaling::tests::{kim, tractive, v_belt};
 
     #[test]
@@ -112,5 +114,54 @@ mod tests {
         assert!((speed - 46.568_37).abs() < 1e-4, "{speed}");
         let restart = state.restart.unwrap();
         assert!(restart.problem.sticks(), "{:?}", restart.problem.regimes());
+    }
+
+    #[test]
+    fn of_two_states_whose_driver_slips_that_of_the_branch_is_told() {
+        // Those found first have a slip of 0.39 and 0.025 on the driver: one is on a branch of its own, at 5.46 rad/s, one behind
+        // the limit point at 476.12 N, at 12.0726 rad/s.
+        let with_bristles = |stiffness, friction_coefficient| TwoPulleys {
+            friction_coefficient,
+            ..kim(FrictionLaw::Bristle { stiffness }, 0.25)
+        };
+        let own = TwoPulleys {
+            belt: v_belt([0.034_545_626, 321_495.76, 4_802_507.59, 0.197_677_912]),
+            driver_radius: 0.071_366_084,
+            driver_speed: 22.424_554,
+            driven_radius: 0.191_362_569,
+            centre_distance: 0.684_460_506,
+            load: tractive(40.943_674, 600.0),
+            ..with_bristles(14_960.34, 0.175_713_744)
+        };
+        let behind = TwoPulleys {
+            belt: v_belt([0.035_783_162, 72_465.358, 9_496_927.42, 0.202_065_507]),
+            driver_radius: 0.248_238_37,
+            driver_speed: 41.441_05,
+            driven_radius: 0.824_344_242,
+            centre_distance: 1.505_899_26,
+            load: tractive(20.729_408_4, 473.275_343),
+            ..with_bristles(1060.514_19, 0.261_736_542)
+        };
+        for two in [own, behind] {
+            let drive = Drive::from(two);
+            let state = solve(&drive, &SolveOptions::default()).unwrap();
+            let key = Key::load(&drive);
+            let mut light = drive.clone();
+            key.set(&mut light, 60.0);
+            let range = [60.0, key.get(&drive)];
+            let branch = trace(
+                &light,
+                &key,
+                range,
+                &SolveOptions::default(),
+                &mut |_, _| {},
+            );
+            let branch = branch.unwrap();
+            let last = branch.points.last().unwrap();
+            assert_eq!(last.value, range[1]);
+            let single = state.driven.angular_speed;
+            let led = last.state.driven.angular_speed;
+            assert!((single / led - 1.0).abs() < 1e-5, "{single} {led}");
+        }
     }
 }
