@@ -140,7 +140,7 @@ mod tests {
             driven_radius: 0.824_344_242,
             centre_distance: 1.505_899_26,
             load: tractive(20.729_408_4, 473.275_343),
-            ..with_bristles(1060.514_19, 0.261_736_542)
+            ..with_bristles(1_060.514_19, 0.261_736_542)
         };
         for two in [own, behind] {
             let drive = Drive::from(two);
