@@ -142,21 +142,15 @@ mod tests {
             load: tractive(20.729_408_4, 473.275_343),
             ..with_bristles(1_060.514_19, 0.261_736_542)
         };
+        let options = SolveOptions::default();
         for two in [own, behind] {
             let drive = Drive::from(two);
-            let state = solve(&drive, &SolveOptions::default()).unwrap();
+            let state = solve(&drive, &options).unwrap();
             let key = Key::load(&drive);
-            let mut light = drive.clone();
-            key.set(&mut light, 60.0);
             let range = [60.0, key.get(&drive)];
-            let branch = trace(
-                &light,
-                &key,
-                range,
-                &SolveOptions::default(),
-                &mut |_, _| {},
-            );
-            let branch = branch.unwrap();
+            let mut light = drive.clone();
+            key.set(&mut light, range[0]);
+            let branch = trace(&light, &key, range, &options, &mut |_, _| {}).unwrap();
             let last = branch.points.last().unwrap();
             assert_eq!(last.value, range[1]);
             let single = state.driven.angular_speed;
