@@ -13,6 +13,7 @@
 //! falls all the way, and takes its part.
 
 use super::carried::Carried;
+use super::creep::{CREEP, begins_at_rest};
 use super::path::{Effort, Path, Solved, Stuck};
 use super::{ANGLE, DRIVEN, DRIVER, DriveProblem, INCLINATION, Instead, TENSION};
 use crate::{FrictionLaw, LimitReason};
@@ -35,9 +36,6 @@ const MAX_LENGTH_STEPS: usize = 200;
 /// share of its speed, a state may lie beyond a limit point.
 const STEEP: f64 = 1.3;
 const SLOW: f64 = 0.5;
-/// The smallest slip on a pulley above which the state may be of those to which no load leads from rest. At 1000 N one random
-/// drive has a state that is reached, with 0.002 on the driver, and one that is not, with 0.03; with 0.05 `solve` told this one.
-const CREEP: f64 = 0.01;
 /// Step in the logarithm of the contact length that tells on which side.
 const SIDE_STEP: f64 = 1e-4;
 /// Rough states with larger differences of their constants from a state are others: that of the drive of Kim (2009) at 7000 N
@@ -184,14 +182,10 @@ impl Path<'_> {
         false
     }
 
-    /// Whether the slip of the driver, through two states on a line over the tension, is less than `CREEP` without load. That of
-    /// states to which a load leads from rest begins with none and grows faster than the tension, so that the line ends below zero.
-    /// Soft elastic friction lets the driver of one drive creep by 0.08: 58 Newton steps become 62 with this, and 115 where the load
-    /// is lowered until the slip is small.
-    fn creeps_from_rest(&self, [lighter, solved]: [&Solved; 2]) -> bool {
-        let [light, here] = [lighter, solved].map(driver_slip);
-        let [less, tension] = [lighter, solved].map(Solved::tight_tension);
-        here - (here - light) / (tension - less) * (tension - self.slack()) < CREEP
+    /// Whether the slip of the driver, through two states on a line over the tension, begins at rest.
+    fn creeps_from_rest(&self, states: [&Solved; 2]) -> bool {
+        let slips = states.map(|state| least_slip(state, DRIVER));
+        begins_at_rest(slips, states.map(Solved::tight_tension), self.slack())
     }
 
     /// Whether the tension rises with the contact length of the driver, as it does from no load to
@@ -381,12 +375,12 @@ fn is_slow(solved: &Solved) -> bool {
 /// a branch of its own: at 600 N one random drive with bristles has a state with a slip of 0.39 on the driver, of a branch on which
 /// the driven pulley stands at both ends, at 540 and 947 N, and one with 0.0065, to which a rising load leads.
 fn driver_slips(solved: &Solved) -> bool {
-    driver_slip(solved) > CREEP
+    least_slip(solved, DRIVER) > CREEP
 }
 
-/// The smallest slip on the driver.
-fn driver_slip(solved: &Solved) -> f64 {
-    solved.on_pulley(DRIVER).least_slip().slip
+/// The smallest slip on a pulley.
+fn least_slip(solved: &Solved, pulley: usize) -> f64 {
+    solved.on_pulley(pulley).least_slip().slip
 }
 
 /// Whether a pulley slips all along by more than `CREEP` and changes the tension by more than friction against the slip does
@@ -403,7 +397,7 @@ fn slips_beyond_capstan(solved: &Solved) -> bool {
         let on = solved.on_pulley(pulley);
         let friction = on.groove.friction_coefficient / on.groove.sin_beta;
         let load = (on.exit()[TENSION] / on.entry()[TENSION]).ln();
-        load.abs() > friction * on.exit()[ANGLE] && on.least_slip().slip > CREEP
+        load.abs() > friction * on.exit()[ANGLE] && least_slip(solved, pulley) > CREEP
     })
 }
 

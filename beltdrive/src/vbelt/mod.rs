@@ -18,6 +18,7 @@ mod carried;
 mod chart;
 mod closure;
 mod contact;
+mod creep;
 mod cubic;
 mod curve;
 mod drive_problem;

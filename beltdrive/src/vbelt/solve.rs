@@ -89,6 +89,7 @@ fn conclude(
 mod tests {
     use super::*;
     use crate::TwoPulleys;
+    use crate::belt_loop;
     use crate::input::Key;
     use crate::trace;
     use crate::vbelt::scaling::tests::{kim, tractive, v_belt};
@@ -116,14 +117,32 @@ mod tests {
         assert!(restart.problem.sticks(), "{:?}", restart.problem.regimes());
     }
 
+    /// The branch of the tension at that of the drive, with its angular speed of the driven pulley, and the drive as a loop.
+    fn at_the_end_of_its_branch(drive: &Drive) -> (f64, Drive) {
+        let key = Key::load(drive);
+        let range = [120.0, key.get(drive)];
+        let mut light = drive.clone();
+        key.set(&mut light, range[0]);
+        let options = SolveOptions::default();
+        let branch = trace(&light, &key, range, &options, &mut |_, _| {}).unwrap();
+        let last = branch.points.last().unwrap();
+        assert_eq!(last.value, range[1]);
+        let state = &last.state;
+        let as_loop = drive.as_loop(state.driven.torque, state.slack_tractive_tension);
+        (state.driven.angular_speed, as_loop)
+    }
+
+    fn with_bristles(stiffness: f64, friction_coefficient: f64) -> TwoPulleys {
+        TwoPulleys {
+            friction_coefficient,
+            ..kim(FrictionLaw::Bristle { stiffness }, 0.25)
+        }
+    }
+
     #[test]
     fn of_two_states_whose_driver_slips_that_of_the_branch_is_told() {
         // Those found first have a slip of 0.39 and 0.025 on the driver: one is on a branch of its own, at 5.46 rad/s, one behind
         // the limit point at 476.12 N, at 12.0726 rad/s.
-        let with_bristles = |stiffness, friction_coefficient| TwoPulleys {
-            friction_coefficient,
-            ..kim(FrictionLaw::Bristle { stiffness }, 0.25)
-        };
         let own = TwoPulleys {
             belt: v_belt([0.034_545_626, 321_495.76, 4_802_507.59, 0.197_677_912]),
             driver_radius: 0.071_366_084,
@@ -142,19 +161,41 @@ mod tests {
             load: tractive(20.729_408_4, 473.275_343),
             ..with_bristles(1_060.514_19, 0.261_736_542)
         };
-        let options = SolveOptions::default();
         for two in [own, behind] {
             let drive = Drive::from(two);
-            let state = solve(&drive, &options).unwrap();
-            let key = Key::load(&drive);
-            let range = [60.0, key.get(&drive)];
-            let mut light = drive.clone();
-            key.set(&mut light, range[0]);
-            let branch = trace(&light, &key, range, &options, &mut |_, _| {}).unwrap();
-            let last = branch.points.last().unwrap();
-            assert_eq!(last.value, range[1]);
+            let state = solve(&drive, &SolveOptions::default()).unwrap();
             let single = state.driven.angular_speed;
-            let led = last.state.driven.angular_speed;
+            let (led, _) = at_the_end_of_its_branch(&drive);
+            assert!((single / led - 1.0).abs() < 1e-5, "{single} {led}");
+        }
+    }
+
+    #[test]
+    fn of_two_states_of_a_loop_that_to_which_a_load_leads_is_told() {
+        // Those found first slip by 0.059 on the driver, with an efficiency of 0.529 in place of 0.706, and at 9.974 rad/s in
+        // place of 10.248.
+        let of_driver = TwoPulleys {
+            belt: v_belt([0.380_022_039, 211_839.902, 21_744_620.8, 0.248_865_761]),
+            driver_radius: 0.099_742_289_8,
+            driver_speed: 156.292_803,
+            driven_radius: 0.201_090_315,
+            centre_distance: 0.597_830_525,
+            load: tractive(40.691_509_2, 3_384.032_02),
+            ..with_bristles(14_137.501_2, 0.313_247_218)
+        };
+        let of_driven = TwoPulleys {
+            belt: v_belt([0.282_418_474, 478_279.041, 3_772_408.04, 0.355_050_649]),
+            driver_radius: 0.273_341_871,
+            driver_speed: 26.855_416_7,
+            driven_radius: 0.655_773_461,
+            centre_distance: 2.617_354,
+            load: tractive(79.272_372_2, 3_728.933_67),
+            ..with_bristles(1_549.519_7, 0.396_460_704)
+        };
+        for two in [of_driver, of_driven] {
+            let (led, as_loop) = at_the_end_of_its_branch(&Drive::from(two));
+            let found = belt_loop::solve(&as_loop).unwrap();
+            let single = found.pulleys[1].angular_speed;
             assert!((single / led - 1.0).abs() < 1e-5, "{single} {led}");
         }
     }

@@ -2,6 +2,7 @@
 
 use super::super::BeltProblem;
 use super::super::carried::{Carried, Extrapolated};
+use super::super::creep::{CREEP, begins_at_rest};
 use super::super::groove::TENSION;
 use super::super::laws::Asked;
 use super::super::path::{Effort, Solved};
@@ -11,6 +12,7 @@ use super::like::Like;
 use super::problem::LoopProblem;
 use super::rest::Rest;
 use super::round::Target;
+use super::slipping::slip;
 use super::solve::{Search, lost};
 use super::start::Start;
 use super::stiffening::is_followed;
@@ -31,6 +33,8 @@ const CLIMBS: usize = 5;
 /// speed, a state may lie beyond the largest load.
 const STEEP: f64 = 1.3;
 pub(super) const SLOW: f64 = 0.5;
+/// Share of a load under which the slip tells whether it begins at rest.
+const LESS: f64 = 0.9;
 
 /// A running loop.
 pub(super) struct Running<'l> {
@@ -40,6 +44,21 @@ pub(super) struct Running<'l> {
     start: Start<'l>,
     /// Roughly, if the load was raised to it.
     raised: Option<Solved<LoopProblem>>,
+}
+
+impl<'l> Start<'l> {
+    /// The loop that was found so, roughly too if its load was raised.
+    fn found(
+        &self,
+        solved: Solved<LoopProblem>,
+        raised: Option<Solved<LoopProblem>>,
+    ) -> Running<'l> {
+        Running {
+            solved,
+            start: self.clone(),
+            raised,
+        }
+    }
 }
 
 impl Running<'_> {
@@ -95,59 +114,72 @@ pub(super) fn running<'l>(
         true => search.seek(&whole).map_err(|stuck| Some(stuck.cause)),
         false => Err(None),
     };
-    let found = |start, solved, raised| Running {
-        solved,
-        start,
-        raised,
+    let direct_is_safe = match &direct {
+        Ok(solved) => is_safe(solved),
+        Err(_) => false,
     };
     let direct = match direct {
-        Ok(solved) if is_safe(&solved) => return Ok(found(whole, solved, None)),
+        Ok(solved) if direct_is_safe && search.slip_begins_at_rest(&solved) => {
+            return Ok(whole.found(solved, None));
+        }
         other => other,
     };
-    let shares = SHARES.map(start);
-    let shares = || shares.iter().filter(|share| share.is_taut());
-    let has_direction = matches!(drive.law, FrictionLaw::Coulomb | FrictionLaw::Epp { .. });
-    for share in shares().filter(|_| has_direction) {
-        match along_direction(search, share) {
-            Along::Carries(solved) => return Ok(found(whole, *solved, None)),
-            Along::Ends(top) if drive.law == FrictionLaw::Coulomb => {
-                return Err(overloaded(drive, &top));
-            }
-            // Where scalar EPP friction has a limit point, states with the belt at rest on other arcs may lead on.
-            Along::Ends(_) => break,
-            Along::Lost => {}
+    match (raised(search, &whole, &SHARES.map(start)), direct) {
+        (Ok(Some(found)), _) => Ok(found),
+        (Err(SolveError::Unreached { .. }), Ok(solved)) if direct_is_safe => {
+            Ok(whole.found(solved, None))
         }
-    }
-    // The limit of scalar EPP friction is often another one than that of stiff bristles, by which it took six times as long.
-    if drive.law == FrictionLaw::Coulomb
-        && let Some(solved) = over_bristles(search, shares())
-    {
-        return Ok(found(whole, solved, None));
-    }
-    for share in shares() {
-        match search.enter(share) {
-            Ok(rough) if is_safe(&rough) => {
-                let raised = raise(search, share, &rough)?;
-                let solved = search.seek_from(&whole, &raised);
-                return match solved {
-                    Ok(solved) => Ok(found(whole, solved, Some(raised))),
-                    Err(stuck) => Err(match search.limit_by_bristles(share) {
-                        Some(top) if top.factor <= 1.0 => overloaded(drive, &top),
-                        _ => lost(1.0, &stuck.cause),
-                    }),
-                };
-            }
-            _ => {}
-        }
-    }
-    match direct {
-        Ok(solved) if is_drive(&solved) => Ok(found(whole, solved, None)),
-        Err(Some(cause)) => Err(lost(0.0, &cause)),
-        _ => Err(SolveError::Unreached {
+        (Err(error), _) => Err(error),
+        (Ok(None), Ok(solved)) if is_drive(&solved) => Ok(whole.found(solved, None)),
+        (Ok(None), Err(Some(cause))) => Err(lost(0.0, &cause)),
+        (Ok(None), _) => Err(SolveError::Unreached {
             reached: 0.0,
             cause: "the belt would have to push in a span even under hardly any load",
         }),
     }
+}
+
+/// The running loop under its whole load, raised from the first of some shares of it that is found; `None` where none is.
+fn raised<'l>(
+    search: &mut Search<'_>,
+    whole: &Start<'l>,
+    shares: &[Start<'_>],
+) -> Result<Option<Running<'l>>, SolveError> {
+    let drive = search.drive;
+    let shares = || shares.iter().filter(|share| share.is_taut());
+    let has_direction = matches!(drive.law, FrictionLaw::Coulomb | FrictionLaw::Epp { .. });
+    for share in shares().filter(|_| has_direction) {
+        match along_direction(search, share) {
+            Along::Carries(solved) => return Ok(Some(whole.found(*solved, None))),
+            Along::Ends(top) if drive.law == FrictionLaw::Coulomb => {
+                return Err(overloaded(drive, &top));
+            }
+            // Stiff bristles along which a held belt leaves a pulley may carry what this curve does not.
+            Along::Ends(_) => break,
+            Along::Lost => {}
+        }
+    }
+    // With sharper friction each share would be raised again, to be lost where the belt locks.
+    if drive.law == FrictionLaw::Coulomb
+        && let Some(solved) = over_bristles(search, shares())
+    {
+        return Ok(Some(whole.found(solved, None)));
+    }
+    for share in shares() {
+        let entered = search.enter(share).ok();
+        let Some(rough) = entered.filter(|rough| search.is_led_to(rough)) else {
+            continue;
+        };
+        let raised = raise(search, share, &rough)?;
+        return match search.seek_from(whole, &raised) {
+            Ok(solved) => Ok(Some(whole.found(solved, Some(raised)))),
+            Err(stuck) => Err(match search.limit_by_bristles(share) {
+                Some(top) if top.factor <= 1.0 => overloaded(drive, &top),
+                _ => lost(1.0, &stuck.cause),
+            }),
+        };
+    }
+    Ok(None)
 }
 
 /// Where a load that is raised with Coulomb or EPP friction whose direction is a state comes to.
@@ -162,7 +194,8 @@ enum Along {
 
 /// The whole load, raised from a share of it with Coulomb or EPP friction whose direction is a state.
 fn along_direction(search: &mut Search<'_>, share: &Start<'_>) -> Along {
-    let bristles = search.enter_bristles(share).ok().filter(is_safe);
+    let bristles = search.enter_bristles(share).ok();
+    let bristles = bristles.filter(|bristles| search.is_led_to(bristles));
     let begin = bristles.and_then(|bristles| search.with_direction_near(share, &bristles));
     match begin.map(|begin| search.climb(&begin, 1.0, None)) {
         Some(Climbed::Reached(raised)) => match search.finish_obeying(*raised) {
@@ -181,8 +214,10 @@ fn over_bristles<'s>(
     search: &mut Search<'_>,
     mut shares: impl Iterator<Item = &'s Start<'s>>,
 ) -> Option<Solved<LoopProblem>> {
-    let mut bristles =
-        shares.find_map(|share| search.enter_bristles(share).ok().filter(is_safe))?;
+    let mut bristles = shares.find_map(|share| {
+        let bristles = search.enter_bristles(share).ok()?;
+        search.is_led_to(&bristles).then_some(bristles)
+    })?;
     for _ in 0..CLIMBS {
         match search.climb(&bristles, 1.0, None) {
             Climbed::Reached(raised) => {
@@ -231,9 +266,12 @@ pub(super) fn neighbouring<'s>(
         let guess = Extrapolated { last, before };
         search.attempt(problem.clone(), &guess, Effort::Final).ok()
     });
-    by_both.filter(is_safe).or_else(|| {
-        let by_last = search.attempt(problem, &Carried(last), Effort::Final);
-        by_last.ok().filter(is_safe)
+    let by_both = by_both.filter(|solved| search.is_led_to(solved));
+    by_both.or_else(|| {
+        let by_last = search
+            .attempt(problem, &Carried(last), Effort::Final)
+            .ok()?;
+        search.is_led_to(&by_last).then_some(by_last)
     })
 }
 
@@ -289,6 +327,33 @@ pub(super) fn overloaded(drive: &Drive, top: &Top) -> SolveError {
         pulley: drive.pulleys[top.pulley].name.clone(),
         load_factor: top.factor,
         overhangs: top.overhangs,
+    }
+}
+
+impl Search<'_> {
+    /// Whether it is the state of a drive to which a rising load leads from rest, as far as a glance at it tells.
+    fn is_led_to(&mut self, solved: &Solved<LoopProblem>) -> bool {
+        is_safe(solved) && self.slip_begins_at_rest(solved)
+    }
+
+    /// Whether the slip of every pulley begins at rest, as that under a little less load tells of those that slip all along.
+    fn slip_begins_at_rest(&mut self, solved: &Solved<LoopProblem>) -> bool {
+        let pulleys = 0..solved.problem.pulleys();
+        let slipping: Vec<_> = pulleys
+            .filter(|&pulley| slip(solved, pulley) > CREEP)
+            .collect();
+        if slipping.is_empty() {
+            return true;
+        }
+        let loads = [LESS, 1.0].map(|share| share * solved.factor());
+        let problem = solved.problem.clone().with_factor(loads[0]);
+        let Ok(lighter) = self.attempt(problem, &Carried(solved), Effort::Rough) else {
+            return false;
+        };
+        slipping.into_iter().all(|pulley| {
+            let slips = [&lighter, solved].map(|state| slip(state, pulley));
+            begins_at_rest(slips, loads, 0.0)
+        })
     }
 }
 

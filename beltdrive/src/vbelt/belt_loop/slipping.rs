@@ -62,7 +62,7 @@ fn most(state: &Solved<LoopProblem>) -> (f64, usize) {
 
 /// The speed of a pulley against the belt all along the contact, as a share of the speed of the belt; 0 of idlers.
 /// A belt that lies deep in its groove is slow against the pitch circle without slipping.
-fn slip(state: &Solved<LoopProblem>, pulley: usize) -> f64 {
+pub(super) fn slip(state: &Solved<LoopProblem>, pulley: usize) -> f64 {
     let (problem, p) = (&state.problem, state.solution.parameters());
     if problem.is_idle(pulley) {
         return 0.0;

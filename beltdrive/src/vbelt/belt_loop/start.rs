@@ -10,6 +10,7 @@ use crate::drive::layout::Layout;
 use crate::{Drive, FrictionLaw};
 
 /// A loop under a share of its load.
+#[derive(Clone)]
 pub(super) struct Start<'l> {
     pub(super) drive: &'l Drive,
     pub(super) layout: Layout,
