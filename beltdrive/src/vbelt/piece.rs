@@ -26,7 +26,7 @@ const LAGS: [f64; 2] = [1e-8, 1e-10];
 const EPSILON: f64 = 1e-6;
 /// δ of vector EPP friction without zones over p/`k_f`: with a tenth of it `limits` of a random drive with stiff friction,
 /// 5.6e8 N/m², takes minutes in place of seconds.
-const ROUNDING: f64 = 0.01;
+pub(super) const ROUNDING: f64 = 0.01;
 /// Length τ/R over which the traction of vector EPP friction is led.
 const BRANCH_LEAD: f64 = 1e-4;
 /// Labelled points are located once more with ℓ, ε or τ divided by this.

@@ -88,6 +88,7 @@ fn conclude(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Duty;
     use crate::TwoPulleys;
     use crate::belt_loop;
     use crate::input::Key;
@@ -198,5 +199,40 @@ mod tests {
             let single = found.pulleys[1].angular_speed;
             assert!((single / led - 1.0).abs() < 1e-5, "{single} {led}");
         }
+    }
+
+    #[test]
+    fn a_loop_with_stiff_vector_friction_carries_what_the_drive_does() {
+        // With friction a hundredth as stiff the driver slips at 889 N·m, where the driven pulley does at 944.5 N·m, and from
+        // there the driver slipped by 0.065 at 880 N·m.
+        let law = FrictionLaw::VectorEpp {
+            stiffness: 544_085_698.0,
+        };
+        let two = TwoPulleys {
+            belt: v_belt([0.273_196_608, 479_719.408, 22_907_006.4, 0.350_676_157]),
+            friction_coefficient: 0.413_711_08,
+            driver_radius: 0.323_897_005,
+            driver_speed: 16.751_587_6,
+            driven_radius: 0.340_537_434,
+            centre_distance: 0.821_964_088,
+            load: tractive(61.438_045_7, 2_653.0),
+            ..kim(law, 0.25)
+        };
+        let (led, mut as_loop) = at_the_end_of_its_branch(&Drive::from(two));
+        let found = belt_loop::solve(&as_loop).unwrap();
+        let single = found.pulleys[1].angular_speed;
+        assert!((single / led - 1.0).abs() < 1e-5, "{single} {led}");
+        as_loop.pulleys[1].duty = Duty::Torque(1000.0);
+        let refused = belt_loop::solve(&as_loop).unwrap_err();
+        let SolveError::Overloaded {
+            pulley,
+            load_factor,
+            ..
+        } = refused
+        else {
+            panic!("more than the loop carries, {refused:?}")
+        };
+        assert_eq!(pulley, "driven");
+        assert!((load_factor - 0.9445).abs() < 2e-4, "{load_factor}");
     }
 }

@@ -35,6 +35,7 @@ const STEEP: f64 = 1.3;
 pub(super) const SLOW: f64 = 0.5;
 /// Share of a load under which the slip tells whether it begins at rest.
 const LESS: f64 = 0.9;
+const TOO_ABRUPT: &str = "friction changes too abruptly so near to the largest load";
 
 /// A running loop.
 pub(super) struct Running<'l> {
@@ -313,10 +314,15 @@ fn raise(
             let sharper = search.climb_sharper(*limit, 1.0);
             sharper.ok_or(SolveError::Unreached {
                 reached,
-                cause: "friction changes too abruptly so near to the largest load",
+                cause: TOO_ABRUPT,
             })
         }
         Some(top) => Err(overloaded(search.drive, &top)),
+        // It may be less than the limit is known to.
+        None if limit.top.factor * (1.0 + limit.top.error) > 1.0 => Err(SolveError::Unreached {
+            reached: limit.top.factor,
+            cause: TOO_ABRUPT,
+        }),
         None => Err(overloaded(search.drive, &limit.top)),
     }
 }

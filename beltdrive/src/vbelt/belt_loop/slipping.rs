@@ -30,9 +30,6 @@ const SLOWED: f64 = 0.2;
 /// passes the largest load so closely that a step leads over it.
 const LONG: f64 = 1.1;
 
-/// Relative error of the load at which a pulley begins to slip grossly with vector EPP friction: states with zones of random loops had 5 % of slip at up to 0.3 % more load, and two ways to it were apart by 1 %.
-const GROSS_WITHOUT_ZONES: f64 = 0.01;
-
 /// Factor between loads at which a state without gross slip is sought.
 const LESS: f64 = 0.9;
 
@@ -128,7 +125,7 @@ impl Search<'_> {
         } else {
             (slips - begin.factor()).abs() / near.factor()
         };
-        let without_zones = without_zones(near.problem.law(), GROSS_WITHOUT_ZONES);
+        let without_zones = without_zones(near.problem.law());
         let top = Top {
             factor: near.factor(),
             pulley,

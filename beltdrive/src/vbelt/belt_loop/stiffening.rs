@@ -16,7 +16,7 @@
 use super::super::BeltProblem;
 use super::super::groove::Law;
 use super::super::path::{Effort, Solved};
-use super::climb::{Climbed, Limit, Top};
+use super::climb::{Climbed, LEFT_BY_SHARPER, Limit, Top, without_zones};
 use super::problem::LoopProblem;
 use super::running::is_drive;
 use super::slipping::Slipping;
@@ -80,7 +80,8 @@ pub(super) fn extrapolated(values: &[f64]) -> Option<[f64; 2]> {
     }
 }
 
-/// A rough state, and the same with stiffer bristles if they stand for the law of the drive.
+/// A rough state, and the same with stiffer bristles if they stand for the law of the drive, or with sharper friction of it
+/// if it is blunt.
 pub(super) struct Stiffened {
     states: Vec<Solved<LoopProblem>>,
     is_of_law: bool,
@@ -93,9 +94,16 @@ impl Stiffened {
         of: impl FnMut(&Solved<LoopProblem>) -> Option<f64>,
     ) -> Option<[f64; 2]> {
         let values: Vec<_> = self.states.iter().map_while(of).collect();
-        match self.is_of_law {
-            true => values.first().map(|&value| [value, 0.0]),
-            false => extrapolated(&values),
+        if !self.is_of_law {
+            return extrapolated(&values);
+        }
+        match *values {
+            [] => None,
+            [only] => Some([
+                only,
+                without_zones(self.states[0].problem.law()) * only.abs(),
+            ]),
+            [.., blunt, sharp] => Some([sharp, LEFT_BY_SHARPER * (sharp - blunt).abs()]),
         }
     }
 }
@@ -109,10 +117,14 @@ impl Search<'_> {
         )
     }
 
-    /// A rough state, and the same with stiffer bristles if they stand for the law of the drive.
+    /// A rough state, and the same with stiffer bristles if they stand for the law of the drive, or with sharper friction of
+    /// it if it is blunt.
     pub(super) fn with_stiffer_ones(&mut self, rough: &Solved<LoopProblem>) -> Stiffened {
         let is_of_law = self.follows_law();
         let mut states = vec![rough.clone()];
+        while is_of_law && let Some(sharper) = self.sharper_at_end(&states[states.len() - 1]) {
+            states.push(sharper);
+        }
         if !is_of_law && has_bristles(rough) {
             for _ in 0..TIMES {
                 let Some(next) = self.stiffer(&states[states.len() - 1], STIFFER) else {

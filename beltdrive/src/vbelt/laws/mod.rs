@@ -34,6 +34,7 @@ pub(super) use astray::Astray;
 use finish::RESOLVED;
 pub(super) use obeyed::{ALLOWED, GAINED, obeys_friction, power_gained, wrong_friction};
 pub(super) use sliding::WRONG_WAY;
+pub(super) use vector::FOLLOWED;
 
 /// Bristle stiffness of the start, κ R/μ: friction is fully developed after a thousandth of a
 /// radius of sliding, so that its layers are no finer than those of seating.

@@ -10,6 +10,7 @@ use super::obeyed::obeys_friction;
 use super::{Asked, GREAT_STEP, START_STIFFNESS};
 use crate::vbelt::carried::Carried;
 use crate::vbelt::path::{Effort, Path, Solved, Stuck};
+use crate::vbelt::piece::ROUNDING;
 use crate::vbelt::zones::Cut;
 use crate::vbelt::{BeltProblem, Law};
 
@@ -29,6 +30,9 @@ const SHARPEST: i32 = 1024;
 /// the change is left then.
 const NO_EFFECT: f64 = 0.1;
 const LEFT: f64 = 1.0 / 3.0;
+/// Half of the power with which curves of states are followed: with 16 the first limit of a drive with soft friction takes
+/// 3.1 s in place of 0.4 s.
+pub(in crate::vbelt) const FOLLOWED: i32 = 4;
 /// Length over which the traction is led on the way: the mesh resolves it easily.
 const FIRST_LEAD: f64 = 1e-2;
 /// Share of the tolerance to which a state is solved whose friction does not obey its law otherwise. Where friction is
@@ -57,13 +61,36 @@ impl Path<'_> {
         Err(failure.expect("more than one stiffness is tried"))
     }
 
-    /// Vector EPP friction whose plastic rate sets in gradually.
+    /// Vector EPP friction without zones, as stiff as it is and so sharp that curves of states are followed with it; softer
+    /// and blunt where that is not found.
     pub(super) fn enter_vector<A: Asked>(
         &mut self,
         asked: &A,
         bristles: &Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        self.gradual(asked, bristles, SOFTER[SOFTER.len() - 1])
+        let gradual = self.gradual(asked, bristles, SOFTER[SOFTER.len() - 1])?;
+        let sharp = self.sharp(asked, gradual.clone());
+        Ok(sharp.unwrap_or(gradual))
+    }
+
+    /// Gradual friction made as stiff as it is asked for, and as sharp as curves of states are followed with.
+    fn sharp<A: Asked>(
+        &mut self,
+        asked: &A,
+        gradual: Solved<A::Problem>,
+    ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
+        let effort = Effort::Careful;
+        let mut here = self.stiffened(gradual, scaled_stiffness(asked), effort)?;
+        let mut half = BLUNTEST;
+        while half <= FOLLOWED {
+            let sharper = with_sharpness(&here.problem, half);
+            let sharper = sharper.with_laws(|law, _| law.with_rounding(ROUNDING));
+            here = self
+                .attempt(sharper, &Carried(&here), effort)
+                .map_err(|cause| Stuck::after(here, cause))?;
+            half *= 2;
+        }
+        Ok(here)
     }
 
     /// From bristles to vector EPP friction that is at most some times as stiff as bristles of the start, and whose
@@ -88,6 +115,8 @@ impl Path<'_> {
         gradual: Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
         let asked = scaled_stiffness(asked);
+        let problem = gradual.problem.with_laws(|law, _| law.with_rounding(0.0));
+        let gradual = Solved { problem, ..gradual };
         let (mut wrong, mut failure) = (None, None);
         for effort in EFFORTS {
             let mut here = match self.stiffened(gradual.clone(), asked, effort) {
