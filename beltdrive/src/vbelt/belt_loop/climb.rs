@@ -31,7 +31,7 @@ pub(super) const SHARPER: f64 = 1e-4;
 /// The ε with which loads are sought that are below the limit without ε and above that with [`SHARPER`]: there were
 /// 0.9 % between the two on a loop with a small pulley.
 const STILL_SHARPER: [f64; 3] = [SHARPER, 1e-5, 1e-6];
-/// States below a limit from which a smaller ε is tried, in turn: the last one may be too near.
+/// States below a limit from which sharper friction is tried, in turn: the last one may be too near.
 const LOWER: usize = 4;
 
 /// Factor between loads up to which that of a state is raised in turn.
@@ -179,10 +179,7 @@ impl Search<'_> {
         let mut climbed = self.climb_as_it_is(from, to, slipping.as_deref_mut());
         while let Climbed::Limit(blunt) = &mut climbed
             && blunt.top.is_last
-            && let Some(begin) = blunt
-                .below
-                .last()
-                .and_then(|last| self.sharper_at_end(last))
+            && let Some(begin) = self.sharper_below(&blunt.below)
         {
             let mut next = self.climb_as_it_is(&begin, to, slipping.as_deref_mut());
             match &mut next {
@@ -200,6 +197,12 @@ impl Search<'_> {
             climbed = next;
         }
         climbed
+    }
+
+    /// The highest of some states of a curve with sharper friction.
+    fn sharper_below(&mut self, below: &[Solved<LoopProblem>]) -> Option<Solved<LoopProblem>> {
+        let mut highest = below.iter().rev().take(LOWER);
+        highest.find_map(|state| self.sharper_at_end(state))
     }
 
     /// A state of a curve with sharper friction than along it, if its end is found with that and the state is found.
