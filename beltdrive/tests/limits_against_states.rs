@@ -7,8 +7,8 @@ mod random;
 mod wide_family;
 
 use beltdrive::{
-    Belt, BeltKind, Drive, EventKind, FrictionLaw, LimitReason, Load, RangeEnd, SolveError,
-    SolveOptions, SpanTension, TwoPulleys, VBelt, input::Key, limits, solve, trace,
+    Belt, BeltKind, Drive, Duty, EventKind, FrictionLaw, LimitReason, Load, RangeEnd, SolveError,
+    SolveOptions, SpanTension, TwoPulleys, VBelt, belt_loop, input::Key, limits, solve, trace,
 };
 use random::Random;
 use std::time::Instant;
@@ -17,6 +17,13 @@ use std::time::Instant;
 const BELOW: [f64; 3] = [0.5, 0.9, 0.99];
 /// ... and beyond it.
 const BEYOND: [f64; 3] = [1.003, 1.05, 1.5];
+
+/// Share of the range of the tight tension at which a drive is solved as a loop, ...
+const MOST: f64 = 0.9;
+/// ... multiple of the largest torque that the loop is to refuse, ...
+const TOO_MUCH: f64 = 1.1;
+/// ... and how little more than that torque is the same.
+const SAME_TORQUE: f64 = 1e-4;
 
 /// Tension ratios from which limits are sought.
 const RATIOS: [f64; 2] = [1.01, 6.0];
@@ -122,6 +129,61 @@ fn branch_faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
     (seconds, fault.into_iter().collect())
 }
 
+/// What is wrong with a drive as a loop with a torque: another state at most of the largest load, or another largest torque.
+/// Belts that cannot be laid on at rest are left out.
+fn loop_faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
+    let options = SolveOptions::default();
+    let whole = Drive::from(*drive);
+    let key = Key::load(&whole);
+    let found = limits(&whole, &key, &options, &mut |_, _| {});
+    let Some(found) =
+        (found.ok()).filter(|found| matches!(found.largest.reason, RangeEnd::Limit(_)))
+    else {
+        return (0.0, Vec::new());
+    };
+    let slack = drive.load.slack.value();
+    let mut loaded = whole.clone();
+    key.set(&mut loaded, slack + MOST * (found.largest.value - slack));
+    let Ok(state) = solve(&loaded, &options) else {
+        return (0.0, Vec::new());
+    };
+    let mut as_loop = state.as_loop();
+    let mut faults = Vec::new();
+    let start = Instant::now();
+    match belt_loop::solve(&as_loop) {
+        Ok(found) => {
+            let speed = found.pulleys[1].angular_speed;
+            let known = state.driven.angular_speed;
+            if (speed / known - 1.0).abs() > 1e-4 {
+                faults.push(format!(
+                    "{MOST} of the load: {speed} rad/s, the drive {known}"
+                ));
+            }
+        }
+        Err(SolveError::PressedThrough { .. } | SolveError::Slack { .. }) => {
+            return (0.0, Vec::new());
+        }
+        Err(error) => faults.push(format!("{MOST} of the load: {error}")),
+    }
+    // Where the torque falls before the tension has its limit the largest lies between two states.
+    let largest = found.largest.state.driven.torque;
+    let torques = found
+        .branch
+        .points
+        .iter()
+        .map(|point| point.state.driven.torque);
+    if torques.fold(0.0, f64::max) <= largest * (1.0 + SAME_TORQUE) {
+        as_loop.pulleys[1].duty = Duty::Torque(TOO_MUCH * largest);
+        match belt_loop::solve(&as_loop) {
+            Err(SolveError::Overloaded { load_factor, .. })
+                if (TOO_MUCH * load_factor - 1.0).abs() < 1e-3 => {}
+            Err(error) => faults.push(format!("{TOO_MUCH} of {largest} N·m: {error}")),
+            Ok(_) => faults.push(format!("{TOO_MUCH} of {largest} N·m: a state")),
+        }
+    }
+    (start.elapsed().as_secs_f64(), faults)
+}
+
 /// The time of an examination, s, and what is wrong with a drive.
 type Faults = fn(&TwoPulleys) -> (f64, Vec<String>);
 
@@ -182,6 +244,11 @@ fn limits_with_bristles_agree_with_states() {
 #[test]
 fn limits_with_coulomb_friction_agree_with_states() {
     assert_eq!(survey(faults, 0, 2, SEED, None), 0);
+}
+
+#[test]
+fn loops_with_vector_friction_agree_with_drives() {
+    assert_eq!(survey(loop_faults, 2, 3, SEED + 2, None), 0);
 }
 
 #[test]
@@ -440,4 +507,10 @@ fn many_drives() {
 #[ignore = "minutes: the score, run by hand for benches/RESULTS.md"]
 fn many_branches() {
     score(branch_faults);
+}
+
+#[test]
+#[ignore = "minutes: the score, run by hand for benches/RESULTS.md"]
+fn many_loops() {
+    score(loop_faults);
 }
