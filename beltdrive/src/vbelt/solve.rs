@@ -118,10 +118,11 @@ mod tests {
         assert!(restart.problem.sticks(), "{:?}", restart.problem.regimes());
     }
 
-    /// The branch of the tension at that of the drive, with its angular speed of the driven pulley, and the drive as a loop.
-    fn at_the_end_of_its_branch(drive: &Drive) -> (f64, Drive) {
+    /// The angular speed of the driven pulley at the end of the branch from a lighter load, N, to that of a drive, and the
+    /// drive as a loop with the torque there.
+    fn at_the_end_of_its_branch(from: f64, drive: &Drive) -> (f64, Drive) {
         let key = Key::load(drive);
-        let range = [120.0, key.get(drive)];
+        let range = [from, key.get(drive)];
         let mut light = drive.clone();
         key.set(&mut light, range[0]);
         let options = SolveOptions::default();
@@ -166,7 +167,7 @@ mod tests {
             let drive = Drive::from(two);
             let state = solve(&drive, &SolveOptions::default()).unwrap();
             let single = state.driven.angular_speed;
-            let (led, _) = at_the_end_of_its_branch(&drive);
+            let (led, _) = at_the_end_of_its_branch(60.0, &drive);
             assert!((single / led - 1.0).abs() < 1e-5, "{single} {led}");
         }
     }
@@ -194,7 +195,7 @@ mod tests {
             ..with_bristles(1_549.519_7, 0.396_460_704)
         };
         for two in [of_driver, of_driven] {
-            let (led, as_loop) = at_the_end_of_its_branch(&Drive::from(two));
+            let (led, as_loop) = at_the_end_of_its_branch(120.0, &Drive::from(two));
             let found = belt_loop::solve(&as_loop).unwrap();
             let single = found.pulleys[1].angular_speed;
             assert!((single / led - 1.0).abs() < 1e-5, "{single} {led}");
@@ -218,7 +219,7 @@ mod tests {
             load: tractive(61.438_045_7, 2_653.0),
             ..kim(law, 0.25)
         };
-        let (led, mut as_loop) = at_the_end_of_its_branch(&Drive::from(two));
+        let (led, mut as_loop) = at_the_end_of_its_branch(120.0, &Drive::from(two));
         let found = belt_loop::solve(&as_loop).unwrap();
         let single = found.pulleys[1].angular_speed;
         assert!((single / led - 1.0).abs() < 1e-5, "{single} {led}");

@@ -6,7 +6,7 @@ use super::super::carried::Carried;
 use super::super::groove::Law;
 use super::super::laws::FOLLOWED;
 use super::super::path::{Effort, Solved};
-use super::super::piece::FINER;
+use super::super::piece::{FINER, WHOLE};
 use super::levelling::Levelling;
 use super::pieces::{Lost, Place, ROUGH};
 use super::problem::LoopProblem;
@@ -42,8 +42,8 @@ pub(super) const LARGEST_FACTOR: f64 = 1e9;
 /// The half of the power of vector EPP friction with which a limit is found at last: with 16 limits at which the belt overhangs
 /// are 1e-3 too low, with 64 1e-4.
 const SHARPEST: i32 = 64;
-/// Share of the change by friction that is [`FINER`] times as sharp that is left: its effect falls at least as fast.
-pub(super) const LEFT_BY_SHARPER: f64 = 1.0 / (FINER - 1) as f64;
+/// Share of the change by friction that is [`FINER`] times as sharp that is left of the effect then.
+pub(super) const LEFT_BY_SHARPER: f64 = WHOLE - 1.0;
 /// Relative error of a limit with vector EPP friction as sharp as it is followed with: it is up to 1.4 % too low.
 const BLUNT: f64 = 0.02;
 /// Relative error of a limit with softer friction than that of the loop: one of two pulleys was 6 % too low.
@@ -167,8 +167,8 @@ impl Search<'_> {
         Ok(None)
     }
 
-    /// Raises the load from a state to a factor on all torques, above that of the state; near the largest load with a
-    /// smaller ε, if the direction of friction is normalised. With what is known of the curve before, it ends where a
+    /// Raises the load from a state to a factor on all torques, above that of the state; near the largest load with
+    /// sharper friction, if it is a vector that sets in gradually or its direction is normalised. With what is known of the curve before, it ends where a
     /// pulley begins to slip grossly if no limit point comes, else nowhere before a limit point.
     pub(super) fn climb(
         &mut self,

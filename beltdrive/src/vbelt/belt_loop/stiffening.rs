@@ -122,18 +122,18 @@ impl Search<'_> {
     pub(super) fn with_stiffer_ones(&mut self, rough: &Solved<LoopProblem>) -> Stiffened {
         let is_of_law = self.follows_law();
         let mut states = vec![rough.clone()];
-        while is_of_law && let Some(sharper) = self.sharper_at_end(&states[states.len() - 1]) {
-            states.push(sharper);
-        }
-        if !is_of_law && has_bristles(rough) {
-            for _ in 0..TIMES {
-                let Some(next) = self.stiffer(&states[states.len() - 1], STIFFER) else {
-                    break;
-                };
-                states.push(next);
+        loop {
+            let last = &states[states.len() - 1];
+            let next = match is_of_law {
+                true => self.sharper_at_end(last),
+                false if has_bristles(last) && states.len() <= TIMES => self.stiffer(last, STIFFER),
+                false => None,
+            };
+            match next {
+                Some(next) => states.push(next),
+                None => return Stiffened { states, is_of_law },
             }
         }
-        Stiffened { states, is_of_law }
     }
 
     /// The same loop with bristles this many times as stiff.
