@@ -7,8 +7,9 @@ mod random;
 mod wide_family;
 
 use beltdrive::{
-    Belt, BeltKind, Drive, Duty, EventKind, FrictionLaw, LimitReason, Load, RangeEnd, SolveError,
-    SolveOptions, SpanTension, TwoPulleys, VBelt, belt_loop, input::Key, limits, solve, trace,
+    Belt, BeltKind, Drive, Duty, EventKind, FrictionLaw, LimitReason, Limits, Load, RangeEnd,
+    SolveError, SolveOptions, SpanTension, TwoPulleys, VBelt, belt_loop, input::Key, limits, solve,
+    trace,
 };
 use random::Random;
 use std::time::Instant;
@@ -90,6 +91,14 @@ fn faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
     (seconds, faults)
 }
 
+/// The range of the load of a drive, if it ends at a limit.
+fn with_limit(drive: &Drive) -> Option<Limits> {
+    let options = SolveOptions::default();
+    let found = limits(drive, &Key::load(drive), &options, &mut |_, _| {});
+    let ends_so = |found: &Limits| matches!(found.largest.reason, RangeEnd::Limit(_));
+    found.ok().filter(ends_so)
+}
+
 /// What is wrong with the branch of the load of a drive from a load just above none: it ends before the limit, or with
 /// another one.
 fn branch_faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
@@ -99,10 +108,10 @@ fn branch_faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
     let from = slack * (1.0 + 10f64.powf(random.between(-4.0, -1.0)));
     let drive = Drive::from(*drive);
     let key = Key::load(&drive);
-    let limit = match limits(&drive, &key, &options, &mut |_, _| {}) {
-        Ok(found) if matches!(found.largest.reason, RangeEnd::Limit(_)) => found.largest.value,
-        _ => return (0.0, Vec::new()),
+    let Some(found) = with_limit(&drive) else {
+        return (0.0, Vec::new());
     };
+    let limit = found.largest.value;
     if from >= limit {
         return (0.0, Vec::new());
     }
@@ -135,10 +144,7 @@ fn loop_faults(drive: &TwoPulleys) -> (f64, Vec<String>) {
     let options = SolveOptions::default();
     let whole = Drive::from(*drive);
     let key = Key::load(&whole);
-    let found = limits(&whole, &key, &options, &mut |_, _| {});
-    let Some(found) =
-        (found.ok()).filter(|found| matches!(found.largest.reason, RangeEnd::Limit(_)))
-    else {
+    let Some(found) = with_limit(&whole) else {
         return (0.0, Vec::new());
     };
     let slack = drive.load.slack.value();
