@@ -181,6 +181,15 @@ fn words() {
     expected: one of `coulomb`, `epp`, `bristle`, `creep-rate`
     help: did you mean `coulomb`?
     "#);
+    assert_snapshot!(error(r#""coulomb""#, r#""vector_epp""#), @r#"
+    error: unknown friction law `vector_epp`
+       --> drive.toml:13:7
+       |
+    13 | law = "vector_epp"
+       |       ^^^^^^^^^^^^
+    expected: one of `coulomb`, `epp`, `bristle`, `creep-rate`
+    help: did you mean `epp` with `friction.epp.kind = "vector"`?
+    "#);
     assert_snapshot!(error(r#""v""#, r#""toothed""#), @r#"
     error: unknown belt type `toothed`
       --> drive.toml:4:8

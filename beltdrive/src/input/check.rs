@@ -4,6 +4,7 @@ use super::{
     diagnostic::Finding,
     dimension::Dimension,
     document::{Content, Entry},
+    friction,
     quantity::{self, Fault},
     schema::{self, QuantityRule, Rule},
     source::Source,
@@ -119,11 +120,12 @@ pub(super) fn word<'e>(
         return Ok(text);
     }
     let nearest = spelling::nearest(text, words.iter().map(|word| (word, word)));
-    Err(
-        Finding::new(entry.place.clone(), format!("unknown {what} `{text}`"))
-            .expected(one_of(words))
-            .did_you_mean(nearest),
-    )
+    let finding = Finding::new(entry.place.clone(), format!("unknown {what} `{text}`"))
+        .expected(one_of(words));
+    Err(match friction::kind_of(text) {
+        Some(kind) if path == friction::LAW => finding.help(kind),
+        _ => finding.did_you_mean(nearest),
+    })
 }
 
 /// Checks a text or a number as the quantity at a path of the schema.

@@ -4,9 +4,12 @@ use super::{belt, check, diagnostic::Finding, schema, values::Values};
 use crate::friction::{ROWS, Row};
 use crate::{BeltKind, FrictionLaw, NormalForce};
 
+/// The entry that names the law.
+pub(super) const LAW: &str = "friction.law";
+
 /// The friction law. Parameters of the other laws may stand in the file for other runs.
 pub(super) fn law(values: &Values<'_>, belt: BeltKind) -> Result<FrictionLaw, Finding> {
-    let name = values.required_text("friction.law")?;
+    let name = values.required_text(LAW)?;
     let row = row(values).expect("a law of the list");
     suits(row, belt, values)?;
     let value = row.parameter.as_ref().map(|parameter| {
@@ -18,11 +21,23 @@ pub(super) fn law(values: &Values<'_>, belt: BeltKind) -> Result<FrictionLaw, Fi
 
 /// The row of the law that the values name.
 pub(super) fn row(values: &Values<'_>) -> Option<&'static Row> {
-    let name = values.text("friction.law")?;
+    let name = values.text(LAW)?;
     let row = ROWS.iter().copied().find(|row| row.name == name)?;
     Some(match &row.other {
         Some(other) if values.text(other.path) == Some(other.words[1]) => other.row,
         _ => row,
+    })
+}
+
+/// How a law is asked for of which a kind was given in place of its name, or with it, as in `vector_epp`.
+pub(super) fn kind_of(text: &str) -> Option<String> {
+    let text = text.to_lowercase();
+    let parts = text.split(['_', '-', '.', ' ']);
+    ROWS.iter().find_map(|row| {
+        let (name, other) = (row.name, row.other.as_ref()?);
+        let word = parts.clone().find(|part| other.words.contains(part))?;
+        let is_this = parts.clone().all(|part| part == name || part == word);
+        is_this.then(|| format!("did you mean `{name}` with `{} = \"{word}\"`?", other.path))
     })
 }
 
@@ -47,5 +62,5 @@ fn suits(row: &Row, belt: BeltKind, values: &Values<'_>) -> Result<(), Finding> 
         .map(|row| row.name)
         .collect();
     let message = format!("{reason}; this drive has {}", belt::name(belt));
-    Err(Finding::new(values.place("friction.law"), message).expected(check::one_of(&laws)))
+    Err(Finding::new(values.place(LAW), message).expected(check::one_of(&laws)))
 }
