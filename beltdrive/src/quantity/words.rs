@@ -99,11 +99,11 @@ pub(crate) fn pulley(pulley: Role) -> &'static str {
     }
 }
 
-/// The sum of the slip zones of a pulley, rad.
+/// The sum of the slip zones of a pulley, rad; where the belt overhangs, the angle from the entry falls.
 pub(crate) fn slip_arc(zones: &[Zone]) -> f64 {
     let slip = zones.iter().filter(|zone| zone.kind == ZoneKind::Slip);
     // A sum of nothing is a negative zero.
-    0.0 + slip.map(|zone| zone.to - zone.from).sum::<f64>()
+    0.0 + slip.map(|zone| (zone.to - zone.from).abs()).sum::<f64>()
 }
 
 /// What the effect of ℓ/R or ε on the numbers of a state is called.
@@ -115,6 +115,14 @@ pub(super) fn effect_of_smoothing(smoothing: f64) -> String {
 mod tests {
     use super::*;
     use crate::results::samples::{flat, v_belt};
+
+    #[test]
+    fn a_slip_zone_where_the_belt_overhangs_is_an_arc() {
+        let zone = |kind, from, to| Zone { kind, from, to };
+        let elastic = zone(ZoneKind::Elastic, 0.0, 3.5);
+        let arc = slip_arc(&[elastic, zone(ZoneKind::Slip, 3.5, 3.25)]);
+        assert_eq!(arc, 0.25);
+    }
 
     #[test]
     fn heading_is_one_line() {
