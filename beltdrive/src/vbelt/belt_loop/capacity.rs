@@ -17,7 +17,7 @@ use super::super::belt_problem::{BeltProblem, Zoning, in_groove};
 use super::super::groove::{ANGLE, INCLINATION, TENSION};
 use super::super::path::{Effort, Solved};
 use super::super::{Contact, Groove, Law, Regime, Units};
-use super::climb::limit_accuracy;
+use super::climb::{LEFT_BY_SHARPER, limit_accuracy, without_zones};
 use super::levelling::Levelling;
 use super::pieces::{Curved, Place};
 use super::problem::LoopProblem;
@@ -242,20 +242,28 @@ impl Search<'_> {
         if is_followed(state)
             && let Some(margin) = self.torque_margin_as(state, pulley, state)
         {
-            return margin.map(|margin| [margin, limit_accuracy(self.tolerance) * margin]);
+            return margin;
         }
         let rough = rough(self)?;
-        rough.value(|rough| self.torque_margin_as(state, pulley, rough).flatten())
+        if self.follows_law() {
+            return self
+                .torque_margin_as(state, pulley, rough.softest())
+                .flatten();
+        }
+        rough.value(|rough| {
+            let margin = self.torque_margin_as(state, pulley, rough).flatten();
+            margin.map(|[margin, _]| margin)
+        })
     }
 
-    /// The same with friction as it is in one state of the same loop; `None` if the curve is not followed to its end, and
-    /// within if it has no largest torque.
+    /// The same with friction as it is in one state of the same loop, near the end with sharper friction, if it is a vector that
+    /// sets in gradually; `None` if the curve is not followed to its end, and within if it has no largest torque.
     fn torque_margin_as(
         &mut self,
         state: &Solved<LoopProblem>,
         pulley: usize,
         like: &Solved<LoopProblem>,
-    ) -> Option<Option<f64>> {
+    ) -> Option<Option<[f64; 2]>> {
         let problem = &state.problem;
         if problem.is_idle(pulley) {
             return Some(None);
@@ -274,7 +282,10 @@ impl Search<'_> {
         let capstan = |friction: f64| slack * (friction * turned).exp_m1() / change.abs();
         let groove = match like.problem.seats[pulley] {
             Seat::Groove(groove) => groove,
-            Seat::Back(back) => return Some(Some(capstan(back.friction_coefficient))),
+            Seat::Back(back) => {
+                let margin = capstan(back.friction_coefficient);
+                return Some(Some([margin, limit_accuracy(self.tolerance) * margin]));
+            }
             Seat::Idle => return Some(None),
         };
         let to = BEYOND * capstan(groove.friction_coefficient / groove.sin_beta);
@@ -296,16 +307,44 @@ impl Search<'_> {
             pulley,
         };
         let begin = self.attempt(one, &near, Effort::Rough).ok()?;
-        let mut levelling = Levelling::default();
+        let Some((mut margin, mut below)) = self.largest_torque(&begin, to)? else {
+            return Some(None);
+        };
+        let accuracy = limit_accuracy(self.tolerance);
+        let mut error = accuracy + without_zones(begin.problem.law());
+        while let Some(sharper) = self.sharper_below(&below)
+            && let Some(Some((sharp, of_curve))) = self.largest_torque(&sharper, to)
+        {
+            if let Law::Vector { .. } = sharper.problem.law() {
+                error = accuracy + LEFT_BY_SHARPER * (sharp / margin - 1.0).abs();
+            }
+            margin = sharp;
+            below.extend(of_curve);
+        }
+        Some(Some([margin, error * margin]))
+    }
+
+    /// The largest multiple of its torque on a curve of one groove, up to a largest one, and the states on the way; `None` if the
+    /// curve is not followed to its end, and within if none is the largest.
+    fn largest_torque(
+        &mut self,
+        begin: &Solved<OneGroove>,
+        to: f64,
+    ) -> Option<Option<(f64, Vec<Solved<OneGroove>>)>> {
+        let (mut levelling, mut below) = (Levelling::default(), Vec::new());
         let within = [-1.0, to.ln()];
-        let margin = self.along(&begin, within, &[SPEED], |_, place, point, _| {
+        let margin = self.along(begin, within, &[SPEED], |_, place, point, here| {
             let growth = match place {
                 Place::LimitPoint | Place::Zero(_) => Some(point.lambda()),
                 Place::End => return Some(None),
                 Place::Way => levelling.top(point, 1.0),
             };
+            if growth.is_none() {
+                below.push(here);
+            }
             growth.map(|growth| Some(growth.exp()))
         });
-        margin.ok()
+        let margin = margin.ok()?;
+        Some(margin.map(|margin| (margin, below)))
     }
 }

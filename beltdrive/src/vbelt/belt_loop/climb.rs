@@ -199,17 +199,20 @@ impl Search<'_> {
         climbed
     }
 
-    /// The highest of some states of a curve with sharper friction.
-    fn sharper_below(&mut self, below: &[Solved<LoopProblem>]) -> Option<Solved<LoopProblem>> {
-        let mut highest = below.iter().rev().take(LOWER);
+    /// The highest of some states of a curve with sharper friction, if its end is found with that. Before them may be some of a
+    /// blunter one.
+    pub(super) fn sharper_below<P: BeltProblem>(
+        &mut self,
+        below: &[Solved<P>],
+    ) -> Option<Solved<P>> {
+        let law = below.last()?.problem.law();
+        let of_curve = |state: &&Solved<P>| state.problem.law() == law;
+        let mut highest = below.iter().rev().take_while(of_curve).take(LOWER);
         highest.find_map(|state| self.sharper_at_end(state))
     }
 
     /// A state of a curve with sharper friction than along it, if its end is found with that and the state is found.
-    pub(super) fn sharper_at_end(
-        &mut self,
-        state: &Solved<LoopProblem>,
-    ) -> Option<Solved<LoopProblem>> {
+    fn sharper_at_end<P: BeltProblem>(&mut self, state: &Solved<P>) -> Option<Solved<P>> {
         match state.problem.law() {
             Law::Vector { onset, .. } if (FOLLOWED..SHARPEST).contains(&onset.sharpness) => {
                 let finer = state.problem.clone().with_laws(|law, _| law.finer(FINER));

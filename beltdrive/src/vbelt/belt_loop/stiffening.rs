@@ -16,7 +16,7 @@
 use super::super::BeltProblem;
 use super::super::groove::Law;
 use super::super::path::{Effort, Solved};
-use super::climb::{Climbed, LEFT_BY_SHARPER, Limit, Top, without_zones};
+use super::climb::{Climbed, Limit, Top};
 use super::problem::LoopProblem;
 use super::running::is_drive;
 use super::slipping::Slipping;
@@ -80,31 +80,22 @@ pub(super) fn extrapolated(values: &[f64]) -> Option<[f64; 2]> {
     }
 }
 
-/// A rough state, and the same with stiffer bristles if they stand for the law of the drive, or with sharper friction of it
-/// if it is blunt.
-pub(super) struct Stiffened {
-    states: Vec<Solved<LoopProblem>>,
-    is_of_law: bool,
-}
+/// A rough state, and the same with stiffer bristles if they stand for the law of the drive.
+pub(super) struct Stiffened(Vec<Solved<LoopProblem>>);
 
 impl Stiffened {
-    /// A number of a state with the law of the drive, and its error.
+    /// The rough state.
+    pub(super) fn softest(&self) -> &Solved<LoopProblem> {
+        &self.0[0]
+    }
+
+    /// A number of a state with the law of the drive in place of bristles, and its error.
     pub(super) fn value(
         &self,
         of: impl FnMut(&Solved<LoopProblem>) -> Option<f64>,
     ) -> Option<[f64; 2]> {
-        let values: Vec<_> = self.states.iter().map_while(of).collect();
-        if !self.is_of_law {
-            return extrapolated(&values);
-        }
-        match *values {
-            [] => None,
-            [only] => Some([
-                only,
-                without_zones(self.states[0].problem.law()) * only.abs(),
-            ]),
-            [.., blunt, sharp] => Some([sharp, LEFT_BY_SHARPER * (sharp - blunt).abs()]),
-        }
+        let values: Vec<_> = self.0.iter().map_while(of).collect();
+        extrapolated(&values)
     }
 }
 
@@ -117,23 +108,18 @@ impl Search<'_> {
         )
     }
 
-    /// A rough state, and the same with stiffer bristles if they stand for the law of the drive, or with sharper friction of
-    /// it if it is blunt.
+    /// A rough state, and the same with stiffer bristles if they stand for the law of the drive.
     pub(super) fn with_stiffer_ones(&mut self, rough: &Solved<LoopProblem>) -> Stiffened {
-        let is_of_law = self.follows_law();
         let mut states = vec![rough.clone()];
-        loop {
+        while !self.follows_law() && states.len() <= TIMES {
             let last = &states[states.len() - 1];
-            let next = match is_of_law {
-                true => self.sharper_at_end(last),
-                false if has_bristles(last) && states.len() <= TIMES => self.stiffer(last, STIFFER),
-                false => None,
+            let stiffer = has_bristles(last).then(|| self.stiffer(last, STIFFER));
+            let Some(stiffer) = stiffer.flatten() else {
+                break;
             };
-            match next {
-                Some(next) => states.push(next),
-                None => return Stiffened { states, is_of_law },
-            }
+            states.push(stiffer);
         }
+        Stiffened(states)
     }
 
     /// The same loop with bristles this many times as stiff.
