@@ -4,6 +4,7 @@
 //! branch of a rising or falling load, on which zones may change.
 
 use super::found::{checked, not_carried};
+use super::limit::slips_far;
 use super::limits::upwards;
 use super::path::{Path, Solved};
 use super::starts::start_loads;
@@ -15,6 +16,9 @@ use web_time::Instant;
 
 /// The most branches that are followed.
 const BRANCHES: usize = 4;
+
+/// A load that is hardly any, as multiple of the slack tension: nearer to none, states are harder to follow.
+const HARDLY_ANY: f64 = 1.1;
 
 /// The steady state of the drive of a search that began at `start`, or the limit of its load if that is lower; `None` if
 /// no branch leads there. Where a state with a normalised direction `is_known`, none begins with one, and one is followed:
@@ -97,13 +101,7 @@ fn from_state(
             }
             (up.end == BranchEnd::Target).then_some(up.tracer.near)
         }
-        false => {
-            let range = [asked, value];
-            let mut down = Tracer::new(near, key, range, tolerance, Until::LimitPoint);
-            let end = down.run(solved, value, Direction::Decreasing, &mut |_, _| {});
-            path.count_trace(&down.convergence);
-            (end == BranchEnd::Target).then_some(down.near)
-        }
+        false => lowered(path, (near, solved), [asked, value]).map(Some),
     };
     let (reached, solved) = near.flatten()?;
     if reached != asked {
@@ -114,12 +112,41 @@ fn from_state(
     Some(Led::There(Box::new(state)))
 }
 
+/// The state at the smaller of two loads, SI, to which the branch from a state of the drive under the larger one leads, with
+/// that load.
+fn lowered(
+    path: &mut Path<'_>,
+    (near, solved): (&Drive, Solved),
+    range: [f64; 2],
+) -> Option<(f64, Solved)> {
+    let key = Key::load(near);
+    let mut down = Tracer::new(near, key, range, path.tolerance, Until::LimitPoint);
+    let end = down.run(solved, range[1], Direction::Decreasing, &mut |_, _| {});
+    path.count_trace(&down.convergence);
+    (end == BranchEnd::Target).then_some(down.near)?
+}
+
+/// Whether the branch of the load leads from hardly any load to a state of the drive. Where friction is a soft vector, the
+/// driver of one drive creeps by 0.02 even then, so that no start load is one of small slip.
+pub(super) fn begins_at_rest(path: &mut Path<'_>, solved: &Solved) -> bool {
+    let drive = path.drive;
+    let load = Key::load(drive).get(drive);
+    let least = HARDLY_ANY * drive.pair().load.slack.value();
+    let from = match least < load {
+        true => lowered(path, (drive, solved.clone()), [least, load]),
+        false => Some((load, solved.clone())),
+    };
+    from.is_some_and(|(_, light)| !slips_far(&light))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::TwoPulleys;
+    use crate::vbelt::limit::may_be_another;
     use crate::vbelt::limit::tests::lets_go;
     use crate::vbelt::scaling::tests::{kim, tractive, v_belt};
+    use crate::vbelt::solve::solve;
+    use crate::{SolveOptions, TwoPulleys};
 
     #[test]
     fn a_branch_that_is_lost_tells_what_the_drive_carries() {
@@ -128,6 +155,31 @@ mod tests {
         assert!(by_branch(&mut path, Instant::now(), true).is_none());
         let reached = path.reached * path.scales().units.force;
         assert!(reached > 305.0, "{reached}");
+    }
+
+    #[test]
+    fn a_driver_that_creeps_under_any_load_is_led_from_hardly_any() {
+        let law = FrictionLaw::VectorEpp {
+            stiffness: 172_615.0,
+        };
+        let drive = TwoPulleys {
+            belt: v_belt([0.357_985_408, 85_999.256_6, 371_094.143, 0.316_057_492]),
+            friction_coefficient: 0.718_014_84,
+            driver_radius: 0.032_653_804_7,
+            driver_speed: 241.759_425,
+            driven_radius: 0.045_820_977_2,
+            centre_distance: 0.265_451_952,
+            load: tractive(51.185_595_4, 110.852_573),
+            ..kim(law, 0.25)
+        };
+        let drive = Drive::from(drive);
+        let mut path = Path::new(&drive, 1e-6);
+        let solved = path.at_load(path.target()).unwrap();
+        assert!(may_be_another(&solved) && !path.is_reached(&solved));
+        assert!(begins_at_rest(&mut path, &solved));
+        let state = solve(&drive, &SolveOptions::default()).unwrap();
+        let steps = state.convergence.newton_iterations;
+        assert!(steps <= 400, "{steps}");
     }
 
     #[test]

@@ -1,11 +1,12 @@
 //! What the search for a state has found, as an answer.
 
 use super::limit::Found;
+use super::numbers::Numbers;
 use super::path::{Path, Solved, Stuck};
 use super::state::{describe, steady_state};
 use super::{DRIVEN, DRIVER, INCLINATION};
 use crate::results::possible;
-use crate::{Drive, LimitReason, Load, SolveError, SpanTension, SteadyState};
+use crate::{Drive, Duty, LimitReason, Load, Pulley, SolveError, SpanTension, SteadyState};
 use std::mem::discriminant;
 use std::sync::Arc;
 use web_time::Instant;
@@ -20,9 +21,11 @@ pub(super) fn find(drive: &Drive, tolerance: f64) -> (Path<'_>, Result<Found, St
 /// The state found, or the reason why the load is not carried or not reached.
 pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<Solved, SolveError> {
     let scales = path.scales();
-    let found = found.map_err(|Stuck { last, cause, .. }| SolveError::NotConverged {
-        tight: last.map(|last| last.tight_tension() * scales.units.force),
-        cause: Arc::new(cause),
+    let found = found.map_err(|Stuck { last, cause, .. }| {
+        pressed_through(path).unwrap_or_else(|| SolveError::NotConverged {
+            tight: last.map(|last| last.tight_tension() * scales.units.force),
+            cause: Arc::new(cause),
+        })
     })?;
     match found {
         Found::State(solved) => Ok(*solved),
@@ -38,6 +41,25 @@ pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<So
             Err(not_carried(path.drive, value, limit.reason, [speed, exit]))
         }
     }
+}
+
+/// The refusal of a drive whose belt is pressed through a groove at rest: its tension there is near to the mean of those of the
+/// spans, and no less than that of the slack span. Friction may carry the belt as it runs, so that it is refused only where no
+/// state is found.
+fn pressed_through(path: &Path<'_>) -> Option<SolveError> {
+    let (numbers, units) = (Numbers::new(&path.drive.pair()), path.scales().units);
+    let carried = |pulley| numbers.groove(pulley, &units, 0.0).largest_tension();
+    let least = if carried(DRIVEN) < carried(DRIVER) {
+        DRIVEN
+    } else {
+        DRIVER
+    };
+    let is_least = |pulley: &&Pulley| (pulley.duty == Duty::Driven) == (least == DRIVEN);
+    let pulley = path.drive.pulleys.iter().find(is_least)?;
+    (path.slack() > carried(least)).then(|| SolveError::PressedThrough {
+        pulley: pulley.name.clone(),
+        largest: carried(least) * units.force,
+    })
 }
 
 /// The refusal of the load of a drive beyond a limit of the tight tension in N, at which the driven pulley has this

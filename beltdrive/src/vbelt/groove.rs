@@ -345,4 +345,11 @@ impl Groove {
     pub(crate) fn frictionless_penetration(&self, tractive: f64) -> f64 {
         tractive * self.cos_beta / (self.radial_stiffness * self.sin_beta)
     }
+
+    /// The largest scaled tension with which a belt settles in the groove without friction. In units of R and of the tension
+    /// F − K x²/2 where it enters, the depth x at which it runs along a circle satisfies K x (1 − x) = 1 + K x²/2 with K = k tan β R²/T,
+    /// which has a solution from K = 6 on.
+    pub(crate) fn largest_tension(&self) -> f64 {
+        self.radial_stiffness * self.sin_beta / self.cos_beta / 6.0
+    }
 }

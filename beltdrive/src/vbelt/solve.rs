@@ -1,7 +1,7 @@
 //! A V-belt drive in, a steady state or the reason why there is none out.
 
 use super::BeltProblem;
-use super::by_branch::by_branch;
+use super::by_branch::{begins_at_rest, by_branch};
 use super::found::{carried, checked};
 use super::limit::{Found, may_be_another};
 use super::path::{Path, Stuck};
@@ -23,7 +23,9 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
     let mut stays = false;
     let direct = match path.at_load(path.target()) {
         Ok(solved) if solved.driven_speed() > 0.0 && path.is_before_limit(&solved) => {
-            let is_sure = !may_be_another(&solved) || path.is_reached(&solved);
+            let is_sure = !may_be_another(&solved)
+                || path.is_reached(&solved)
+                || begins_at_rest(&mut path, &solved);
             let may_be_one_of_two = is_elastic && !solved.problem.has_direction();
             match checked(&path, solved, start) {
                 fault @ Err(SolveError::Violated(_) | SolveError::Impossible(_)) => Some(fault),
@@ -93,7 +95,42 @@ mod tests {
     use crate::belt_loop;
     use crate::input::Key;
     use crate::trace;
+    use crate::vbelt::limits::limits;
     use crate::vbelt::scaling::tests::{kim, tractive, v_belt};
+
+    #[test]
+    fn a_belt_that_is_pressed_through_a_groove_is_refused_for_that() {
+        // As with a radial stiffness in kN/m² that was meant in MN/m².
+        let (stiffness, half_angle) = (1e3, 0.3);
+        let laws = [
+            FrictionLaw::Coulomb,
+            FrictionLaw::Epp { stiffness: 1e7 },
+            FrictionLaw::VectorEpp { stiffness: 1e7 },
+            FrictionLaw::Bristle { stiffness: 1e3 },
+        ];
+        for law in laws {
+            let drive = Drive::from(TwoPulleys {
+                belt: v_belt([0.1, 1e5, stiffness, half_angle]),
+                driven_radius: 0.2,
+                load: tractive(100.0, 300.0),
+                ..kim(law, 0.25)
+            });
+            let key = Key::load(&drive);
+            let options = SolveOptions::default();
+            let refusals = [
+                solve(&drive, &options).map(drop),
+                limits(&drive, &key, &options, &mut |_, _| {}).map(drop),
+                trace(&drive, &key, [300.0, 400.0], &options, &mut |_, _| {}).map(drop),
+            ];
+            for refused in refusals {
+                let Err(SolveError::PressedThrough { pulley, largest }) = refused else {
+                    panic!("{law:?}: {refused:?}")
+                };
+                let borne = stiffness * half_angle.tan() * 0.2 * 0.2 / 6.0;
+                assert!(pulley == "driven" && (largest / borne - 1.0).abs() < 1e-12);
+            }
+        }
+    }
 
     #[test]
     fn of_two_states_that_of_the_branch_is_told() {

@@ -57,7 +57,11 @@ fn first_state(drive: &Drive, tolerance: f64) -> Result<(Solved, Stats), SolveEr
         Ok(solved)
     });
     let solved = match direct {
-        Err(error @ (SolveError::NotConverged { .. } | SolveError::Violated(_))) => {
+        Err(
+            error @ (SolveError::NotConverged { .. }
+            | SolveError::PressedThrough { .. }
+            | SolveError::Violated(_)),
+        ) => {
             let state = by_branch(&mut path, start, false).unwrap_or(Err(error.clone()))?;
             state.restart.map(Arc::unwrap_or_clone).ok_or(error)
         }

@@ -33,7 +33,7 @@ impl<'a> RestGuess<'a> {
     ) -> Result<Self, (usize, f64)> {
         let force = problem.units.force;
         let seated = problem.grooves.iter().map(|(pulley, groove)| {
-            let largest = Seating::largest_tension(groove) * force;
+            let largest = groove.largest_tension() * force;
             let seating = Seating::new(groove, tension / force).ok_or((*pulley, largest))?;
             let swept = problem.plane.spots[*pulley].wrap - 2.0 * seating.entry();
             Ok(Seated {

@@ -39,14 +39,9 @@ pub(super) struct Seating {
 }
 
 impl Seating {
-    /// The largest scaled tension that a groove carries without friction: up to K = 6 the belt settles.
-    pub(super) fn largest_tension(groove: &Groove) -> f64 {
-        groove.radial_stiffness * groove.sin_beta / groove.cos_beta / 6.0
-    }
-
     /// Of a belt with a scaled tension, if the groove carries it.
     pub(super) fn new(groove: &Groove, tension: f64) -> Option<Self> {
-        let share = tension / Self::largest_tension(groove);
+        let share = tension / groove.largest_tension();
         let stiffness = 6.0 / share;
         let root = 1.0 - share;
         if root.is_nan() || root <= 0.0 {
