@@ -1,5 +1,6 @@
 //! What the search for a state has found, as an answer.
 
+use super::guess::tractive_on_pitch_line;
 use super::limit::Found;
 use super::numbers::Numbers;
 use super::path::{Path, Solved, Stuck};
@@ -22,7 +23,8 @@ pub(super) fn find(drive: &Drive, tolerance: f64) -> (Path<'_>, Result<Found, St
 pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<Solved, SolveError> {
     let scales = path.scales();
     let found = found.map_err(|Stuck { last, cause, .. }| {
-        pressed_through(path).unwrap_or_else(|| SolveError::NotConverged {
+        let reason = lifts_off(path.drive).or_else(|| pressed_through(path));
+        reason.unwrap_or_else(|| SolveError::NotConverged {
             tight: last.map(|last| last.tight_tension() * scales.units.force),
             cause: Arc::new(cause),
         })
@@ -41,6 +43,22 @@ pub(super) fn carried(path: &Path<'_>, found: Result<Found, Stuck>) -> Result<So
             Err(not_carried(path.drive, value, limit.reason, [speed, exit]))
         }
     }
+}
+
+/// The refusal of a drive whose belt lifts off: the tension of a span is less than centrifugal force asks for. A belt that sinks
+/// is slower and may have a state, so that it is refused only where none is found.
+fn lifts_off(drive: &Drive) -> Option<SolveError> {
+    let Load { slack, tight } = drive.pair().load;
+    let tractive = [slack, tight].map(|span| match span {
+        SpanTension::Belt(tension) => tractive_on_pitch_line(drive, tension),
+        SpanTension::Tractive(tension) | SpanTension::DrivenTorque(tension) => tension,
+    });
+    let tractive_tension = tractive[0].min(tractive[1]);
+    (tractive_tension <= 0.0).then(|| SolveError::LiftsOff {
+        tractive_tension,
+        speed: drive.rim_speed(),
+        is_loaded: true,
+    })
 }
 
 /// The refusal of a drive whose belt is pressed through a groove at rest: its tension there is near to the mean of those of the

@@ -15,7 +15,14 @@
 
 use super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
 use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, EndAngles, Groove, Law};
-use crate::SpanTension;
+use crate::{Drive, SpanTension};
+
+/// Tractive tension F = T − m V²/(1 + T/EA) of a belt with a tension T that runs on the pitch circles at the speed V of the rim of the
+/// driver, N.
+pub(super) fn tractive_on_pitch_line(drive: &Drive, tension: f64) -> f64 {
+    let (belt, rim) = (drive.belt, drive.rim_speed());
+    tension - belt.mass_per_length * rim * rim / (1.0 + tension / belt.axial_stiffness)
+}
 
 /// A first approximation to the solution of a [`DriveProblem`].
 #[derive(Clone, Debug)]

@@ -90,25 +90,25 @@ fn conclude(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Duty;
-    use crate::TwoPulleys;
     use crate::belt_loop;
     use crate::input::Key;
     use crate::trace;
     use crate::vbelt::limits::limits;
     use crate::vbelt::scaling::tests::{kim, tractive, v_belt};
+    use crate::{Closure, Duty, Load, SpanTension, TwoPulleys};
+
+    const LAWS: [FrictionLaw; 4] = [
+        FrictionLaw::Coulomb,
+        FrictionLaw::Epp { stiffness: 1e7 },
+        FrictionLaw::VectorEpp { stiffness: 1e7 },
+        FrictionLaw::Bristle { stiffness: 1e3 },
+    ];
 
     #[test]
     fn a_belt_that_is_pressed_through_a_groove_is_refused_for_that() {
         // As with a radial stiffness in kN/m² that was meant in MN/m².
         let (stiffness, half_angle) = (1e3, 0.3);
-        let laws = [
-            FrictionLaw::Coulomb,
-            FrictionLaw::Epp { stiffness: 1e7 },
-            FrictionLaw::VectorEpp { stiffness: 1e7 },
-            FrictionLaw::Bristle { stiffness: 1e3 },
-        ];
-        for law in laws {
+        for law in LAWS {
             let drive = Drive::from(TwoPulleys {
                 belt: v_belt([0.1, 1e5, stiffness, half_angle]),
                 driven_radius: 0.2,
@@ -130,6 +130,51 @@ mod tests {
                 assert!(pulley == "driven" && (largest / borne - 1.0).abs() < 1e-12);
             }
         }
+    }
+
+    /// A fast belt, which with a strain of 0.044 takes 2454.8 N to go round, and 2563.7 N without.
+    fn fast(law: FrictionLaw, slack: f64, tight: f64) -> Drive {
+        Drive::from(TwoPulleys {
+            belt: v_belt([0.388_145_69, 56_845.341_5, 1.2e7, 0.358_321_54]),
+            friction_coefficient: 0.205_326_957,
+            driver_radius: 0.351_314_721,
+            driver_speed: 231.335_127,
+            driven_radius: 0.098_631_521,
+            centre_distance: 1.591_730_52,
+            load: Load {
+                slack: SpanTension::Belt(slack),
+                tight: SpanTension::Belt(tight),
+            },
+            ..kim(law, 0.25)
+        })
+    }
+
+    #[test]
+    fn a_belt_that_lifts_off_is_refused_for_that() {
+        for law in LAWS {
+            let refused = solve(&fast(law, 2400.0, 2450.0), &SolveOptions::default()).unwrap_err();
+            let SolveError::LiftsOff {
+                tractive_tension, ..
+            } = refused
+            else {
+                panic!("{law:?}: {refused:?}")
+            };
+            assert!((tractive_tension + 60.0).abs() < 1.0, "{tractive_tension}");
+        }
+    }
+
+    #[test]
+    fn a_loop_whose_tension_is_nearly_that_of_centrifugal_force_is_found() {
+        let drive = fast(FrictionLaw::Coulomb, 2_522.578_69, 2580.0);
+        let state = solve(&drive, &SolveOptions::default()).unwrap();
+        let mut as_loop = state.as_loop();
+        as_loop.closure = Closure::SpanTension {
+            span: drive.driver(),
+            tension: state.slack_tension,
+        };
+        let found = belt_loop::solve(&as_loop).unwrap();
+        let (single, told) = (found.pulleys[1].angular_speed, state.driven.angular_speed);
+        assert!((single / told - 1.0).abs() < 1e-5, "{single} {told}");
     }
 
     #[test]

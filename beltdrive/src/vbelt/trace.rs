@@ -59,6 +59,7 @@ fn first_state(drive: &Drive, tolerance: f64) -> Result<(Solved, Stats), SolveEr
     let solved = match direct {
         Err(
             error @ (SolveError::NotConverged { .. }
+            | SolveError::LiftsOff { .. }
             | SolveError::PressedThrough { .. }
             | SolveError::Violated(_)),
         ) => {

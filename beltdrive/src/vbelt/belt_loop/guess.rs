@@ -10,7 +10,7 @@
 //! ```
 
 use super::super::BeltProblem;
-use super::super::guess::Contacting;
+use super::super::guess::{Contacting, tractive_on_pitch_line};
 use super::problem::LoopProblem;
 use super::rest::Rest;
 use super::round::Target;
@@ -46,11 +46,9 @@ pub(super) fn groove_compliances(drive: &Drive, layout: &Layout) -> Vec<f64> {
 
 /// Tension and tractive tension of a running belt of an unstretched length that does not sink, without torques, N.
 pub(super) fn on_pitch_line(drive: &Drive, layout: &Layout, length: f64) -> [f64; 2] {
-    let (belt, rim) = (drive.belt, drive.rim_speed());
     let strain = (layout.length() - length) / length;
-    let tension = belt.axial_stiffness * strain;
-    let flow = belt.mass_per_length * rim / (1.0 + strain);
-    [tension, tension - flow * rim]
+    let tension = drive.belt.axial_stiffness * strain;
+    [tension, tractive_on_pitch_line(drive, tension)]
 }
 
 /// Tractive tensions of the spans of a loop that the friction of its pulleys does not limit, N.
@@ -72,9 +70,10 @@ pub(super) fn tractive_tensions(
         offsets[pulley] = offsets[(pulley + count - 1) % count]
             + factor * stated.duty.torque_at(rim / stated.radius) / stated.radius;
     }
-    let centrifugal = belt.mass_per_length * rim * rim;
     let level = match (target, rest, drive.tensioner()) {
-        (Target::Tension { span, tension }, _, _) => tension - centrifugal - offsets[span],
+        (Target::Tension { span, tension }, _, _) => {
+            tractive_on_pitch_line(drive, tension) - offsets[span]
+        }
         (Target::Tractive { span, tension }, _, _) => tension - offsets[span],
         (Target::Length(_), None, _) => f64::NAN,
         (Target::Length(_), Some(rest), Some((idler, _))) => rest.tension - offsets[idler],
