@@ -128,7 +128,7 @@ fn lowered(
 
 /// Whether the branch of the load leads from hardly any load to a state of the drive. Where friction is a soft vector, the
 /// driver of one drive creeps by 0.02 even then, so that no start load is one of small slip.
-pub(super) fn begins_at_rest(path: &mut Path<'_>, solved: &Solved) -> bool {
+pub(super) fn is_led_from_rest(path: &mut Path<'_>, solved: &Solved) -> bool {
     let drive = path.drive;
     let load = Key::load(drive).get(drive);
     let least = HARDLY_ANY * drive.pair().load.slack.value();
@@ -176,7 +176,7 @@ mod tests {
         let mut path = Path::new(&drive, 1e-6);
         let solved = path.at_load(path.target()).unwrap();
         assert!(may_be_another(&solved) && !path.is_reached(&solved));
-        assert!(begins_at_rest(&mut path, &solved));
+        assert!(is_led_from_rest(&mut path, &solved));
         let state = solve(&drive, &SolveOptions::default()).unwrap();
         let steps = state.convergence.newton_iterations;
         assert!(steps <= 400, "{steps}");

@@ -1,7 +1,7 @@
 //! A V-belt drive in, a steady state or the reason why there is none out.
 
 use super::BeltProblem;
-use super::by_branch::{begins_at_rest, by_branch};
+use super::by_branch::{by_branch, is_led_from_rest};
 use super::found::{carried, checked};
 use super::limit::{Found, may_be_another};
 use super::path::{Path, Stuck};
@@ -25,7 +25,7 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
         Ok(solved) if solved.driven_speed() > 0.0 && path.is_before_limit(&solved) => {
             let is_sure = !may_be_another(&solved)
                 || path.is_reached(&solved)
-                || begins_at_rest(&mut path, &solved);
+                || is_led_from_rest(&mut path, &solved);
             let may_be_one_of_two = is_elastic && !solved.problem.has_direction();
             match checked(&path, solved, start) {
                 fault @ Err(SolveError::Violated(_) | SolveError::Impossible(_)) => Some(fault),

@@ -17,7 +17,7 @@ use super::super::belt_problem::{BeltProblem, Zoning, in_groove};
 use super::super::groove::{ANGLE, INCLINATION, TENSION};
 use super::super::path::{Effort, Solved};
 use super::super::{Contact, Groove, Law, Regime, Units};
-use super::climb::{LEFT_BY_SHARPER, limit_accuracy, without_zones};
+use super::climb::{limit_accuracy, without_zones};
 use super::levelling::Levelling;
 use super::pieces::{Curved, Place};
 use super::problem::LoopProblem;
@@ -310,16 +310,13 @@ impl Search<'_> {
         let Some((mut margin, mut below)) = self.largest_torque(&begin, to)? else {
             return Some(None);
         };
-        let accuracy = limit_accuracy(self.tolerance);
-        let mut error = accuracy + without_zones(begin.problem.law());
+        let mut error = limit_accuracy(self.tolerance) + without_zones(begin.problem.law());
         while let Some(sharper) = self.sharper_below(&below)
             && let Some(Some((sharp, of_curve))) = self.largest_torque(&sharper, to)
         {
-            if let Law::Vector { .. } = sharper.problem.law() {
-                error = accuracy + LEFT_BY_SHARPER * (sharp / margin - 1.0).abs();
-            }
-            margin = sharp;
-            below.extend(of_curve);
+            let of_law = self.error_by_sharper(sharper.problem.law(), [margin, sharp]);
+            error = of_law.unwrap_or(error);
+            (margin, below) = (sharp, of_curve);
         }
         Some(Some([margin, error * margin]))
     }

@@ -43,7 +43,7 @@ pub(super) const LARGEST_FACTOR: f64 = 1e9;
 /// are 1e-3 too low, with 64 1e-4.
 const SHARPEST: i32 = 64;
 /// Share of the change by friction that is [`FINER`] times as sharp that is left of the effect then.
-pub(super) const LEFT_BY_SHARPER: f64 = WHOLE - 1.0;
+const LEFT_BY_SHARPER: f64 = WHOLE - 1.0;
 /// Relative error of a limit with vector EPP friction as sharp as it is followed with: it is up to 1.4 % too low.
 const BLUNT: f64 = 0.02;
 /// Relative error of a limit with softer friction than that of the loop: one of two pulleys was 6 % too low.
@@ -177,6 +177,7 @@ impl Search<'_> {
         mut slipping: Option<&mut Slipping>,
     ) -> Climbed {
         let mut climbed = self.climb_as_it_is(from, to, slipping.as_deref_mut());
+        let mut before = Vec::new();
         while let Climbed::Limit(blunt) = &mut climbed
             && blunt.top.is_last
             && let Some(begin) = self.sharper_below(&blunt.below)
@@ -186,28 +187,38 @@ impl Search<'_> {
                 Climbed::Reached(_) => {}
                 Climbed::Lost { .. } => break,
                 Climbed::Limit(sharp) => {
-                    if let Law::Vector { .. } = begin.problem.law() {
-                        let change = (sharp.top.factor / blunt.top.factor - 1.0).abs();
-                        sharp.top.error = limit_accuracy(self.tolerance) + LEFT_BY_SHARPER * change;
+                    let factors = [blunt.top.factor, sharp.top.factor];
+                    if let Some(error) = self.error_by_sharper(begin.problem.law(), factors) {
+                        sharp.top.error = error;
                     }
-                    blunt.below.append(&mut sharp.below);
-                    sharp.below = std::mem::take(&mut blunt.below);
+                    before.append(&mut blunt.below);
                 }
             }
             climbed = next;
         }
+        if let Climbed::Limit(limit) = &mut climbed {
+            before.append(&mut limit.below);
+            limit.below = before;
+        }
         climbed
     }
 
-    /// The highest of some states of a curve with sharper friction, if its end is found with that. Before them may be some of a
-    /// blunter one.
+    /// The relative error of a limit or a largest torque with a law, from the one with a blunter law before it, if they are vector
+    /// EPP friction.
+    pub(super) fn error_by_sharper(&self, law: Law, [blunt, sharp]: [f64; 2]) -> Option<f64> {
+        let Law::Vector { .. } = law else {
+            return None;
+        };
+        let change = (sharp / blunt - 1.0).abs();
+        Some(limit_accuracy(self.tolerance) + LEFT_BY_SHARPER * change)
+    }
+
+    /// The highest of some states of a curve with sharper friction, if its end is found with that.
     pub(super) fn sharper_below<P: BeltProblem>(
         &mut self,
         below: &[Solved<P>],
     ) -> Option<Solved<P>> {
-        let law = below.last()?.problem.law();
-        let of_curve = |state: &&Solved<P>| state.problem.law() == law;
-        let mut highest = below.iter().rev().take_while(of_curve).take(LOWER);
+        let mut highest = below.iter().rev().take(LOWER);
         highest.find_map(|state| self.sharper_at_end(state))
     }
 
