@@ -153,10 +153,15 @@ fn eight_pulleys_with_a_tensioner() {
             "pulley.6.power=400",
         ]),
     ];
-    for closure in closures {
-        for overrides in laws() {
-            let overrides = [&closure[..], &overrides].concat();
-            assert_exact(EIGHT, &overrides);
+    // The first with every law, and every other one with another.
+    let laws = laws();
+    for (which, closure) in closures.iter().enumerate() {
+        let with = match which {
+            0 => &laws[..],
+            _ => &laws[which..=which],
+        };
+        for overrides in with {
+            assert_exact(EIGHT, &[&closure[..], overrides].concat());
         }
     }
 }
