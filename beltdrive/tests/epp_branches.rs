@@ -2,8 +2,9 @@
 
 use beltdrive::input::Key;
 use beltdrive::{
-    Belt, BeltKind, BranchEnd, Drive, EventKind, FrictionLaw, Load, RangeEnd, SolveError,
-    SolveOptions, SpanTension, TwoPulleys, VBelt, ZoneKind, examples, input, limits, solve, trace,
+    Belt, BeltKind, BranchEnd, Drive, EventKind, FrictionLaw, LimitReason, Load, RangeEnd,
+    SolveError, SolveOptions, SpanTension, TwoPulleys, VBelt, ZoneKind, examples, input, limits,
+    solve, trace,
 };
 
 /// The drive of Kim (2009) with EPP friction.
@@ -297,6 +298,36 @@ fn what_friction_too_soft_to_carry_anything_carries_is_told() {
     for [soft, twice] in [[excess[0], excess[1]], [excess[1], excess[2]]] {
         assert!(soft > 0.0 && (twice / soft - 2.0).abs() < 0.1, "{excess:?}");
     }
+}
+
+#[test]
+fn a_load_that_is_not_carried_is_refused_with_the_limit_behind_a_lost_branch() {
+    // The branch from 1.001 times the slack tension seems to end at 118.5657 N, where zones change. What the drive carries rises
+    // with the slip until the driven pulley stands.
+    let drive = Numbers {
+        belt: [0.102_669_269, 491_708.178, 3_415_902.65, 0.206_530_901],
+        friction: [0.450_384_24, 1_943_830.0],
+        pulleys: [
+            0.035_603_977_8,
+            76.633_258_9,
+            0.051_137_438_7,
+            0.167_923_781,
+        ],
+        load: [118.444_187, 1210.455],
+    }
+    .drive();
+    let options = SolveOptions::default();
+    let error = solve(&drive, &options).unwrap_err();
+    let SolveError::NoSteadyState { limit, reason, .. } = error else {
+        panic!("{error}");
+    };
+    assert_eq!(reason, LimitReason::DrivenSlips);
+    close(limit, 118.907_6, 1e-6);
+    let speeds = [118.6, 118.7, 118.9].map(|tight| {
+        let state = solve(&at(&drive, tight), &options).unwrap();
+        state.driven.angular_speed
+    });
+    assert!(speeds[0] > speeds[1] && speeds[1] > speeds[2], "{speeds:?}");
 }
 
 #[test]

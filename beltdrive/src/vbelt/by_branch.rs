@@ -17,6 +17,9 @@ use web_time::Instant;
 /// The most branches that are followed.
 const BRANCHES: usize = 4;
 
+/// Slips of the driven pulley at which scalar elastic friction carries about as much as it may: more is not carried, and a limit
+/// below that is none.
+const GREAT_SLIPS: [f64; 2] = [0.1, 0.2];
 /// A load that is hardly any, as multiple of the slack tension: nearer to none, states are harder to follow.
 const HARDLY_ANY: f64 = 1.1;
 
@@ -32,6 +35,9 @@ pub(super) fn by_branch(
     // With scalar elastic friction a branch may end where the kinds of its zones change and others do not, so that its
     // end is the limit only if no state is found beyond it.
     let may_go_on = matches!(drive.law, FrictionLaw::Epp { .. });
+    if may_go_on && let Some(answer) = from_slip(path, start) {
+        return Some(answer);
+    }
     let mut refusal: Option<(f64, SolveError)> = None;
     let most = if is_known { 1 } else { BRANCHES };
     let mut branches = 0;
@@ -65,6 +71,33 @@ pub(super) fn by_branch(
         }
     }
     refusal.map(|(_, refused)| Err(refused))
+}
+
+/// The same with scalar elastic friction on the branch from a state of some slip under a smaller load.
+fn from_slip(path: &mut Path<'_>, start: Instant) -> Option<Result<SteadyState, SolveError>> {
+    let (force, asked) = (
+        path.scales().units.force,
+        Key::load(path.drive).get(path.drive),
+    );
+    let idle = path.idle_bristles()?;
+    let at_great_slip = GREAT_SLIPS.map(|slip| path.bristles_at_slip(&idle, slip));
+    let carried = |load: f64| {
+        let mut at_great_slip = at_great_slip.iter().flatten();
+        at_great_slip.any(|bristles| bristles.tight_tension() * force > load)
+    };
+    if carried(asked) {
+        return None;
+    }
+    let (near, solved) = path.slipping(&idle, asked)?;
+    match from_state(path, (&near, solved), start)? {
+        Led::There(state) => Some(Ok(*state)),
+        Led::ToLimit(limit, refused) => {
+            let mut slips = GREAT_SLIPS.into_iter();
+            let goes_on = carried(limit)
+                && slips.any(|slip| path.at_slip(&idle, slip, [limit, asked]).is_some());
+            (!goes_on).then_some(Err(refused))
+        }
+    }
 }
 
 /// Where a branch has led.

@@ -1,6 +1,6 @@
 //! Both ends of the range of an entry over which a drive has steady states.
 
-use super::found::{carried, find, forwards, is_crossed};
+use super::found::{carried, find, forwards, is_crossed, pressed_through_without_states};
 use super::path::{Path, Solved};
 use super::starts::start_loads;
 use super::state::describe;
@@ -142,9 +142,24 @@ fn states<'d>(
     tolerance: f64,
 ) -> impl Iterator<Item = (Drive, Solved)> + use<'d> {
     let is_load = *key == Key::load(drive);
+    let is_elastic = matches!(drive.law, FrictionLaw::Epp { .. });
     let mut path = Path::new(drive, tolerance);
-    let loads = start_loads(drive, true).filter(move |_| is_load);
-    loads.filter_map(move |load| load.state(&mut path))
+    let mut loads = start_loads(drive, true).map(Some);
+    // Where the load of the drive is not carried, one of some slip.
+    let own = loads.next().into_iter();
+    let begins = own.chain(is_elastic.then_some(None)).chain(loads);
+    let mut may_be = true;
+    begins
+        .filter(move |_| is_load)
+        .filter_map(move |begin| match begin {
+            Some(load) if may_be => load.state(&mut path),
+            Some(_) => None,
+            None => {
+                may_be = pressed_through_without_states(&mut path).is_none();
+                let idle = path.idle_bristles().filter(|_| may_be)?;
+                path.slipping(&idle, f64::INFINITY)
+            }
+        })
 }
 
 /// A state of the drive, at a smaller load if it does not carry its own, at a larger one near no load.

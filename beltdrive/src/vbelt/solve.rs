@@ -2,7 +2,7 @@
 
 use super::BeltProblem;
 use super::by_branch::{by_branch, is_led_from_rest};
-use super::found::{carried, checked};
+use super::found::{carried, checked, pressed_through_without_states};
 use super::limit::{Found, may_be_another};
 use super::path::{Path, Stuck};
 use crate::{Drive, FrictionLaw, SolveError, SolveOptions, SteadyState};
@@ -39,6 +39,11 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
         }
         _ => None,
     };
+    if direct.is_none()
+        && let Some(refused) = pressed_through_without_states(&mut path)
+    {
+        return Err(refused);
+    }
     // Beside the ends of contacts the pressure, which may not be negative, may need a small defect.
     path.for_error = false;
     let led = by_branch(&mut path, start, stays).filter(|answer| answer.is_ok() || !stays);

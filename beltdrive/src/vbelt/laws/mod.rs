@@ -16,6 +16,7 @@
 
 mod astray;
 mod at_rest;
+mod at_slip;
 mod epp;
 mod finish;
 mod locked;
