@@ -99,14 +99,15 @@ impl Path<'_> {
             let tight = solved.tight_tension() * force;
             between[0] < tight && tight < between[1]
         };
-        let speed = idle.driven_speed() * (1.0 - slip);
-        let tight = self.slack();
-        let near = AtLoad { drive, tight };
-        let asked = AtSlip { near, speed };
         let bristles = self.bristles_at_slip(idle, slip)?;
         if !is_between(&bristles) {
             return None;
         }
+        let tight = self.slack();
+        let asked = AtSlip {
+            near: AtLoad { drive, tight },
+            speed: bristles.driven_speed(),
+        };
         let sliding = self.epp_by_bristles(&asked, &bristles);
         let found = sliding.or_else(|| self.normalised(&asked, bristles).ok())?;
         if !is_between(&found) {
