@@ -15,7 +15,7 @@ use crate::discretisation::tableau::middle;
 use crate::kernels::dense::max_or_nan;
 use crate::kernels::few::Few;
 use crate::kernels::random::Signs;
-use crate::kernels::specialise::specialise;
+use crate::kernels::specialise::{outlined, specialise};
 use crate::newton::collocation::Collocation;
 use crate::shares::{AIM, NEGLIGIBLE, ONE_SAMPLE};
 
@@ -119,7 +119,7 @@ impl Collocation<'_> {
             sizes.clear();
             sizes.resize(n * (self.mesh[index].len() - 1), 0.0);
             specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
-                self.write_sizes([m, n], index, x, sizes)));
+                outlined(|| self.write_sizes([m, n], index, x, sizes))));
         }
     }
 
@@ -189,7 +189,7 @@ impl Collocation<'_> {
         let of_states = segments.fold(0.0, |largest, (index, (segment, sizes))| {
             let n = segment.states;
             let of_segment = specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
-                self.largest_change([m, n], index, correction, sizes, tolerance)));
+                outlined(|| self.largest_change([m, n], index, correction, sizes, tolerance))));
             max_or_nan(largest, of_segment)
         });
         let parameters = x.p.iter().zip(&correction.p);

@@ -7,7 +7,7 @@ use crate::kernels::dense::max_or_nan;
 use crate::kernels::few::Few;
 use crate::kernels::parallel::for_each_run;
 use crate::kernels::room::make_room;
-use crate::kernels::specialise::specialise;
+use crate::kernels::specialise::{outlined, specialise};
 use crate::problem::equations::Equations;
 use crate::problem::held::Held;
 use crate::result::quality::{Defects, Samples};
@@ -55,7 +55,7 @@ pub(crate) fn defects(
             &mut Few::zeros(3 * n),
             &|run, written, buffers| {
                 specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
-                along.defects([m, n], run, written, buffers)))
+                outlined(|| along.defects([m, n], run, written, buffers))))
             },
         )?;
         all.relative.push(relative);

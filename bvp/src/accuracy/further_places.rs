@@ -17,7 +17,7 @@ use crate::discretisation::iterate::Iterate;
 use crate::discretisation::mesh::{Mesh, split};
 use crate::discretisation::powers::Powers;
 use crate::discretisation::tableau::Tableau;
-use crate::kernels::specialise::specialise;
+use crate::kernels::specialise::{outlined, specialise};
 use crate::problem::held::Held;
 use crate::result::quality::Defects;
 use crate::result::stats::Stats;
@@ -78,7 +78,7 @@ impl FurtherPlaces {
             let places = &mut places[..PLACES.div_ceil(intervals)];
             places.fill_with(|| next(&mut self.last));
             specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
-                segment.everywhere([m, n], places)));
+                outlined(|| segment.everywhere([m, n], places))));
             segment.again();
             let SegmentLook { cut, .. } = segment;
             if !cut.is_empty() {

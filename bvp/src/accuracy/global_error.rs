@@ -27,7 +27,7 @@ use crate::discretisation::mesh::shares;
 use crate::discretisation::tableau::middle;
 use crate::kernels::dense::{add_scaled, dot, max_or_nan};
 use crate::kernels::few::Few;
-use crate::kernels::specialise::specialise;
+use crate::kernels::specialise::{outlined, specialise};
 use crate::newton::collocation::Collocation;
 use crate::result::quality::{GlobalErrors, Samples};
 use crate::shares::SPACINGS;
@@ -122,7 +122,7 @@ impl Collocation<'_> {
         let states = each.map(|(index, defects)| {
             let n = self.equations.segments()[index].states;
             specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
-                self.largest_errors([m, n], index, defects, x, w)))
+                outlined(|| self.largest_errors([m, n], index, defects, x, w))))
         });
         let parameters = x.p.iter().zip(&w.p);
         let errors = GlobalErrors {
@@ -145,7 +145,7 @@ impl Collocation<'_> {
             let n = self.equations.segments()[index].states;
             let to = &mut residual.equations[index];
             specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] => specialise!(k in [0] =>
-                self.integrate([m, n, k], index, samples, to_stage, to))));
+                outlined(|| self.integrate([m, n, k], index, samples, to_stage, to)))));
         }
     }
 

@@ -30,7 +30,7 @@ use crate::discretisation::ratio::{Component, largest_ratio};
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::dot;
 use crate::kernels::random::Signs;
-use crate::kernels::specialise::specialise;
+use crate::kernels::specialise::{outlined, specialise};
 use crate::newton::collocation::{Collocation, gather_ends};
 use crate::problem::problem::Segment;
 use crate::shares::{INVISIBLE, MODERATE, ONE_SAMPLE, TWO_DIGITS};
@@ -114,7 +114,7 @@ impl Collocation<'_> {
             let (mesh, z) = (&self.mesh[index], (&z.segments[index], &z.p[..]));
             let image = &mut image.equations[index];
             specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] => specialise!(k in [0] =>
-                linear_residuals([m, n, k], t, mesh, jacobians, z, image))));
+                outlined(|| linear_residuals([m, n, k], t, mesh, jacobians, z, image)))));
         }
         let states: usize = segments.iter().map(|segment| segment.states).sum();
         let mut unknowns = vec![0.0; 2 * states];

@@ -17,7 +17,7 @@ use crate::discretisation::mesh::Mesh;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::add_scaled;
 use crate::kernels::parallel::for_each_run;
-use crate::kernels::specialise::specialise;
+use crate::kernels::specialise::{outlined, specialise};
 use crate::newton::evaluation::{SegmentAt, StageBuffers, non_finite_row};
 use crate::newton_matrix::almost_block_diagonal::AlmostBlockDiagonal;
 use crate::newton_matrix::condensation::Condensation;
@@ -179,7 +179,7 @@ impl<'a> Collocation<'a> {
                 &mut self.buffers[index],
                 &|run, (stages, nodes), buffers| {
                     specialise!(n in [1, 2, 3, 4, 5, 6, 7] => specialise!(m in [6, 7] =>
-                    segment.residuals([m, n], run, stages, nodes, buffers)))
+                    outlined(|| segment.residuals([m, n], run, stages, nodes, buffers))))
                 },
             )?;
             stats.rhs_evaluations += intervals * m;
@@ -222,7 +222,7 @@ impl<'a> Collocation<'a> {
                 buffers,
                 &|run, ((stages, nodes), jacobians), buffers| {
                     specialise!(n in [1, 2, 3, 4, 5, 6, 7] => specialise!(m in [6, 7] => specialise!(k in [0] =>
-                    segment.jacobians([m, n, k], run, stages, nodes, jacobians, buffers))))
+                    outlined(|| segment.jacobians([m, n, k], run, stages, nodes, jacobians, buffers)))))
                 },
             )?;
             stats.rhs_evaluations += intervals * m;

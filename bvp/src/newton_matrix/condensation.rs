@@ -42,7 +42,7 @@ use crate::kernels::dense::{self, dot};
 use crate::kernels::lu::lu;
 use crate::kernels::parallel::{Buffers, for_each_run};
 use crate::kernels::room::make_room;
-use crate::kernels::specialise::specialise;
+use crate::kernels::specialise::{outlined, specialise};
 use crate::newton_matrix::derivative_states::{ObservedJacobians, StageReduction};
 use crate::newton_matrix::stage_system::StageSystem;
 use std::convert::Infallible;
@@ -163,9 +163,9 @@ impl Condensation {
             &mut self.buffers,
             &move |run, written, buffers| {
                 specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6, 7] => specialise!(f in [1] => specialise!(k in [0] =>
-                    condense_run(StageSystem::new(t, reduction, [m, n, k, f]), run, mesh, jacobians, written, buffers)
+                    outlined(|| condense_run(StageSystem::new(t, reduction, [m, n, k, f]), run, mesh, jacobians, written, buffers))
                 ))), else specialise!(m in [1, 2, 3, 4, 5] =>
-                    condense_run(StageSystem::new(t, reduction, [m, n, k, f]), run, mesh, jacobians, written, buffers)
+                    outlined(|| condense_run(StageSystem::new(t, reduction, [m, n, k, f]), run, mesh, jacobians, written, buffers))
                 ))
             },
         )
@@ -240,9 +240,9 @@ impl Condensation {
             &mut self.buffers,
             &|run, stages, buffers| {
                 specialise!(m in [6, 7] => specialise!(n in [1, 2, 3, 4, 5, 6, 7] => specialise!(f in [1] => specialise!(k in [0] =>
-                    recover_run(StageSystem::new(t, reduction, [m, n, k, f]), run, factored, known, stages, buffers)
+                    outlined(|| recover_run(StageSystem::new(t, reduction, [m, n, k, f]), run, factored, known, stages, buffers))
                 ))), else specialise!(m in [1, 2, 3, 4, 5] =>
-                    recover_run(StageSystem::new(t, reduction, [m, n, k, f]), run, factored, known, stages, buffers)
+                    outlined(|| recover_run(StageSystem::new(t, reduction, [m, n, k, f]), run, factored, known, stages, buffers))
                 ));
                 Ok(())
             },

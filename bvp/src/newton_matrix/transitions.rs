@@ -5,7 +5,7 @@
 use crate::kernels::dense::{add_scaled, dot};
 use crate::kernels::reflections::{Blocks, MANY, eliminate};
 use crate::kernels::room::make_room;
-use crate::kernels::specialise::specialise;
+use crate::kernels::specialise::{outlined, specialise};
 use crate::newton_matrix::balance::balance;
 
 /// The transition blocks of one segment and their elimination.
@@ -75,7 +75,7 @@ impl Transitions {
         let k = self.k;
         let sizes = &mut self.work[..n * n];
         self.balanced = balance(&mut self.blocks, k, &mut self.units, sizes);
-        specialise!(n in [1, 2, 3, 4, 5, 6, 7] => specialise!(k in [0] => self.eliminate_nodes(n, k)))
+        specialise!(n in [1, 2, 3, 4, 5, 6, 7] => specialise!(k in [0] => outlined(|| self.eliminate_nodes(n, k))))
     }
 
     /// [`eliminate`](Self::eliminate) for values of n and k that the compiler may know.
@@ -154,7 +154,7 @@ impl Transitions {
                 each.for_each(|(g, unit)| *g /= unit);
             }
         }
-        specialise!(n in [1, 2, 3, 4, 5, 6, 7] => self.forward_nodes(n, nodes, reduced));
+        specialise!(n in [1, 2, 3, 4, 5, 6, 7] => outlined(|| self.forward_nodes(n, nodes, reduced)));
     }
 
     /// [`forward`](Self::forward) for values of n that the compiler may know.
@@ -211,7 +211,7 @@ impl Transitions {
     pub(super) fn backward(&self, nodes: &mut [f64], p: &[f64]) {
         let n = self.n;
         let k = self.k;
-        specialise!(n in [1, 2, 3, 4, 5, 6, 7] => specialise!(k in [0] => self.backward_nodes(n, k, nodes, p)));
+        specialise!(n in [1, 2, 3, 4, 5, 6, 7] => specialise!(k in [0] => outlined(|| self.backward_nodes(n, k, nodes, p))));
         if self.balanced {
             for node in nodes.chunks_exact_mut(n) {
                 let each = node.iter_mut().zip(&self.units);

@@ -4,7 +4,7 @@ use crate::discretisation::iterate::{Iterate, SegmentIterate};
 use crate::discretisation::mesh::Mesh;
 use crate::discretisation::tableau::Tableau;
 use crate::kernels::dense::add_scaled;
-use crate::kernels::specialise::specialise;
+use crate::kernels::specialise::{outlined, specialise};
 use crate::result::solution::Solution;
 
 /// The iterate with the nodes and slopes of a solution on another mesh, possibly of another scheme.
@@ -16,7 +16,7 @@ pub(crate) fn transfer(mesh: &Mesh, t: &Tableau, from: &Solution) -> Iterate {
     for (index, (nodes, x)) in mesh.iter().zip(&mut x.segments).enumerate() {
         let n = from.segments[index].states;
         specialise!(n in [1, 2, 3, 4, 5, 6] => specialise!(m in [6, 7] =>
-            transfer_segment([m, n], from, index, nodes, &t.c, x)
+            outlined(|| transfer_segment([m, n], from, index, nodes, &t.c, x))
         ));
     }
     x
