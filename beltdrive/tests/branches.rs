@@ -178,6 +178,38 @@ fn the_end_of_a_turn_is_no_limit() {
 }
 
 #[test]
+fn a_limit_point_where_the_slip_of_a_turn_changes_its_sense_on_one_pulley_is_none() {
+    // At 491.3 N on the driver, while the driven pulley slips. The largest load is 606 N.
+    let drive = Drive::from(TwoPulleys {
+        belt: Belt {
+            mass_per_length: 0.099_591_426_7,
+            axial_stiffness: 25_018.398_58,
+            kind: BeltKind::V(VBelt {
+                radial_stiffness: 1_203_507.338,
+                half_angle: 0.265_264_859,
+                height: None,
+            }),
+            ..kim(FrictionLaw::Coulomb).belt
+        },
+        friction_coefficient: 0.555_808_113_3,
+        driver_radius: 0.037_684_894_26,
+        driver_speed: 31.405_708_78,
+        driven_radius: 0.044_084_830_11,
+        centre_distance: 0.224_922_522_1,
+        load: Load {
+            slack: SpanTension::Tractive(362.796_218),
+            tight: SpanTension::Tractive(400.0),
+        },
+        law: FrictionLaw::Coulomb,
+    });
+    let key = key(&drive, TIGHT);
+    let found = limits(&drive, &key, &SolveOptions::default(), &mut |_, _| {}).unwrap();
+    let turns = |event: &BranchEvent| event.kind == EventKind::LimitPoint;
+    assert!(!found.branch.events.iter().any(turns));
+    assert!(found.largest.value > 600.0, "{}", found.largest.value);
+}
+
+#[test]
 fn states_on_a_branch_are_those_of_a_solve() {
     let drive = kim(BRISTLE);
     let branch = traced(&drive, TIGHT, [102.0, 3000.0]);

@@ -7,7 +7,7 @@ use super::found::{checked, not_carried};
 use super::limit::slips_far;
 use super::limits::upwards;
 use super::path::{Path, Solved};
-use super::starts::start_loads;
+use super::starts::{HARDLY_ANY, start_loads};
 use super::tracer::{Tracer, Until};
 use crate::input::Key;
 use crate::{BranchEnd, Drive, FrictionLaw, RangeEnd, SolveError, SteadyState};
@@ -20,8 +20,6 @@ const BRANCHES: usize = 4;
 /// Slips of the driven pulley at which scalar elastic friction carries about as much as it may: more is not carried, and a limit
 /// below that is none.
 const GREAT_SLIPS: [f64; 2] = [0.1, 0.2];
-/// A load that is hardly any, as multiple of the slack tension: nearer to none, states are harder to follow.
-const HARDLY_ANY: f64 = 1.1;
 
 /// The steady state of the drive of a search that began at `start`, or the limit of its load if that is lower; `None` if
 /// no branch leads there. Where a state with a normalised direction `is_known`, none begins with one, and one is followed:
@@ -213,6 +211,27 @@ mod tests {
         let state = solve(&drive, &SolveOptions::default()).unwrap();
         let steps = state.convergence.newton_iterations;
         assert!(steps <= 400, "{steps}");
+    }
+
+    #[test]
+    fn a_state_behind_the_limit_of_a_driver_that_creeps_under_any_load_is_not_told() {
+        // It carries 568.886 N, and behind that limit 560 N again with a driven pulley at 6.98 rad/s.
+        let law = FrictionLaw::VectorEpp {
+            stiffness: 1_353_290.0,
+        };
+        let drive = TwoPulleys {
+            belt: v_belt([0.670_260_060_1, 49_253.706_27, 2_016_376.575, 0.359_355_755]),
+            friction_coefficient: 0.462_804_179_7,
+            driver_radius: 0.028_755_453_05,
+            driver_speed: 22.764_960_53,
+            driven_radius: 0.045_679_134_25,
+            centre_distance: 0.204_339_994_5,
+            load: tractive(245.831_713, 560.0),
+            ..kim(law, 0.25)
+        };
+        let state = solve(&Drive::from(drive), &SolveOptions::default()).unwrap();
+        let speed = state.driven.angular_speed;
+        assert!((speed / 8.397_57 - 1.0).abs() < 1e-5, "{speed}");
     }
 
     #[test]

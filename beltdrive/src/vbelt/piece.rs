@@ -261,7 +261,10 @@ impl Tracer<'_> {
                 && rises(&point)
                 && before.as_ref().is_some_and(|(passed, ..)| rises(passed));
             let is_back = has_cut_turned && self.is_back(&point, value, ahead);
-            if is_back || (point.kind == Kind::LimitPoint && self.locks(&point, &here)) {
+            let is_none = point.kind == Kind::LimitPoint
+                && (self.locks(&point, &here)
+                    || !is_confirmed(&point) && self.goes_on_beyond(&point, direction));
+            if is_back || is_none {
                 self.convergence.count(&last);
                 return not_converged(difficulty::TOO_ABRUPT);
             }
@@ -560,6 +563,11 @@ fn reversed(direction: Direction) -> Direction {
         Direction::Increasing => Direction::Decreasing,
         Direction::Decreasing => Direction::Increasing,
     }
+}
+
+/// Whether a limit point is near the same place with a shorter ℓ on a finer mesh, so that its error is known.
+fn is_confirmed(point: &Point) -> bool {
+    point.error.is_some_and(|error| error.states.is_finite())
 }
 
 /// The sense in which the entry changes at a point.

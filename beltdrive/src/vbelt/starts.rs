@@ -1,5 +1,6 @@
 //! States of a drive under other loads, from which the branch of its load is followed.
 
+use super::limit::slips_far;
 use super::path::{Path, Solved};
 use crate::Drive;
 use crate::input::Key;
@@ -20,6 +21,9 @@ const NEAR_NO_LOAD: f64 = 1e-4;
 /// Multiples of the slack tension at which a branch may begin in place of the load of the drive, and first does if that
 /// is less than the last of them: nearer to no load the belt hardly slips, and states are hard to find and to follow.
 const HEAVIER: [f64; 4] = [2.0, 3.0, 1.5, 1.2];
+
+/// A load that is hardly any, as multiple of the slack tension: nearer to none, states are harder to follow.
+pub(super) const HARDLY_ANY: f64 = 1.1;
 
 /// A load from which a branch may begin.
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +60,7 @@ pub(super) fn start_loads(drive: &Drive, with_own: bool) -> impl Iterator<Item =
 
 impl StartLoad {
     /// The drive of a search under this load and its state, if that is found below the limits of the load and the driven
-    /// pulley is not slow. The search counts what it costs.
+    /// pulley is not slow. Hardly any load leads from rest to its state, even if the driver creeps. The search counts what it costs.
     pub(super) fn state(self, path: &mut Path<'_>) -> Option<(Drive, Solved)> {
         let mut near = path.drive.clone();
         Key::load(path.drive).set(&mut near, self.value);
@@ -65,7 +69,11 @@ impl StartLoad {
             true => search.with_direction(),
             false => search.start(),
         };
-        let found = found.filter(|solved| search.is_below_limit(solved));
+        let is_light = self.value <= HARDLY_ANY * path.drive.pair().load.slack.value();
+        let found = found.filter(|solved| match is_light {
+            true => !slips_far(solved) && search.is_before_limit(solved),
+            false => search.is_below_limit(solved),
+        });
         path.stats += search.stats;
         path.problems += search.problems;
         found.map(|solved| (near, solved))
