@@ -24,7 +24,7 @@ macro_rules! specialise {
 pub(crate) use specialise;
 
 /// Makes a call in a function of its own, for work on all intervals of a run. With all copies of such work in one function, of which
-/// the largest had a megabyte, the crate takes twice as long to compile and solutions 3 to 4 % longer.
+/// the largest had a megabyte, the crate takes twice as long to compile and the reference problems 3 to 4 % longer to solve.
 #[inline(never)]
 pub(crate) fn outlined<R>(call: impl FnOnce() -> R) -> R {
     call()
