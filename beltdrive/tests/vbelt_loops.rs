@@ -668,6 +668,21 @@ fn the_load_factor_of_a_loop_ends_at_a_limit_point() {
     }
 }
 
+/// Curves are not followed from a hundredth of the load, at which the belt hardly slips: 88 states on the way to the limit
+/// took 40 s.
+#[test]
+fn a_hardly_loaded_loop_carries_the_load_of_a_loaded_one() {
+    let text = examples::find("spb-fan").unwrap().text;
+    let largest = |power: f64| {
+        let overrides = [format!("load.power={power} W")];
+        let file = DriveFile::read("spb-fan.toml", text, &overrides).unwrap();
+        let options = SolveOptions::default();
+        let found = limits(&file, &Varied::LoadFactor, &options, &mut |_, _| {}).unwrap();
+        power * found.largest.point.value
+    };
+    close("power", largest(75.0), largest(7500.0), 1e-6);
+}
+
 /// Every pulley with a torque has a margin, and the loop carries its load up to the limit and not beyond.
 #[test]
 fn friction_that_sticks_or_slides_has_margins_and_a_limit() {
