@@ -325,8 +325,8 @@ impl<'a> StageSystem<'a> {
             for c in 0..n {
                 sum += row[c] * dy[c];
             }
-            for c in 0..k {
-                sum += row[n + c] * dp[c];
+            for (by_parameter, dp) in row[n..].iter().zip(dp) {
+                sum += by_parameter * dp;
             }
             stages[i] = sum;
         });
