@@ -668,8 +668,8 @@ fn the_load_factor_of_a_loop_ends_at_a_limit_point() {
     }
 }
 
-/// Curves are not followed from a hundredth of the load, at which the belt hardly slips: 88 states on the way to the limit
-/// took 40 s.
+/// Curves are not followed from a hundredth of the load, at which the belt hardly slips: a hundred states on the way to the
+/// limit took 40 s.
 #[test]
 fn a_hardly_loaded_loop_carries_the_load_of_a_loaded_one() {
     let text = examples::find("spb-fan").unwrap().text;

@@ -24,7 +24,7 @@ const BELOW: f64 = 0.5;
 const LOWER: [f64; 2] = [0.7, 0.4];
 
 /// Factor between loads from which that of a hardly loaded drive is raised, in turn. A hundredth of the load of `spb-fan` is on no
-/// curve that is followed, and states at 60 loads from there to the largest take 40 s, or minutes under a thousandth of it.
+/// curve that is followed, and states at a hundred loads from there to the largest take 40 s.
 const RAISED: f64 = 4.0;
 
 /// The smallest and the largest value with which a loop has a steady state.
