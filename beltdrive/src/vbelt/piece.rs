@@ -13,10 +13,9 @@ use super::zones::Refused;
 use super::{BeltProblem, DriveProblem, Law};
 use crate::input::Key;
 use crate::results::difficulty;
-use crate::{BranchEnd, Drive, EventKind, LeastSlip, Role};
+use crate::{BranchEnd, Drive, EventKind, Role};
 use bvp::{Control, Family, Scheme};
 use continuation::{Branch, Direction, Kind, Options, Point, Stop};
-use std::f64::consts::FRAC_PI_2;
 
 /// ℓ/R where the belt hardly slips somewhere, and where it slips everywhere. With 1e-10 in the first case rounding
 /// errors of the slip asked for up to 3000 mesh intervals; with 1e-8 in the second limits were off by up to 3e-7.
@@ -262,7 +261,7 @@ impl Tracer<'_> {
                 && before.as_ref().is_some_and(|(passed, ..)| rises(passed));
             let is_back = has_cut_turned && self.is_back(&point, value, ahead);
             let is_none = point.kind == Kind::LimitPoint
-                && (self.locks(&point, &here)
+                && (here.locks()
                     || !is_confirmed(&point) && self.goes_on_beyond(&point, direction));
             if is_back || is_none {
                 self.convergence.count(&last);
@@ -289,7 +288,7 @@ impl Tracer<'_> {
             {
                 self.convergence.count(&last);
                 // Where the belt locks the slip of a turn may have changed its sense, and shorter steps do not pass that place.
-                let locks = self.refinements == 0 && self.locks(passed, solved);
+                let locks = self.refinements == 0 && solved.locks();
                 if locks && let Some(next) = self.beyond_locked(*towards) {
                     return next;
                 }
@@ -403,21 +402,6 @@ impl Tracer<'_> {
             Direction::Increasing => value <= start,
             Direction::Decreasing => value >= start,
         }
-    }
-
-    /// Whether the belt locks on both pulleys and overhangs on none. Then every number of the drive follows from an equation of
-    /// its own (see `locked`), and a limit point is where the slip of a turn changes its sense: behind it the direction of
-    /// friction turns the other way round, and that state is another one. At the limits of 60 random drives with Coulomb
-    /// friction a pulley slips by more than 1e-3 or the belt overhangs.
-    fn locks(&self, point: &Point, here: &Solved) -> bool {
-        let drive = self.drive_at(self.value(point.lambda()));
-        let state = describe(&Path::new(&drive, self.tolerance), here);
-        let pulleys = [state.driver, state.driven];
-        pulleys.iter().all(|pulley| {
-            let least = pulley.least_slip;
-            least.is_some_and(|least| least.slip < LeastSlip::LOCKED)
-                && pulley.inclination[1] < FRAC_PI_2
-        })
     }
 
     /// The state at an end of the range with its zones found anew, if they have changed on the last step and are found.
