@@ -12,7 +12,6 @@
 use super::super::BeltProblem;
 use super::super::guess::{Contacting, tractive_on_pitch_line};
 use super::problem::LoopProblem;
-use super::rest::Rest;
 use super::round::Target;
 use super::seat::Seat;
 use super::unknowns::FLOW;
@@ -51,12 +50,13 @@ pub(super) fn on_pitch_line(drive: &Drive, layout: &Layout, length: f64) -> [f64
     [tension, tractive_on_pitch_line(drive, tension)]
 }
 
-/// Tractive tensions of the spans of a loop that the friction of its pulleys does not limit, N.
+/// Tractive tensions of the spans of a loop that the friction of its pulleys does not limit, N. `rest` is the tension of the belt at
+/// rest where the closure is one of it.
 pub(super) fn tractive_tensions(
     drive: &Drive,
     layout: &Layout,
     target: Target,
-    rest: Option<&Rest>,
+    rest: Option<f64>,
     factor: f64,
 ) -> Vec<f64> {
     let belt = drive.belt;
@@ -76,7 +76,7 @@ pub(super) fn tractive_tensions(
         }
         (Target::Tractive { span, tension }, _, _) => tension - offsets[span],
         (Target::Length(_), None, _) => f64::NAN,
-        (Target::Length(_), Some(rest), Some((idler, _))) => rest.tension - offsets[idler],
+        (Target::Length(_), Some(rest), Some((idler, _))) => rest - offsets[idler],
         (Target::Length(length), Some(rest), None) => {
             let [mut by_tension, mut by_pressure, mut moment] = [0.0; 3];
             let grooves = groove_compliances(drive, layout);
@@ -93,7 +93,7 @@ pub(super) fn tractive_tensions(
             }
             // A belt that lifts off does not sink: its pitch line is where centrifugal force takes up all.
             let [tension, tractive] = on_pitch_line(drive, layout, length);
-            rest.tension * tractive / tension - moment / (by_tension + by_pressure)
+            rest * tractive / tension - moment / (by_tension + by_pressure)
         }
     };
     offsets.iter().map(|offset| level + offset).collect()

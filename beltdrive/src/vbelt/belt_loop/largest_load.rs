@@ -128,29 +128,22 @@ impl Search<'_> {
             Err(known) => {
                 let (_, rest) = rest_near(self, known, coordinate, &layout)?;
                 let at = rest.coordinate;
-                (Target::Length(rest.unstretched), Some(rest), at)
+                (Target::Length(rest.unstretched), Some(rest.tension), at)
             }
         };
         let layout = drive.layout(coordinate)?;
         // A belt that sinks into its grooves is less taut than one that does not.
         let expected = match presses(self, target, &layout)? {
             Some(unsunk) => {
-                let idle = tractive_tensions(drive, &layout, target, rest.as_ref(), 0.0);
+                let idle = tractive_tensions(drive, &layout, target, rest, 0.0);
                 expected * idle[0] / unsunk
             }
             None => expected,
         };
+        let whole = Start::new(drive, layout, target, rest, coordinate);
         let mut cause = None;
         for share in SHARES {
-            let factor = share * expected;
-            let start = Start {
-                drive,
-                tractive: tractive_tensions(drive, &layout, target, rest.as_ref(), factor),
-                layout: layout.clone(),
-                target,
-                coordinate,
-                factor,
-            };
+            let start = whole.under(share * expected);
             if !start.is_taut() {
                 continue;
             }

@@ -15,6 +15,7 @@ mod largest_load;
 mod last_state;
 mod levelling;
 mod like;
+mod pair;
 mod pieces;
 mod plane;
 mod problem;

@@ -22,7 +22,7 @@
 
 use super::super::belt_problem::{BeltProblem, Zoning, in_groove};
 use super::super::groove::{ANGLE, LAW, TENSION};
-use super::super::{Contact, Groove, Law, Regime, Units};
+use super::super::{Contact, EndAngles, Groove, Law, Regime, Units};
 use super::back;
 use super::pieces::Curved;
 use super::plane::Plane;
@@ -59,6 +59,8 @@ pub(crate) struct LoopProblem {
     pub(super) driver: usize,
     zoning: Zoning,
     segments: Vec<Segment>,
+    /// By how much the torques or powers, and the closure, are missed: not at all but on the way from another state.
+    missed: [f64; 2],
 }
 
 impl LoopProblem {
@@ -91,6 +93,7 @@ impl LoopProblem {
             driver,
             zoning: Zoning::default(),
             segments: Vec::new(),
+            missed: [0.0; 2],
             seats,
         };
         problem.in_one_zone(law)
@@ -132,6 +135,56 @@ impl LoopProblem {
             }
         }
         self
+    }
+
+    /// The same loop that misses its torques or powers, and its closure, by so much.
+    pub(super) fn missing(mut self, missed: [f64; 2]) -> Self {
+        self.missed = missed;
+        self
+    }
+
+    /// By how much a guess misses the torque or power of the last pulley that has one, and the closure.
+    pub(super) fn missed_by(&self, guess: &dyn bvp::Guess) -> [f64; 2] {
+        let segments = self.segments();
+        let mut values = Vec::new();
+        for (index, segment) in segments.iter().enumerate() {
+            for s in [0.0, 1.0] {
+                let mut y = vec![0.0; segment.states];
+                guess.state(index, s, &mut y);
+                values.extend(y);
+            }
+        }
+        let mut p = vec![0.0; self.parameters()];
+        guess.parameters(&mut p);
+        let at = Ends::new(&segments, &values);
+        let round = self.round(&at, &p);
+        let ends = round.end_angles();
+        let laid = self.plane.lay(self.coordinate(&p), &ends);
+        let pulleys = 0..self.seats.len();
+        let loads = pulleys.filter_map(|pulley| self.unloaded(pulley, (&at, &ends), &p));
+        [loads.last().unwrap_or(0.0), round.closing(&laid)]
+    }
+
+    /// The torque, or the power, that a pulley has beyond that which it is to have.
+    fn unloaded<T: Real>(
+        &self,
+        pulley: usize,
+        (at, ends): (&Ends<'_, T>, &[EndAngles<T>]),
+        p: &[T],
+    ) -> Option<T> {
+        let zones = self.zones(pulley);
+        let (entry, exit) = (at.start(zones.start), at.end(zones.last()?));
+        let EndAngles {
+            entry: arriving,
+            exit: leaving,
+        } = ends[pulley];
+        let torque = exit[TENSION] * leaving.cos() - entry[TENSION] * arriving.cos();
+        let factor = self.factor(p);
+        match self.loads[pulley] {
+            Load::Driver => None,
+            Load::Torque(load) => Some(torque - factor * load),
+            Load::Power(load) => Some(torque * self.omega(pulley, p) - factor * load),
+        }
     }
 
     /// The same loop with torques in place of powers: those of its state with these parameters.
@@ -350,7 +403,7 @@ impl Problem for LoopProblem {
             }
         };
         let round = self.round(&at, p);
-        let (ends, factor) = (round.end_angles(), self.factor(p));
+        let ends = round.end_angles();
         let laid = self.plane.lay(self.coordinate(p), &ends);
         for (pulley, seat) in self.seats.iter().enumerate() {
             let zones = self.zones(pulley);
@@ -372,19 +425,11 @@ impl Problem for LoopProblem {
                 }
             };
             zero(turned - laid.turned[pulley]);
-            let [behind, before] = [
-                entry[TENSION] * ends[pulley].entry.cos(),
-                exit[TENSION] * ends[pulley].exit.cos(),
-            ];
-            match self.loads[pulley] {
-                Load::Driver => {}
-                Load::Torque(torque) => zero(before - behind - factor * torque),
-                Load::Power(power) => {
-                    zero((before - behind) * self.omega(pulley, p) - factor * power);
-                }
+            if let Some(load) = self.unloaded(pulley, (&at, &ends), p) {
+                zero(load - self.missed[0]);
             }
         }
-        zero(round.closing(&laid));
+        zero(round.closing(&laid) - self.missed[1]);
         if let Some(index) = self.unknowns.reference(self.segments.len()) {
             zero(p[index] - round.slackest());
         }

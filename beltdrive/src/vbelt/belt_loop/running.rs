@@ -7,7 +7,7 @@ use super::super::groove::TENSION;
 use super::super::laws::Asked;
 use super::super::path::{Effort, Solved};
 use super::climb::{Climbed, Top};
-use super::guess::{on_pitch_line, tractive_tensions};
+use super::guess::on_pitch_line;
 use super::like::Like;
 use super::problem::LoopProblem;
 use super::rest::Rest;
@@ -42,7 +42,7 @@ pub(super) struct Running<'l> {
     /// To the tolerance.
     pub(super) solved: Solved<LoopProblem>,
     /// How it was stated.
-    start: Start<'l>,
+    pub(super) start: Start<'l>,
     /// Roughly, if the load was raised to it.
     raised: Option<Solved<LoopProblem>>,
 }
@@ -102,15 +102,13 @@ pub(super) fn running<'l>(
     let drive = search.drive;
     let layout = drive.layout(coordinate)?;
     presses(search, target, &layout)?;
-    let start = |factor: f64| Start {
+    let whole = Start::new(
         drive,
-        tractive: tractive_tensions(drive, &layout, target, rest, factor),
-        layout: layout.clone(),
+        layout,
         target,
+        rest.map(|rest| rest.tension),
         coordinate,
-        factor,
-    };
-    let whole = start(1.0);
+    );
     let direct = match whole.is_taut() {
         true => search.seek(&whole).map_err(|stuck| Some(stuck.cause)),
         false => Err(None),
@@ -119,7 +117,10 @@ pub(super) fn running<'l>(
         Ok(solved) if search.is_led_to(&solved) => return Ok(whole.found(solved, None)),
         other => other,
     };
-    match (raised(search, &whole, &SHARES.map(start)), direct) {
+    match (
+        raised(search, &whole, &SHARES.map(|share| whole.under(share))),
+        direct,
+    ) {
         (Ok(Some(found)), _) => Ok(found),
         (Err(SolveError::Unreached { .. }), Ok(solved)) if is_safe(&solved) => {
             Ok(whole.found(solved, None))
@@ -240,14 +241,13 @@ pub(super) fn neighbouring<'s>(
     let drive = search.drive;
     let layout = drive.layout(coordinate).ok()?;
     presses(search, target, &layout).ok()?;
-    let start = Start {
+    let start = Start::new(
         drive,
-        tractive: tractive_tensions(drive, &layout, target, rest, 1.0),
         layout,
         target,
+        rest.map(|rest| rest.tension),
         coordinate,
-        factor: 1.0,
-    };
+    );
     if !start.is_taut() {
         return None;
     }

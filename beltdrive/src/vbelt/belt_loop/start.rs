@@ -2,8 +2,8 @@
 
 use super::super::Units;
 use super::super::laws::Asked;
-use super::super::path::Effort;
-use super::guess::LoopGuess;
+use super::super::path::{Effort, Path, Solved};
+use super::guess::{LoopGuess, tractive_tensions};
 use super::problem::LoopProblem;
 use super::round::Target;
 use crate::drive::layout::Layout;
@@ -15,15 +15,59 @@ pub(super) struct Start<'l> {
     pub(super) drive: &'l Drive,
     pub(super) layout: Layout,
     pub(super) target: Target,
-    /// Tractive tensions of the spans without creep, N.
-    pub(super) tractive: Vec<f64>,
+    /// Tension of the belt at rest where the closure is one of it, N.
+    rest: Option<f64>,
     /// Coordinate of the tensioner, rad or m.
-    pub(super) coordinate: f64,
+    coordinate: f64,
     /// The share of the load.
     pub(super) factor: f64,
+    /// Tractive tensions of the spans without creep, N.
+    tractive: Vec<f64>,
 }
 
-impl Start<'_> {
+impl<'l> Start<'l> {
+    /// Of a loop under its load, laid out for the tensioner at a coordinate, with the tension
+    /// of the belt at rest where the closure is one of it, N.
+    pub(super) fn new(
+        drive: &'l Drive,
+        layout: Layout,
+        target: Target,
+        rest: Option<f64>,
+        coordinate: f64,
+    ) -> Self {
+        let start = Self {
+            drive,
+            layout,
+            target,
+            rest,
+            coordinate,
+            factor: 1.0,
+            tractive: Vec::new(),
+        };
+        start.under(1.0)
+    }
+
+    /// The same loop under a share of its load.
+    pub(super) fn under(&self, factor: f64) -> Self {
+        let Self { drive, target, .. } = *self;
+        Self {
+            tractive: tractive_tensions(drive, &self.layout, target, self.rest, factor),
+            factor,
+            ..self.clone()
+        }
+    }
+
+    /// A drive in the place of another one that differs in its law or its loads, under its load.
+    pub(super) fn of<'d>(&self, drive: &'d Drive) -> Start<'d> {
+        let Self {
+            target,
+            rest,
+            coordinate,
+            ..
+        } = *self;
+        Start::new(drive, self.layout.clone(), target, rest, coordinate)
+    }
+
     /// Whether the belt pulls in all spans.
     pub(super) fn is_taut(&self) -> bool {
         self.tractive.iter().all(|&tension| tension > 0.0)
@@ -49,5 +93,21 @@ impl Asked for Start<'_> {
 
     fn guess<'p>(&'p self, problem: &'p LoopProblem) -> impl bvp::Guess + 'p {
         LoopGuess::new(problem, &self.tractive, self.coordinate)
+    }
+
+    fn locked(
+        &self,
+        path: &mut Path<'_>,
+        bristles: &Solved<LoopProblem>,
+    ) -> Option<Solved<LoopProblem>> {
+        path.by_locked_pair(self, bristles)
+    }
+
+    fn beside(
+        &self,
+        path: &mut Path<'_>,
+        bristles: &Solved<LoopProblem>,
+    ) -> Option<Solved<LoopProblem>> {
+        path.by_pair(self, bristles, super::pair::in_any_way)
     }
 }

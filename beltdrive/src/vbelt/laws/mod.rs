@@ -64,8 +64,14 @@ pub(super) trait Asked {
     /// A state nearly without friction.
     fn guess<'p>(&'p self, problem: &'p Self::Problem) -> impl bvp::Guess + 'p;
 
-    /// Its state from that of another one near it, if there is a way to it; sought before the direction is normalised.
-    fn beside(&self, _: &mut Path<'_>) -> Option<Solved<Self::Problem>> {
+    /// Its state where the belt locks, from soft bristles, if it is found so; sought first.
+    fn locked(&self, _: &mut Path<'_>, _: &Solved<Self::Problem>) -> Option<Solved<Self::Problem>> {
+        None
+    }
+
+    /// Its state from that of another one near it, with soft bristles, if there is a way to it; sought before the direction is
+    /// normalised.
+    fn beside(&self, _: &mut Path<'_>, _: &Solved<Self::Problem>) -> Option<Solved<Self::Problem>> {
         None
     }
 
@@ -116,7 +122,7 @@ impl Asked for AtLoad<'_> {
         Guess::new(problem)
     }
 
-    fn beside(&self, path: &mut Path<'_>) -> Option<Solved> {
+    fn beside(&self, path: &mut Path<'_>, _: &Solved) -> Option<Solved> {
         path.locked_beside(self)
     }
 }
@@ -227,8 +233,9 @@ impl Path<'_> {
         if let FrictionLaw::VectorEpp { .. } = asked.law() {
             return self.vector(asked, &start);
         }
-        let sliding = self.sliding(asked, &start);
-        match sliding.or_else(|| asked.beside(self)) {
+        let locked = asked.locked(self, &start);
+        let sliding = locked.or_else(|| self.sliding(asked, &start));
+        match sliding.or_else(|| asked.beside(self, &start)) {
             Some(solved) => Ok(solved),
             None => self.normalised(asked, start),
         }
