@@ -9,8 +9,9 @@ use beltdrive::belt_loop::{
 use beltdrive::input::DriveFile;
 use beltdrive::quantity::two_pulleys::as_drive;
 use beltdrive::{
-    Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Mount, Pulley, Sense, Side,
-    SolveError, SolveOptions, Tensioner, TensionerLoad, VBelt, Warning, ZoneKind, examples, input,
+    Belt, BeltKind, Closure, Drive, Duty, FrictionLaw, Guide, Load, Mount, Pulley, Sense, Side,
+    SolveError, SolveOptions, SpanTension, Tensioner, TensionerLoad, VBelt, Warning, ZoneKind,
+    examples, input,
 };
 use random_numbers::Random;
 
@@ -627,6 +628,83 @@ fn limits_do_not_depend_on_the_tolerance() {
     for tolerance in [1e-4, 1e-8] {
         agree(&format!("{tolerance}"), &found(tolerance), &known, 1e-6);
     }
+}
+
+/// The belt locks on both pulleys at a hundredth of the load, and the slip of a turn changes its sense on the way up: a limit point
+/// there was told as the largest load, 2.13 times that of 55 W.
+#[test]
+fn a_belt_that_locks_carries_the_load_of_one_that_slips() {
+    let text = examples::find("v-power").unwrap().text;
+    let carried = |power: f64| {
+        let overrides = [
+            "friction.law=coulomb".to_owned(),
+            format!("load.power={power} W"),
+        ];
+        let drive = input::parse("v-power.toml", text, &overrides).unwrap();
+        let state = solve_with_margins(&drive, &SolveOptions::default()).unwrap();
+        let steps = state.convergence.unwrap().newton_steps;
+        (
+            state.load_limit.unwrap().factor * state.pulleys[1].torque,
+            steps,
+        )
+    };
+    let [(known, _), (found, steps)] = [5500.0, 55.0].map(carried);
+    close("largest torque", found, known, 1e-5);
+    assert!(steps <= 100, "{steps}");
+}
+
+/// Limit points at which an arc vanishes that elastic friction holds were told as the largest load: 12.35 in place of 15.56 kW per
+/// 1000 rpm, so that 9500 W were refused.
+#[test]
+fn the_largest_load_with_elastic_friction_does_not_depend_on_the_load() {
+    let text = examples::find("v-power").unwrap().text;
+    let with = |stiffness: f64, power: f64| {
+        let overrides = [
+            "friction.law=epp".to_owned(),
+            format!("friction.stiffness={stiffness} N/m^2"),
+            format!("load.power={power} W"),
+        ];
+        input::parse("v-power.toml", text, &overrides).unwrap()
+    };
+    let options = SolveOptions::default();
+    for stiffness in [1e8, 1e9] {
+        let carried = |power: f64| {
+            let state = solve_with_margins(&with(stiffness, power), &options).unwrap();
+            state.load_limit.unwrap().factor * state.pulleys[1].torque
+        };
+        let [known, found] = [9500.0, 5500.0].map(carried);
+        close("largest torque", found, known, 1e-6);
+    }
+}
+
+/// With elastic friction of 1e8 N/m² no state was found at a tenth of the load, nor without load.
+#[test]
+fn a_hardly_loaded_loop_with_elastic_friction_is_found() {
+    let text = examples::find("v-power").unwrap().text;
+    let overrides = [
+        "friction.law=epp".to_owned(),
+        "friction.stiffness=1e8 N/m^2".to_owned(),
+        "load.power=550 W".to_owned(),
+    ];
+    let drive = input::parse("v-power.toml", text, &overrides).unwrap();
+    let state = solve_to(&drive, &SolveOptions::default()).unwrap();
+    // It is that of the drive with two pulleys and the same tensions.
+    let [driver, driven] = [&state.pulleys[0], &state.pulleys[1]];
+    let tension = |span: usize| SpanTension::Belt(state.spans[span].tension);
+    let mut pair = drive.clone();
+    pair.closure = Closure::BothSpans(Load {
+        slack: tension(0),
+        tight: tension(1),
+    });
+    pair.pulleys[1].duty = Duty::Driven;
+    let known = beltdrive::solve(&pair, &SolveOptions::default()).unwrap();
+    close(
+        "speed",
+        driven.angular_speed,
+        known.driven.angular_speed,
+        1e-5,
+    );
+    close("wrap", driver.wrap, known.driver.wrap, 1e-5);
 }
 
 /// The limit of the load factor lies on the curve of states of the law itself: a state is found 1e-6 below it, and none

@@ -2,6 +2,7 @@
 
 use super::super::path::{Effort, Solved};
 use super::climb::{DOUBLED, LARGEST_FACTOR, Limit};
+use super::elastic_limit::Unelastic;
 use super::problem::LoopProblem;
 use super::running::{is_drive, overloaded};
 use super::solve::{Found, Search};
@@ -24,8 +25,12 @@ pub(crate) fn last_state(drive: &Drive, tolerance: f64) -> Option<LastState> {
         rest,
         running,
     } = search.search().ok()?;
-    let begin = running.followed(&mut search)?;
-    let found = search.rise(&begin, DOUBLED, LARGEST_FACTOR, None).ok()?;
+    let elastic = Unelastic::of(&running.start)
+        .and_then(|unelastic| search.elastic_limit(&running.start, &unelastic));
+    let found = elastic.or_else(|| {
+        let begin = running.followed(&mut search)?;
+        search.rise(&begin, DOUBLED, LARGEST_FACTOR, None).ok()?
+    });
     let (limit, from) = found?;
     let top = limit.top;
     let solved = BEFORE.into_iter().find_map(|share| {

@@ -10,6 +10,7 @@ mod capacity;
 mod checks;
 mod climb;
 mod contacts;
+mod elastic_limit;
 mod guess;
 mod largest_load;
 mod last_state;

@@ -7,6 +7,7 @@ use super::super::groove::TENSION;
 use super::super::laws::Asked;
 use super::super::path::{Effort, Solved};
 use super::climb::{Climbed, Top};
+use super::elastic_limit::Unelastic;
 use super::guess::on_pitch_line;
 use super::like::Like;
 use super::problem::LoopProblem;
@@ -155,6 +156,19 @@ fn raised<'l>(
             Along::Lost => {}
         }
     }
+    let unelastic = Unelastic::of(whole);
+    let mut is_carried = false;
+    if let Some(unelastic) = &unelastic
+        && let Some((limit, _)) = search.elastic_limit(whole, unelastic)
+    {
+        if limit.top.factor <= 1.0 {
+            return Err(overloaded(drive, &limit.top));
+        }
+        is_carried = true;
+        if let Some(solved) = search.elastic(whole, unelastic) {
+            return Ok(Some(whole.found(solved, None)));
+        }
+    }
     // The limit of scalar EPP friction is often another one than that of stiff bristles, by which it took six times as long.
     if drive.law == FrictionLaw::Coulomb
         && let Some(solved) = over_bristles(search, shares())
@@ -166,11 +180,20 @@ fn raised<'l>(
         let Some(rough) = entered.filter(|rough| search.is_led_to(rough)) else {
             continue;
         };
-        let raised = raise(search, share, &rough)?;
+        let raised = match raise(search, share, &rough) {
+            // Another curve leads to more.
+            Err(SolveError::Overloaded { load_factor, .. }) if is_carried => {
+                return Err(SolveError::Unreached {
+                    reached: load_factor,
+                    cause: TOO_ABRUPT,
+                });
+            }
+            outcome => outcome?,
+        };
         return match search.seek_from(whole, &raised) {
             Ok(solved) => Ok(Some(whole.found(solved, Some(raised)))),
             Err(stuck) => Err(match search.limit_by_bristles(share) {
-                Some(top) if top.factor <= 1.0 => overloaded(drive, &top),
+                Some(top) if top.factor <= 1.0 && !is_carried => overloaded(drive, &top),
                 _ => lost(1.0, &stuck.cause),
             }),
         };

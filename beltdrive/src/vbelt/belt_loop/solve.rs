@@ -3,6 +3,7 @@
 use super::super::path::{Path, Solved};
 use super::at_rest::rest_near;
 use super::climb::Top;
+use super::elastic_limit::{Unelastic, with_torques};
 use super::problem::LoopProblem;
 use super::rest::{Known, Rest, RestProblem};
 use super::round::Target;
@@ -175,9 +176,17 @@ pub(crate) fn solve_with_margins(drive: &Drive, tolerance: f64) -> Result<LoopSt
         pulley.torque_capacity = Some(margin * pulley.torque.abs());
         pulley.torque_margin_error = error / margin;
     }
-    let limit = search.load_limit(solved, |search| {
-        rough(search).map(|(_, rough)| rough.clone())
+    let of_torques = with_torques(drive, &found);
+    let start = running.start.of(&of_torques);
+    let elastic = Unelastic::of(&start).and_then(|unelastic| {
+        Search::new(&of_torques, tolerance).elastic_limit(&start, &unelastic)
     });
+    let limit = match elastic {
+        Some((limit, _)) => Some(limit.top),
+        None => search.load_limit(solved, |search| {
+            rough(search).map(|(_, rough)| rough.clone())
+        }),
+    };
     found.load_limit = limit.map(|top| LoadLimit {
         factor: top.factor,
         pulley: top.pulley,
