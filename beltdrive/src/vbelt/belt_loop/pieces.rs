@@ -29,6 +29,9 @@ const STEPS: usize = 300;
 /// ℓ/R along a curve. With 1e-10, that of a state to 1e-8, zones of `v-power` with Coulomb friction that had to change were
 /// kept, and a limit was seen at 1.54 in place of 2.03 of the load. Limits of five drives are off by 1.4e-7 with it.
 const LAG: f64 = 1e-8;
+/// The cause where the end of a curve is none: the belt locks on all pulleys, and the slip of a turn changes its sense. `v-power` at
+/// 55 W with Coulomb friction was said to carry 2.13 times that, where it is 206 times.
+pub(super) const LOCKS: &str = "the belt locks there";
 const ABRUPT: &str = "the states change too abruptly there to be followed";
 
 /// A problem with a number that may be its last parameter, without a condition for it.
@@ -189,8 +192,14 @@ impl Search<'_> {
                     _ => Piece::Changes(Box::new(here)),
                 });
             }
-            if matches!(place, Place::LimitPoint | Place::Zero(_)) && is_none(&here) {
-                break;
+            if matches!(place, Place::LimitPoint | Place::Zero(_)) && here.problem.has_direction() {
+                if power_gained(&here) > WRONG_WAY {
+                    break;
+                }
+                if here.locks() {
+                    let cause = LOCKS;
+                    return Err(Lost { reached, cause });
+                }
             }
             reached = point.lambda();
             before = Some(here.clone());
@@ -222,13 +231,6 @@ impl Search<'_> {
         };
         self.attempt(problem, &guess, effort)
     }
-}
-
-/// Whether the end of a curve with friction whose direction is a state is none: where the traction has turned the wrong way round, or
-/// where the belt locks on all pulleys and the slip of a turn changes its sense. `v-power` at 55 W with Coulomb friction was said
-/// to carry 2.13 times that, where it is 206 times.
-fn is_none<P: BeltProblem>(here: &Solved<P>) -> bool {
-    here.problem.has_direction() && (power_gained(here) > WRONG_WAY || here.locks())
 }
 
 /// How states on the way are solved with a law, if the final tolerance is this. Beside a kink of elastic friction the
