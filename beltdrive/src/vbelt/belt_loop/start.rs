@@ -68,6 +68,15 @@ impl<'l> Start<'l> {
         Start::new(drive, self.layout.clone(), target, rest, coordinate)
     }
 
+    /// The factor on the load with which the first span would be without tension, if there is one.
+    pub(super) fn slackened(&self) -> Option<f64> {
+        let [idle, loaded] = [0.0, 1.0].map(|factor| self.under(factor).tractive);
+        let spans = idle.iter().zip(&loaded);
+        let falling = spans.filter(|(idle, loaded)| loaded < idle);
+        let factors = falling.map(|(idle, loaded)| idle / (idle - loaded));
+        factors.reduce(f64::min)
+    }
+
     /// Whether the belt pulls in all spans.
     pub(super) fn is_taut(&self) -> bool {
         self.tractive.iter().all(|&tension| tension > 0.0)
