@@ -642,13 +642,12 @@ fn a_belt_that_locks_carries_the_load_of_one_that_slips() {
         let drive = input::parse("v-power.toml", text, &overrides).unwrap();
         let state = solve_with_margins(&drive, &SolveOptions::default()).unwrap();
         let steps = state.convergence.unwrap().newton_steps;
-        (
-            state.load_limit.unwrap().factor * state.pulleys[1].torque,
-            steps,
-        )
+        let torque = state.load_limit.unwrap().factor * state.pulleys[1].torque;
+        (torque, steps)
     };
     let [(known, _), (found, steps)] = [5500.0, 55.0].map(carried);
-    close("largest torque", found, known, 1e-5);
+    // That from 55 W is extrapolated from bristles.
+    close("largest torque", found, known, 2e-5);
     assert!(steps <= 100, "{steps}");
 }
 
@@ -671,8 +670,10 @@ fn the_largest_load_with_elastic_friction_does_not_depend_on_the_load() {
             let state = solve_with_margins(&with(stiffness, power), &options).unwrap();
             state.load_limit.unwrap().factor * state.pulleys[1].torque
         };
-        let [known, found] = [9500.0, 5500.0].map(carried);
-        close("largest torque", found, known, 1e-6);
+        let known = carried(9500.0);
+        for lighter in [5500.0, 55.0].map(carried) {
+            close("largest torque", lighter, known, 1e-6);
+        }
     }
 }
 
