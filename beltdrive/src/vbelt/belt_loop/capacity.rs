@@ -188,6 +188,9 @@ impl Problem for OneGroove {
     }
 }
 
+/// The largest multiple of a torque, and the states on the way.
+type Largest = (f64, Vec<Solved<OneGroove>>);
+
 /// The contact with a pulley of a state, as it is with λ = 1.
 struct OfState<'s> {
     solved: &'s Solved<LoopProblem>,
@@ -335,7 +338,7 @@ impl Search<'_> {
         &mut self,
         begin: &Solved<OneGroove>,
         to: f64,
-    ) -> Result<Option<(f64, Vec<Solved<OneGroove>>)>, Lost> {
+    ) -> Result<Option<Largest>, Lost> {
         let (mut levelling, mut below) = (Levelling::default(), Vec::new());
         let within = [-1.0, to.ln()];
         let margin = self.along(begin, within, &[SPEED], |_, place, point, here| {

@@ -107,11 +107,8 @@ pub(super) fn in_any_way(path: &mut Path<'_>) -> Option<Solved> {
     if let Some(solved) = path.with_direction() {
         return Some(solved);
     }
-    let options = SolveOptions {
-        tolerance: path.tolerance,
-        ..SolveOptions::default()
-    };
-    let state = solve(path.drive, &options).ok()?;
+    let tolerance = path.tolerance;
+    let state = solve(path.drive, &SolveOptions { tolerance }).ok()?;
     state.restart.as_deref().cloned()
 }
 

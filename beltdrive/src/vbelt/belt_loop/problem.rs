@@ -143,7 +143,7 @@ impl LoopProblem {
         self
     }
 
-    /// By how much a guess misses the torque or power of the last pulley that has one, and the closure.
+    /// By how much a guess misses the torque or power of the first pulley that has one, and the closure.
     pub(super) fn missed_by(&self, guess: &dyn bvp::Guess) -> [f64; 2] {
         let segments = self.segments();
         let mut values = Vec::new();
@@ -161,8 +161,8 @@ impl LoopProblem {
         let ends = round.end_angles();
         let laid = self.plane.lay(self.coordinate(&p), &ends);
         let pulleys = 0..self.seats.len();
-        let loads = pulleys.filter_map(|pulley| self.unloaded(pulley, (&at, &ends), &p));
-        [loads.last().unwrap_or(0.0), round.closing(&laid)]
+        let mut loads = pulleys.filter_map(|pulley| self.unloaded(pulley, (&at, &ends), &p));
+        [loads.next().unwrap_or(0.0), round.closing(&laid)]
     }
 
     /// The torque, or the power, that a pulley has beyond that which it is to have.
