@@ -249,7 +249,7 @@ impl Search<'_> {
             match self.torque_margin_as(state, pulley, state) {
                 Ok(margin) => return margin,
                 // Bristles are softer than elastic friction that holds the belt so: with 1e9 N/m² `v-power` at 3000 W has margins of
-                // 5.5 and 8.7 with two of them, in 9 s.
+                // 5.5 and 8.7 with two of them.
                 Err(Lost { cause: LOCKS, .. }) if is_elastic => return None,
                 Err(_) => {}
             }

@@ -20,7 +20,7 @@ use crate::{Drive, Duty, FrictionLaw};
 /// at 55 W, the curve is not followed to its end.
 const SHARES: [f64; 3] = [0.5, 0.25, 0.1];
 /// Shares of the largest load with Coulomb friction from which that with elastic friction is raised, in turn: softer friction carries
-/// less. `v-power` carries 0.99 of it with 1e9 N/m², 0.93 with 1e8 and 0.28 with 1e7.
+/// less. `v-power` carries 0.98 of it with 1e9 N/m², 0.93 with 1e8 and 0.28 with 1e7.
 const BELOW: [f64; 7] = [0.97, 0.9, 0.8, 0.65, 0.5, 0.35, 0.2];
 
 /// A loop of two pulleys with Coulomb friction in place of scalar EPP friction.
