@@ -159,6 +159,18 @@ impl Drive {
         }
     }
 
+    /// A loop as the drive with two pulleys that it is with these tensions of both spans: if it is one but for its closure, and the
+    /// driven pulley takes power.
+    pub(crate) fn closed_by(&self, load: Load) -> Option<Self> {
+        let [_, _] = &self.pulleys[..] else {
+            return None;
+        };
+        let mut drive = self.with_load(load);
+        drive.pulleys[1 - self.driver()].duty = Duty::Driven;
+        let takes_power = load.slack.value() <= load.tight.value();
+        (takes_power && drive.two_pulleys().is_some()).then_some(drive)
+    }
+
     /// As [`Drive::two_pulleys`].
     ///
     /// # Panics

@@ -5,9 +5,7 @@ use super::scale::{HUB_LOAD, Scale};
 use super::{Answer, Group, Layout, Measure, Quantity, Subject, Value, warning, words};
 use crate::belt_loop as loops;
 use crate::input::Key;
-use crate::{
-    BeltKind, Closure, Drive, Duty, FrictionLaw, Load, PulleyState, SpanTension, SteadyState,
-};
+use crate::{BeltKind, Closure, Drive, FrictionLaw, Load, PulleyState, SpanTension, SteadyState};
 use std::f64::consts::PI;
 
 /// The groups `pulleys`, `spans` and `loop` of a steady state. That of a flat belt is solved again as a loop,
@@ -98,12 +96,7 @@ pub fn as_drive(drive: &Drive, state: &loops::LoopState) -> Option<Drive> {
         true => SpanTension::Tractive(span.tractive_tension),
         false => SpanTension::Belt(span.tension),
     });
-    let mut drive = drive.with_load(Load { slack, tight });
-    drive.pulleys[1 - driver].duty = Duty::Driven;
-    drive
-        .two_pulleys()
-        .filter(|_| slack.value() <= tight.value())?;
-    Some(drive)
+    drive.closed_by(Load { slack, tight })
 }
 
 /// How accurate the numbers of a state are.

@@ -19,7 +19,7 @@ use super::round::Target;
 use super::solve::Search;
 use super::start::Start;
 use super::unknowns::FLOW;
-use crate::{Drive, Duty, Load, SolveOptions, SpanTension};
+use crate::{Drive, Load, SolveOptions, SpanTension};
 use bvp::Guess;
 
 /// The most tensions that are tried: `v-power` without load and with scalar EPP friction of 1e8 N/m² takes four.
@@ -148,32 +148,20 @@ impl Tensions {
         })
     }
 
-    /// The drive with two pulleys that a loop is with these tensions, if it is one whose driver drives.
+    /// The drive with two pulleys that a loop is with these tensions, if it is one.
     fn drive(&self, as_loop: &Drive) -> Option<Drive> {
-        if !(0.0 < self.slack && self.slack <= self.tight) {
+        if self.slack <= 0.0 {
             return None;
         }
-        let mut drive = as_loop.with_load(Load {
-            slack: (self.kind)(self.slack),
-            tight: (self.kind)(self.tight),
-        });
-        for pulley in &mut drive.pulleys {
-            if !matches!(pulley.duty, Duty::Driver(_)) {
-                pulley.duty = Duty::Driven;
-            }
-        }
-        drive.two_pulleys().is_some().then_some(drive)
+        let [slack, tight] = [self.slack, self.tight].map(self.kind);
+        as_loop.closed_by(Load { slack, tight })
     }
 }
 
 /// Whether a loop is a drive with two pulleys with other tensions.
 pub(super) fn is_pair(as_loop: &Drive) -> bool {
-    let tensions = Tensions {
-        slack: 1.0,
-        tight: 1.0,
-        kind: SpanTension::Belt,
-    };
-    tensions.drive(as_loop).is_some()
+    let [slack, tight] = [1.0; 2].map(SpanTension::Belt);
+    as_loop.closed_by(Load { slack, tight }).is_some()
 }
 
 /// What a pulley of a loop is in the drive.

@@ -4,6 +4,7 @@ use super::super::Units;
 use super::super::laws::Asked;
 use super::super::path::{Effort, Path, Solved};
 use super::guess::{LoopGuess, tractive_tensions};
+use super::pair::in_any_way;
 use super::problem::LoopProblem;
 use super::round::Target;
 use crate::drive::layout::Layout;
@@ -117,6 +118,6 @@ impl Asked for Start<'_> {
         path: &mut Path<'_>,
         bristles: &Solved<LoopProblem>,
     ) -> Option<Solved<LoopProblem>> {
-        path.by_pair(self, bristles, super::pair::in_any_way)
+        path.by_pair(self, bristles, in_any_way)
     }
 }
