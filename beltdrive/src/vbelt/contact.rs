@@ -451,6 +451,35 @@ pub(super) mod tests {
     }
 
     #[test]
+    fn epp_blends_without_kinks() {
+        // At equal steps of the displacement, through zero and over the limit: second differences are those of a smooth function.
+        let step = 1e-4;
+        let friction = |share: f64, index: i32| {
+            let mut state = STATE;
+            state[LAW] = f64::from(index) * step;
+            contact(epp(share), 0.0, Regime::Either, &state).friction()
+        };
+        let bent = |share: f64| {
+            let second = |index| {
+                let at = |index| friction(share, index);
+                (at(index - 1) - 2.0 * at(index) + at(index + 1)).abs() / (step * step)
+            };
+            (-2000..2000).map(second).fold(0.0, f64::max)
+        };
+        let [half, most] = [0.5, 0.9].map(bent);
+        assert!(half < 100.0 && most < 2000.0, "{half} {most}");
+        assert!(bent(1.0) > 0.9 * 4.0 * 2.0 / step);
+        for (share, index) in [0.1, 0.5, 0.9, 0.999]
+            .into_iter()
+            .flat_map(|share| [-500, 0, 3, 700, 1500].map(|index| (share, index)))
+        {
+            let [blended, sharp, limit] = [share, 1.0, 0.0].map(|share| friction(share, index));
+            let off = (1.0 - share) * (1.0 / share + 0.3) * limit;
+            assert!((blended - sharp).abs() <= off, "{share} {index}");
+        }
+    }
+
+    #[test]
     fn epp_is_continuous_where_it_begins_to_slip() {
         let groove = groove(epp(1.0), 0.0);
         let slip = Contact::new(&groove, Regime::Slip, &STATE, OMEGA, FLOW);

@@ -230,6 +230,10 @@ pub(crate) struct Elastic<S = f64> {
     pub(super) weight: f64,
 }
 
+/// The rounding η of friction between elastic friction and its limit. With 0.1 and with 1 another one of ten random drives is not
+/// found along the share of elastic friction.
+const ROUNDED: f64 = 0.3;
+
 /// What is known about the friction on a segment of the contact. Only EPP friction, scalar or vector, distinguishes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Regime {
@@ -334,8 +338,33 @@ impl<S: Real> Groove<S> {
         match regime {
             Regime::Elastic | Regime::Reversed => friction,
             Regime::Slip | Regime::Stick => limit,
-            Regime::Either => limit.min(limit + (friction - limit) * elastic.weight),
+            Regime::Either => elastic.blended(friction, limit),
         }
+    }
+}
+
+impl<S> Elastic<S> {
+    /// The smaller of elastic friction and its limit, or what is between that and the limit, with a share w less than 1, as friction
+    /// without kinks: where the displacement changes its sign and where it comes to the limit,
+    ///
+    /// ```text
+    /// e² = (k_f u)² + ((1 − w)/w μ p)²          f = (μ p + e − √((μ p − e)² + (2 η (1 − w) μ p)²))/2
+    /// ```
+    fn blended<T: Real>(&self, friction: T, limit: T) -> T {
+        if self.weight == 1.0 {
+            return limit.min(limit + (friction - limit));
+        }
+        if self.weight == 0.0 {
+            return limit;
+        }
+        let left = 1.0 - self.weight;
+        let size = |one: T, other: T| {
+            // Both vanish where the belt enters.
+            (one * one + other * other + T::from_f64(f64::MIN_POSITIVE)).sqrt()
+        };
+        let rounded = size(friction, limit * (left / self.weight));
+        let apart = size(limit - rounded, limit * (2.0 * ROUNDED * left));
+        (limit + rounded - apart) * 0.5
     }
 }
 

@@ -60,7 +60,7 @@ impl Path<'_> {
         let drive = self.drive;
         let asked = AtLoad { drive, tight };
         let start = self.cold(&asked, asked.softest(), Effort::Start).ok()?;
-        self.elastic_bristles(&asked, &start).ok()
+        self.elastic_bristles(&asked, &start, asked.soft()).ok()
     }
 
     /// The drive under a load below `below`, SI, at which its driven pulley slips, and its state, if that is found below the limits

@@ -6,6 +6,7 @@
 
 use super::astray::Astray;
 use super::{Asked, START_STIFFNESS};
+use crate::FrictionLaw;
 use crate::vbelt::BeltProblem;
 use crate::vbelt::carried::Carried;
 use crate::vbelt::path::{Effort, Path, Solved, Stuck};
@@ -17,6 +18,19 @@ use crate::vbelt::zones::{Cut, Loose};
 /// it, one with it.
 const STIFFER: [f64; 3] = [10.0, 100.0, 1.0];
 
+/// The same of those that carry a load that the softest ones do not with the limit of EPP friction, which is less than that of
+/// Coulomb friction: along its share their curve turns back. Of three random drives that are found in none of the other ways one is
+/// found so, in 0.3 s in place of 11 s over other loads.
+const CARRYING: f64 = 3.0;
+/// How many times as stiff elastic friction is from which that of a drive is found where its share is not followed: of four such drives
+/// one is, in 0.15 s in place of 8 s.
+const HARDER: f64 = 10.0;
+/// The logarithm of w/(1 − w) with the least and with the largest share w on the way to EPP friction. From an equal share of both
+/// laws, 0, two of ten random drives are not begun, and from 4 the last step of one is not made.
+const SHARES: [f64; 2] = [-3.0, 5.0];
+/// The first step on that way: with half of it the same drives are found.
+const SHARE_STEP: f64 = 2.0;
+
 /// Where the belt may be taken to break loose on a pulley, in the order in which that is tried.
 const ORDER: [Loose; 4] = [Loose::Early, Loose::Late, Loose::Turning, Loose::Never];
 
@@ -27,8 +41,21 @@ impl Path<'_> {
         asked: &A,
         start: &Solved<A::Problem>,
     ) -> Option<Solved<A::Problem>> {
-        let soft = self.elastic_bristles(asked, start).ok()?;
+        let soft = self.elastic_bristles(asked, start, asked.soft()).ok()?;
         self.epp_by_bristles(asked, &soft)
+    }
+
+    /// EPP friction by way of bristles that carry more than the softest, if it is found so and friction obeys its law.
+    pub(super) fn epp_by_carrying_bristles<A: Asked>(
+        &mut self,
+        asked: &A,
+        start: &Solved<A::Problem>,
+    ) -> Option<Solved<A::Problem>> {
+        let stiffness = CARRYING * asked.soft();
+        let range = [asked.soft(), stiffness];
+        let stiff = self.with_bristles(start.clone(), range).ok()?;
+        let bristles = self.elastic_bristles(asked, &stiff, stiffness).ok()?;
+        self.epp_from_bristles(asked, &bristles, 1.0 / (CARRYING * START_STIFFNESS))
     }
 
     /// EPP friction from bristles with its limit.
@@ -98,21 +125,52 @@ impl Path<'_> {
         self.with_bristles(soft, [asked.soft(), STIFFER[0] * asked.soft()])
     }
 
-    /// From bristles to those with the limit of EPP friction.
+    /// From bristles of a stiffness in 1/m to those with the limit of EPP friction: by its share, or from friction that is stiffer.
     pub(super) fn elastic_bristles<A: Asked>(
         &mut self,
         asked: &A,
         start: &Solved<A::Problem>,
+        stiffness: f64,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        let epp = asked.problem(asked.law(), 0.0);
-        let epp = epp.with_bristles(asked.soft());
+        let with_law = |law| asked.problem(law, 0.0).with_bristles(stiffness);
+        let epp = with_law(asked.law());
         // Without its share EPP friction only adds the displacement.
         let unblended = epp.clone().with_epp_weight(0.0);
         let unblended = self
             .attempt(unblended, &Carried(start), Effort::Rough)
             .map_err(|cause| Stuck::before(&epp, start.clone(), cause))?;
-        let member = |_: &A::Problem, share| epp.clone().with_epp_weight(share);
-        self.follow(unblended, [0.0, 1.0], 1.0, Effort::Rough, member)
+        let stuck = match self.blend(&unblended, &epp) {
+            Err(stuck) => stuck,
+            blended => return blended,
+        };
+        let FrictionLaw::Epp { stiffness } = asked.law() else {
+            return Err(stuck);
+        };
+        let member = |_: &A::Problem, t: f64| with_law(FrictionLaw::Epp { stiffness: t.exp() });
+        let range = [(HARDER * stiffness).ln(), stiffness.ln()];
+        match self.attempt(member(&epp, range[0]), &Carried(&unblended), Effort::Rough) {
+            Ok(hard) => self.follow(hard, range, range[0] - range[1], Effort::Rough, member),
+            Err(_) => Err(stuck),
+        }
+    }
+
+    /// EPP friction from its state without its share: at once, or by growing that.
+    pub(super) fn blend<P: BeltProblem>(
+        &mut self,
+        unblended: &Solved<P>,
+        epp: &P,
+    ) -> Result<Solved<P>, Stuck<P>> {
+        let direct = self.attempt(epp.clone(), &Carried(unblended), Effort::Rough);
+        if let Ok(solved) = direct {
+            return Ok(solved);
+        }
+        let member = |_: &P, t: f64| epp.clone().with_epp_weight(1.0 / (1.0 + (-t).exp()));
+        let least = self
+            .attempt(member(epp, SHARES[0]), &Carried(unblended), Effort::Rough)
+            .map_err(|cause| Stuck::before(epp, unblended.clone(), cause))?;
+        let most = self.follow(least, SHARES, SHARE_STEP, Effort::Rough, member)?;
+        self.attempt(epp.clone(), &Carried(&most), Effort::Rough)
+            .map_err(|cause| Stuck::after(most, cause))
     }
 
     /// From the zones that bristles show to a state.
@@ -137,9 +195,9 @@ mod tests {
     use super::*;
     use crate::vbelt::groove::{ANGLE, INCLINATION, PENETRATION, TENSION};
     use crate::vbelt::laws::AtLoad;
-    use crate::vbelt::scaling::tests::kim;
+    use crate::vbelt::scaling::tests::{kim, v_belt};
     use crate::vbelt::{DRIVER, Regime};
-    use crate::{Drive, FrictionLaw};
+    use crate::{Drive, FrictionLaw, Load, SpanTension, TwoPulleys};
 
     #[test]
     fn a_belt_that_sticks_is_that_of_a_normalised_direction() {
@@ -173,5 +231,109 @@ mod tests {
         for (one, other) in exact.constants().into_iter().zip(other.constants()) {
             assert!((one / other - 1.0).abs() < 5e-7, "{one} {other}");
         }
+    }
+
+    /// A random drive with tensions of the belt: mass, both stiffnesses and the groove; friction; driver with its speed, driven
+    /// pulley and centre distance; the load.
+    fn random(
+        belt: [f64; 4],
+        [friction_coefficient, stiffness]: [f64; 2],
+        [driver_radius, driver_speed, driven_radius, centre_distance]: [f64; 4],
+        load: [f64; 2],
+    ) -> Drive {
+        let [slack, tight] = load.map(SpanTension::Belt);
+        Drive::from(TwoPulleys {
+            belt: v_belt(belt),
+            friction_coefficient,
+            driver_radius,
+            driver_speed,
+            driven_radius,
+            centre_distance,
+            load: Load { slack, tight },
+            ..kim(FrictionLaw::Epp { stiffness }, 0.25)
+        })
+    }
+
+    /// The angular speed of the driven pulley of such a drive and the Newton steps from nothing, its direction being a state.
+    fn found(drive: &Drive) -> (f64, usize) {
+        let mut path = Path::new(drive, 1e-6);
+        let solved = path.at_load(path.target()).unwrap();
+        assert!(solved.problem.has_direction());
+        let speed = solved.problem.scales().units.speed * solved.driven_speed();
+        (speed / drive.pair().driven_radius, path.stats.newton_steps)
+    }
+
+    #[test]
+    fn a_displacement_that_is_hardly_any_has_no_sign() {
+        // Behind the entry it is negative. With zones cut there the way takes 9225 Newton steps.
+        let drive = random(
+            [0.111_612_077_3, 362_267.998_3, 18_796_824.69, 0.323_152_9],
+            [0.502_603_384_9, 392.753e6],
+            [
+                0.045_662_365_36,
+                21.955_211_83,
+                0.042_391_255_21,
+                0.281_401_299_5,
+            ],
+            [863.466_054_4, 1_846.908_818],
+        );
+        let (speed, steps) = found(&drive);
+        assert!((speed - 24.350).abs() < 1e-3, "{speed}");
+        assert!(steps <= 130, "{steps}");
+    }
+
+    #[test]
+    fn the_share_of_elastic_friction_grows_without_kinks() {
+        // With kinks it is not followed, and the way over other loads takes 2377 Newton steps.
+        let drive = random(
+            [0.128_589_775, 10_250.707_49, 16_573_934.43, 0.216_164_8],
+            [0.304_787_726_4, 2.666_08e9],
+            [
+                0.020_403_883_96,
+                496.108_860_9,
+                0.038_933_104_42,
+                0.130_652_644_4,
+            ],
+            [51.222_205_504, 54.450_203_43],
+        );
+        let (speed, steps) = found(&drive);
+        assert!((speed - 258.875).abs() < 2e-2, "{speed}");
+        assert!(steps <= 320, "{steps}");
+    }
+
+    #[test]
+    fn elastic_friction_is_found_from_harder_friction() {
+        let drive = random(
+            [0.581_583_456_1, 12_748.931_94, 1_982_085.07, 0.352_327_4],
+            [0.578_701_862_4, 128.451e6],
+            [
+                0.209_663_596_1,
+                20.592_880_55,
+                0.281_975_844,
+                0.841_468_819_3,
+            ],
+            [116.585_425_6, 375.738_723_4],
+        );
+        let (speed, steps) = found(&drive);
+        assert!((speed - 14.9832).abs() < 1e-3, "{speed}");
+        assert!(steps <= 300, "{steps}");
+    }
+
+    #[test]
+    fn elastic_friction_is_found_from_bristles_that_carry_more() {
+        let drive = random(
+            [0.189_910_074_3, 71_520.817_83, 853_479.075_8, 0.342_833_0],
+            [0.264_772_797_9, 41.145e6],
+            [
+                0.057_081_483_01,
+                35.816_564_93,
+                0.211_467_497_3,
+                0.365_806_442_8,
+            ],
+            [67.404_500_8, 94.977_551_75],
+        );
+        let (speed, steps) = found(&drive);
+        assert!((speed - 9.2248).abs() < 1e-3, "{speed}");
+        assert!(steps <= 400, "{steps}");
     }
 }

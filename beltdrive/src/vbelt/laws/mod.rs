@@ -122,8 +122,12 @@ impl Asked for AtLoad<'_> {
         Guess::new(problem)
     }
 
-    fn beside(&self, path: &mut Path<'_>, _: &Solved) -> Option<Solved> {
-        path.locked_beside(self)
+    fn beside(&self, path: &mut Path<'_>, bristles: &Solved) -> Option<Solved> {
+        let FrictionLaw::Epp { stiffness } = self.law() else {
+            return None;
+        };
+        path.locked_beside(self, stiffness)
+            .or_else(|| path.epp_by_carrying_bristles(self, bristles))
     }
 }
 
@@ -190,7 +194,7 @@ impl Path<'_> {
         let start = self.cold(asked, asked.softest(), Effort::Start)?;
         match asked.law() {
             FrictionLaw::VectorEpp { .. } => self.enter_vector(asked, &start),
-            FrictionLaw::Epp { .. } => self.elastic_bristles(asked, &start),
+            FrictionLaw::Epp { .. } => self.elastic_bristles(asked, &start, asked.soft()),
             _ => Ok(start),
         }
     }

@@ -104,7 +104,7 @@ impl Path<'_> {
         asked: &A,
         unblended: &Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        let blended = self.blend(asked, unblended.clone())?;
+        let blended = self.blend_normalised(asked, unblended)?;
         let split = self.split_zones(blended, Effort::Rough)?;
         self.lower_epsilon(split, RESOLVED)
     }
@@ -116,7 +116,7 @@ impl Path<'_> {
         unblended: &Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
         let sharp = self.lower_epsilon(unblended.clone(), RESOLVED)?;
-        let blended = self.blend(asked, sharp)?;
+        let blended = self.blend_normalised(asked, &sharp)?;
         self.split_zones(blended, Effort::Rough)
     }
 
@@ -126,21 +126,18 @@ impl Path<'_> {
         asked: &A,
         unblended: &Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        let blended = self.blend(asked, unblended.clone())?;
+        let blended = self.blend_normalised(asked, unblended)?;
         self.lower_epsilon(blended, RESOLVED)
     }
 
     /// EPP friction at the same ε, by growing its share.
-    fn blend<A: Asked>(
+    fn blend_normalised<A: Asked>(
         &mut self,
         asked: &A,
-        unblended: Solved<A::Problem>,
+        unblended: &Solved<A::Problem>,
     ) -> Result<Solved<A::Problem>, Stuck<A::Problem>> {
-        let epp = asked
-            .problem(asked.law(), unblended.problem.smoothing())
-            .with_direction(false);
-        let member = |_: &A::Problem, share| epp.clone().with_epp_weight(share);
-        self.follow(unblended, [0.0, 1.0], 1.0, Effort::Rough, member)
+        let epp = asked.problem(asked.law(), unblended.problem.smoothing());
+        self.blend(unblended, &epp.with_direction(false))
     }
 
     /// The outcome of another way, or the way that came farther: to a state that only lacks a smaller ε.

@@ -10,7 +10,7 @@ use super::held::WayLeft;
 use super::rest::{Rest, Rim};
 use super::runge_kutta::{Next, Rates};
 use crate::vbelt::groove::{ANGLE, INCLINATION, LAW, PENETRATION};
-use crate::vbelt::zones::Sample;
+use crate::vbelt::zones::{Sample, displacement_felt};
 use crate::vbelt::{BREAKAWAY, Contact, Regime, limit_excess};
 
 /// Error of a step as a share of the slip. With 1e-5 the slowest of 100 random drives at 1.001 times the slack tension takes 9 s in
@@ -129,10 +129,11 @@ impl Rim {
         let [tension, theta, x, phi, direction, displacement] = point.states;
         let states = [tension, theta, x, phi, displacement];
         let contact = self.contact(&states);
+        let limit = limit_excess(&self.groove, Regime::Slip, &states, self.omega, self.flow);
         Sample {
             place: point.s,
-            limit: limit_excess(&self.groove, Regime::Slip, &states, self.omega, self.flow),
-            displacement,
+            limit,
+            displacement: displacement_felt(&self.groove, &states, limit),
             turn: match point.sticks {
                 true => -1.0,
                 false => {

@@ -22,7 +22,7 @@ use places::{ends, keep_junctions, locate};
 use samples::{CLEAR_TURN, pulled_from, samples};
 
 pub(super) use kinds::Zone;
-pub(super) use samples::Sample;
+pub(super) use samples::{Sample, displacement_felt};
 
 /// Nodes nearer than this to each other or to the ends of a zone, in its length, are left out.
 const NODE_MARGIN: f64 = 1e-4;
