@@ -352,6 +352,8 @@ impl<S> Elastic<S> {
     /// ```
     fn blended<T: Real>(&self, friction: T, limit: T) -> T {
         if self.weight == 1.0 {
+            // By its excess, since with the rounding of `limit.min(friction)` one branch of the drive of
+            // Kim (2009) with 8.1e6 N/m² takes 210 factorisations in place of 200 at most.
             return limit.min(limit + (friction - limit));
         }
         if self.weight == 0.0 {
