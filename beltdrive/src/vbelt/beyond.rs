@@ -13,7 +13,7 @@ use super::piece::PieceEnd;
 use super::state::describe;
 use super::tracer::Tracer;
 use super::zones::Refused;
-use crate::{BranchEnd, BranchEvent, EventKind, FrictionLaw, LeastSlip};
+use crate::{BranchEnd, BranchEvent, EventKind, FrictionLaw, LeastSlip, StateSummary};
 use continuation::{Direction, Point};
 
 /// How far beyond the last state the next one is sought, as shares of the way behind. The largest is that of a usual
@@ -30,7 +30,14 @@ const SAME: f64 = 1e-3;
 /// How far beyond the end of a branch a state of another one is sought, as shares of the value there. States are not found
 /// everywhere: of a drive whose first ones end at 112.1 N others were found at 112.4, 115 and 130 N, and none at 125 N; of one whose
 /// driver lets go of the belt that it holds at 966.9 N none up to 1934 N, and one at 3867 N, from which its limit of 15 912 N is found.
-const FARTHER: [f64; 6] = [3e-3, 0.01, 0.03, 0.1, 0.3, 3.0];
+pub(super) const FARTHER: [f64; 6] = [3e-3, 0.01, 0.03, 0.1, 0.3, 3.0];
+
+/// Whether the belt slips grossly on a pulley, so that there are no other states beyond the end of a branch.
+pub(super) fn slips_grossly(state: &StateSummary) -> bool {
+    let slips = [&state.driver, &state.driven].map(|pulley| pulley.least_slip);
+    let mut slips = slips.iter().flatten();
+    slips.any(|least| least.slip > LeastSlip::GROSS)
+}
 
 /// How a state is sought from nothing.
 type Way = fn(&mut Path<'_>) -> Option<Solved>;
@@ -120,11 +127,6 @@ impl Tracer<'_> {
     /// not be that of all states.
     pub(super) fn elsewhere(&mut self, end: &BranchEnd) -> Option<(f64, Solved)> {
         let last = self.points.last()?;
-        let slips = [&last.state.driver, &last.state.driven].map(|pulley| pulley.least_slip);
-        let slips_grossly = slips
-            .iter()
-            .flatten()
-            .any(|least| least.slip > LeastSlip::GROSS);
         let may_go_on = match (self.drive.law, end) {
             (FrictionLaw::Bristle { .. }, _) => false,
             (_, BranchEnd::NotConverged { .. }) => true,
@@ -134,7 +136,7 @@ impl Tracer<'_> {
             }
             _ => false,
         };
-        if !may_go_on || slips_grossly {
+        if !may_go_on || slips_grossly(&last.state) {
             return None;
         }
         let (value, before) = (last.value, last.arclength);

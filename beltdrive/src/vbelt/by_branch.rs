@@ -3,11 +3,12 @@
 //! Where a state is not found at its own load, nor from one near it with the same friction zones, it is sought along the
 //! branch of a rising or falling load, on which zones may change.
 
+use super::beyond::{FARTHER, slips_grossly};
 use super::found::{checked, not_carried};
 use super::limit::slips_far;
 use super::limits::upwards;
 use super::path::{Path, Solved};
-use super::starts::{HARDLY_ANY, start_loads};
+use super::starts::{HARDLY_ANY, StartLoad, start_loads};
 use super::tracer::{Tracer, Until};
 use crate::input::Key;
 use crate::{BranchEnd, Drive, FrictionLaw, RangeEnd, SolveError, SteadyState};
@@ -126,6 +127,12 @@ fn from_state(
                 && let RangeEnd::Limit(reason) = limit.reason
             {
                 let state = &limit.state;
+                if let FrictionLaw::Epp { .. } = drive.law
+                    && !slips_grossly(state)
+                    && let Some(state) = from_farther(path, start)
+                {
+                    return Some(Led::There(state));
+                }
                 let [speed, exit] = [state.driven.angular_speed, state.driver.inclination[1]];
                 let refused = not_carried(drive, limit.value, reason, [speed, exit]);
                 return Some(Led::ToLimit(limit.value, refused));
@@ -141,6 +148,23 @@ fn from_state(
     let solved = path.finish(solved).ok()?;
     let state = checked(path, solved, start).ok()?;
     Some(Led::There(Box::new(state)))
+}
+
+/// The state to which a load is lowered that is larger than the one that is asked for, which may itself not be found: a drive whose
+/// first states end at 1753.14 N has others from there to 2086.88 N, of which that at 1800 N is found from 1854 N.
+fn from_farther(path: &mut Path<'_>, start: Instant) -> Option<Box<SteadyState>> {
+    let asked = Key::load(path.drive).get(path.drive);
+    FARTHER.into_iter().find_map(|share| {
+        let load = StartLoad {
+            value: asked * (1.0 + share),
+            has_direction: true,
+        };
+        let (near, solved) = load.state(path)?;
+        match from_state(path, (&near, solved), start)? {
+            Led::There(state) => Some(state),
+            Led::ToLimit(..) => None,
+        }
+    })
 }
 
 /// The state at the smaller of two loads, SI, to which the branch from a state of the drive under the larger one leads, with
@@ -232,6 +256,26 @@ mod tests {
         let state = solve(&Drive::from(drive), &SolveOptions::default()).unwrap();
         let speed = state.driven.angular_speed;
         assert!((speed / 8.397_57 - 1.0).abs() < 1e-5, "{speed}");
+    }
+
+    #[test]
+    fn a_load_between_two_branches_is_lowered_from_a_larger_one() {
+        let law = FrictionLaw::Epp {
+            stiffness: 7.9906e7,
+        };
+        let drive = TwoPulleys {
+            belt: v_belt([0.150_527_75, 23_290.782_6, 1.611_748_19e7, 0.222_320_323]),
+            friction_coefficient: 0.293_666_66,
+            driver_radius: 0.026_293_783,
+            driver_speed: 293.877_126,
+            driven_radius: 0.062_089_964,
+            centre_distance: 0.205_130_998,
+            load: tractive(647.104_648, 1800.0),
+            ..kim(law, 0.25)
+        };
+        let state = solve(&Drive::from(drive), &SolveOptions::default()).unwrap();
+        let slips = [&state.driver, &state.driven].map(|pulley| pulley.least_slip.unwrap().slip);
+        assert!(slips[0] > 0.005 && slips[1] > 0.005, "{slips:?}");
     }
 
     #[test]
