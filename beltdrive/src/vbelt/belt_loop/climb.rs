@@ -7,6 +7,7 @@ use super::super::groove::Law;
 use super::super::laws::FOLLOWED;
 use super::super::path::{Effort, Solved};
 use super::super::piece::{FINER, WHOLE};
+use super::elastic_limit::is_largest;
 use super::levelling::Levelling;
 use super::pieces::{Lost, Place, ROUGH};
 use super::problem::LoopProblem;
@@ -109,7 +110,7 @@ pub(super) fn without_zones(law: Law) -> f64 {
 impl Search<'_> {
     /// How far all torques of a state can be raised until a pulley slips grossly: from the state itself if the direction
     /// of its friction is a state, and where that is not followed to its end from a rough one; `None` if that is not at
-    /// all, or farther than anything that was tried.
+    /// all, or farther than anything that was tried, or if the end may not be the largest load.
     pub(super) fn load_limit(
         &mut self,
         state: &Solved<LoopProblem>,
@@ -137,7 +138,9 @@ impl Search<'_> {
         let mut slipping = Slipping::judged(Judge::LimitPointOrSlip);
         let begin = Solved { problem, ..begin };
         let found = self.rise(&begin, DOUBLED, LARGEST_FACTOR, Some(&mut slipping))?;
-        Ok(found.map(|(mut limit, from)| {
+        let law = self.drive.law;
+        let largest = found.filter(|(limit, _)| is_largest(law, limit));
+        Ok(largest.map(|(mut limit, from)| {
             self.without_bristles(&mut limit, &from, Judge::LimitPointOrSlip);
             limit.top
         }))

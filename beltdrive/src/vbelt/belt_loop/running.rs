@@ -7,7 +7,7 @@ use super::super::groove::TENSION;
 use super::super::laws::Asked;
 use super::super::path::{Effort, Solved};
 use super::climb::{Climbed, Top};
-use super::elastic_limit::Unelastic;
+use super::elastic_limit::{Unelastic, is_largest};
 use super::guess::on_pitch_line;
 use super::like::Like;
 use super::problem::LoopProblem;
@@ -333,11 +333,15 @@ fn raise(
             })
         }
         Some(top) => Err(overloaded(search.drive, &top)),
-        // It may be less than the limit is known to.
-        None if limit.top.factor * (1.0 + limit.top.error) > 1.0 => Err(SolveError::Unreached {
-            reached: limit.top.factor,
-            cause: TOO_ABRUPT,
-        }),
+        // It may be less than the limit is known to, or than the largest load.
+        None if limit.top.factor * (1.0 + limit.top.error) > 1.0
+            || !is_largest(search.drive.law, &limit) =>
+        {
+            Err(SolveError::Unreached {
+                reached: limit.top.factor,
+                cause: TOO_ABRUPT,
+            })
+        }
         None => Err(overloaded(search.drive, &limit.top)),
     }
 }
