@@ -56,10 +56,13 @@ pub(super) fn by_branch(
         };
         match from_state(path, (&near, solved), start) {
             Some(Led::There(state)) => return Some(Ok(*state)),
-            Some(Led::ToLimit(limit, refused)) if may_go_on && refusal.is_none() => {
+            Some(Led::ToLimit(limit, refused, slips)) if may_go_on && refusal.is_none() => {
+                if !slips && let Some(state) = from_farther(path, start) {
+                    return Some(Ok(*state));
+                }
                 refusal = Some((limit, refused));
             }
-            Some(Led::ToLimit(_, refused)) => return Some(Err(refused)),
+            Some(Led::ToLimit(_, refused, _)) => return Some(Err(refused)),
             // There are states beyond the limit, which lead nowhere.
             None if refusal.is_some() => return None,
             None => {}
@@ -90,7 +93,7 @@ fn from_slip(path: &mut Path<'_>, start: Instant) -> Option<Result<SteadyState, 
     let (near, solved) = path.slipping(&idle, asked)?;
     match from_state(path, (&near, solved), start)? {
         Led::There(state) => Some(Ok(*state)),
-        Led::ToLimit(limit, refused) => {
+        Led::ToLimit(limit, refused, _) => {
             let mut slips = GREAT_SLIPS.into_iter();
             let goes_on = carried(limit)
                 && slips.any(|slip| path.at_slip(&idle, slip, [limit, asked]).is_some());
@@ -103,8 +106,8 @@ fn from_slip(path: &mut Path<'_>, start: Instant) -> Option<Result<SteadyState, 
 enum Led {
     /// To the load that is asked for.
     There(Box<SteadyState>),
-    /// To the limit of the load, SI, which is smaller.
-    ToLimit(f64, SolveError),
+    /// To the limit of the load, SI, which is smaller, and whether a pulley slips grossly there.
+    ToLimit(f64, SolveError, bool),
 }
 
 /// Where the branch of the load leads from a state of the drive under another load, if anywhere.
@@ -127,15 +130,10 @@ fn from_state(
                 && let RangeEnd::Limit(reason) = limit.reason
             {
                 let state = &limit.state;
-                if let FrictionLaw::Epp { .. } = drive.law
-                    && !slips_grossly(state)
-                    && let Some(state) = from_farther(path, start)
-                {
-                    return Some(Led::There(state));
-                }
                 let [speed, exit] = [state.driven.angular_speed, state.driver.inclination[1]];
                 let refused = not_carried(drive, limit.value, reason, [speed, exit]);
-                return Some(Led::ToLimit(limit.value, refused));
+                let slips = slips_grossly(state);
+                return Some(Led::ToLimit(limit.value, refused, slips));
             }
             (up.end == BranchEnd::Target).then_some(up.tracer.near)
         }
