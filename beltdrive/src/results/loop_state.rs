@@ -44,7 +44,8 @@ pub struct LoopState {
     pub tensioner: Option<TensionerState>,
     /// How far all torques can be raised with Coulomb friction; `None` without torques, or if the tensioner
     /// has no equilibrium up to there. Of a V-belt, with its
-    /// own friction law, [`solve_with_margins`](crate::belt_loop::solve_with_margins) finds it.
+    /// own friction law, [`solve_with_margins`](crate::belt_loop::solve_with_margins) finds it; `None` if what it finds may not
+    /// be the largest.
     pub load_limit: Option<LoadLimit>,
     /// The verified invariants, each with its relative deviation.
     pub checks: Vec<Check>,
