@@ -139,13 +139,20 @@ fn from_state(
         }
         false => lowered(path, (near, solved), [asked, value]).map(Some),
     };
-    let (reached, solved) = near.flatten()?;
-    if reached != asked {
+    at_asked(path, near.flatten()?, start).map(Led::There)
+}
+
+/// A state to which a branch has led as the one that is asked for, if its load, SI, is that.
+fn at_asked(
+    path: &mut Path<'_>,
+    (reached, solved): (f64, Solved),
+    start: Instant,
+) -> Option<Box<SteadyState>> {
+    if reached != Key::load(path.drive).get(path.drive) {
         return None;
     }
     let solved = path.finish(solved).ok()?;
-    let state = checked(path, solved, start).ok()?;
-    Some(Led::There(Box::new(state)))
+    checked(path, solved, start).ok().map(Box::new)
 }
 
 /// The state to which a load is lowered that is larger than the one that is asked for, which may itself not be found: a drive whose
@@ -158,10 +165,8 @@ fn from_farther(path: &mut Path<'_>, start: Instant) -> Option<Box<SteadyState>>
             has_direction: true,
         };
         let (near, solved) = load.state(path)?;
-        match from_state(path, (&near, solved), start)? {
-            Led::There(state) => Some(state),
-            Led::ToLimit(..) => None,
-        }
+        let led = lowered(path, (&near, solved), [asked, load.value])?;
+        at_asked(path, led, start)
     })
 }
 

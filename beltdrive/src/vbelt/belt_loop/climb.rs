@@ -7,7 +7,6 @@ use super::super::groove::Law;
 use super::super::laws::FOLLOWED;
 use super::super::path::{Effort, Solved};
 use super::super::piece::{FINER, WHOLE};
-use super::elastic_limit::is_largest;
 use super::levelling::Levelling;
 use super::pieces::{Lost, Place, ROUGH};
 use super::problem::LoopProblem;
@@ -138,8 +137,7 @@ impl Search<'_> {
         let mut slipping = Slipping::judged(Judge::LimitPointOrSlip);
         let begin = Solved { problem, ..begin };
         let found = self.rise(&begin, DOUBLED, LARGEST_FACTOR, Some(&mut slipping))?;
-        let law = self.drive.law;
-        let largest = found.filter(|(limit, _)| is_largest(law, limit));
+        let largest = found.filter(|(limit, _)| limit.is_largest());
         Ok(largest.map(|(mut limit, from)| {
             self.without_bristles(&mut limit, &from, Judge::LimitPointOrSlip);
             limit.top

@@ -6,6 +6,7 @@
 //! from there is short. A state there is that of the drive with the tensions of the loop with Coulomb friction (see `pair`).
 
 use super::super::BeltProblem;
+use super::super::groove::Law;
 use super::super::path::{Effort, Solved};
 use super::climb::{DOUBLED, LARGEST_FACTOR, Limit};
 use super::pair::{in_any_way, is_pair};
@@ -98,8 +99,8 @@ impl Search<'_> {
         self.by_pair(whole, &near, in_any_way).filter(is_drive)
     }
 
-    /// The largest load above that of a state. Beyond a limit point the load rises to it, too: near that of four of 16 random loops
-    /// elastic friction is found only so, deep in a groove.
+    /// The largest load above that of a state. Beyond a limit point the load rises to it, too, so that the state may be one of a
+    /// slow pulley or a steep belt: those found near the largest load of three of 16 random loops are.
     fn rise_to_limit(
         &mut self,
         begin: Solved<LoopProblem>,
@@ -111,15 +112,17 @@ impl Search<'_> {
     }
 }
 
-/// Whether the end of a curve is the largest load. Where no pulley slips grossly and the belt does not overhang, that of one with
-/// scalar EPP friction may be a place where an arc vanishes: one of 16 random loops was told to carry 1.81 times its load, and
-/// carries 33.4 times that with Coulomb friction.
-pub(super) fn is_largest(law: FrictionLaw, limit: &Limit) -> bool {
-    match law {
-        FrictionLaw::Epp { .. } if limit.at.problem.has_direction() => {
-            limit.top.overhangs || is_slipping(&limit.at)
+impl Limit {
+    /// Whether the end of a curve is the largest load. Where no pulley slips grossly and the belt does not overhang, that of one
+    /// with scalar EPP friction may be a place where an arc vanishes: one random loop was told to carry 8.652 times a load of
+    /// which it carries 71.57 times.
+    pub(super) fn is_largest(&self) -> bool {
+        match self.at.problem.law() {
+            Law::Sliding {
+                elastic: Some(_), ..
+            } => self.top.overhangs || is_slipping(&self.at),
+            _ => true,
         }
-        _ => true,
     }
 }
 

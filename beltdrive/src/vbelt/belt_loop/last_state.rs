@@ -2,7 +2,7 @@
 
 use super::super::path::{Effort, Solved};
 use super::climb::{DOUBLED, LARGEST_FACTOR, Limit};
-use super::elastic_limit::{Unelastic, is_largest};
+use super::elastic_limit::Unelastic;
 use super::problem::LoopProblem;
 use super::running::{is_drive, overloaded};
 use super::solve::{Found, Search};
@@ -30,7 +30,7 @@ pub(crate) fn last_state(drive: &Drive, tolerance: f64) -> Option<LastState> {
     let found = elastic.or_else(|| {
         let begin = running.followed(&mut search)?;
         let risen = search.rise(&begin, DOUBLED, LARGEST_FACTOR, None).ok()?;
-        risen.filter(|(limit, _)| is_largest(drive.law, limit))
+        risen.filter(|(limit, _)| limit.is_largest())
     });
     let (limit, from) = found?;
     let top = limit.top;

@@ -7,7 +7,7 @@ use super::super::groove::TENSION;
 use super::super::laws::Asked;
 use super::super::path::{Effort, Solved};
 use super::climb::{Climbed, Top};
-use super::elastic_limit::{Unelastic, is_largest};
+use super::elastic_limit::Unelastic;
 use super::guess::on_pitch_line;
 use super::like::Like;
 use super::problem::LoopProblem;
@@ -36,7 +36,6 @@ const STEEP: f64 = 1.3;
 pub(super) const SLOW: f64 = 0.5;
 /// Share of a load under which the slip tells whether it begins at rest.
 const LESS: f64 = 0.9;
-const TOO_ABRUPT: &str = "friction changes too abruptly so near to the largest load";
 
 /// A running loop.
 pub(super) struct Running<'l> {
@@ -183,10 +182,7 @@ fn raised<'l>(
         let raised = match raise(search, share, &rough) {
             // Another curve leads to more.
             Err(SolveError::Overloaded { load_factor, .. }) if is_carried => {
-                return Err(SolveError::Unreached {
-                    reached: load_factor,
-                    cause: TOO_ABRUPT,
-                });
+                return Err(too_abrupt(load_factor));
             }
             outcome => outcome?,
         };
@@ -327,22 +323,22 @@ fn raise(
         Some(top) if top.factor > 1.0 => {
             let reached = limit.top.factor;
             let sharper = search.climb_sharper(*limit, 1.0);
-            sharper.ok_or(SolveError::Unreached {
-                reached,
-                cause: TOO_ABRUPT,
-            })
+            sharper.ok_or(too_abrupt(reached))
         }
         Some(top) => Err(overloaded(search.drive, &top)),
         // It may be less than the limit is known to, or than the largest load.
-        None if limit.top.factor * (1.0 + limit.top.error) > 1.0
-            || !is_largest(search.drive.law, &limit) =>
-        {
-            Err(SolveError::Unreached {
-                reached: limit.top.factor,
-                cause: TOO_ABRUPT,
-            })
+        None if limit.top.factor * (1.0 + limit.top.error) > 1.0 || !limit.is_largest() => {
+            Err(too_abrupt(limit.top.factor))
         }
         None => Err(overloaded(search.drive, &limit.top)),
+    }
+}
+
+/// The load may be below the largest, but is not reached.
+fn too_abrupt(reached: f64) -> SolveError {
+    SolveError::Unreached {
+        reached,
+        cause: "friction changes too abruptly so near to the largest load",
     }
 }
 
