@@ -14,12 +14,12 @@ mod samples;
 use super::path::Solved;
 use super::{ANGLE, BeltProblem, DriveProblem, Law, MAX_STATES, Regime};
 use kinds::{
-    SHORTEST_BEHIND_STICK, SHORTEST_CUT, SHORTEST_ZONE, cut_at_breakaway, cut_at_turn,
-    friction_zones, is_cut, join, join_elastic, one_zone, prolong_elastic, stick_between, sticks,
-    without_kinks, without_short_elastic,
+    SHORTEST_BEHIND_STICK, SHORTEST_CUT, SHORTEST_CUT_LOCKED, SHORTEST_ZONE, cut_at_breakaway,
+    cut_at_turn, friction_zones, is_cut, join, join_elastic, one_zone, prolong_elastic,
+    stick_between, sticks, without_kinks, without_short_elastic,
 };
 use places::{ends, keep_junctions, locate};
-use samples::{CLEAR_TURN, pulled_from, samples};
+use samples::{CLEAR_TURN, locks, pulled_from, samples};
 
 pub(super) use kinds::Zone;
 pub(super) use samples::{Sample, displacement_felt};
@@ -239,6 +239,9 @@ fn cut<P: BeltProblem>(
         * match (sticks(&zones), cuts.next(), cuts.next()) {
             (true, Some(_), _) => SHORTEST_BEHIND_STICK,
             (true, ..) | (.., Some(_)) => SHORTEST_ZONE,
+            _ if matches!(groove.law, Law::Sliding { .. }) && locks(&samples) => {
+                SHORTEST_CUT_LOCKED
+            }
             _ => SHORTEST_CUT,
         };
     let mut zones = match groove.law {

@@ -1,6 +1,7 @@
 //! What is seen of a solution along a pulley.
 
 use super::Loose;
+use crate::LeastSlip;
 use crate::vbelt::path::Solved;
 use crate::vbelt::{
     BREAKAWAY, BeltProblem, Contact, Groove, LAW, Law, MAX_STATES, Regime, beyond_breakaway,
@@ -49,6 +50,8 @@ pub(in crate::vbelt) struct Sample {
     pub(in crate::vbelt) turn: f64,
     /// Direction of the traction, continuous along the pulley.
     pub(in crate::vbelt) direction: f64,
+    /// Slip of the belt, per unit of its own speed.
+    pub(in crate::vbelt) slip: f64,
     /// Whether friction holds the belt.
     pub(in crate::vbelt) sticks: bool,
     /// Power that the belt gains from scalar elastic friction, which pulls with the slip, per length; zero where it loses some.
@@ -102,6 +105,7 @@ pub(super) fn samples<P: BeltProblem>(
                 _ => 1.0,
             };
             let limit = excess(groove, regime, y, omega, flow);
+            let [along, up] = contact.slip;
             samples.push(Sample {
                 place: before + s * length,
                 limit,
@@ -111,6 +115,7 @@ pub(super) fn samples<P: BeltProblem>(
                     let turns = (last.direction - direction) / TAU;
                     direction + turns.round() * TAU
                 }),
+                slip: along.hypot(up),
                 sticks: is_at_rest || is_held(groove.law, share),
                 gained: match groove.elastic().is_some() && regime.is_elastic() {
                     true => (-contact.friction_power_densities().iter().sum::<f64>()).max(0.0),
@@ -189,6 +194,11 @@ fn keep_first_stick(samples: &mut [Sample], loose: Loose) {
     for (index, sample) in samples.iter_mut().enumerate() {
         sample.sticks &= (first..first + count).contains(&index) && sample.place < latest;
     }
+}
+
+/// Whether the belt is seen to lock, at full friction or held by it.
+pub(super) fn locks(samples: &[Sample]) -> bool {
+    samples.iter().any(|sample| sample.slip < LeastSlip::LOCKED)
 }
 
 /// Where elastic friction begins to pull with the slip, if it does: in front of where it pulls most.
