@@ -25,6 +25,28 @@ fn with_friction(friction_coefficient: f64) -> Drive {
     })
 }
 
+/// A V-belt with a mass, an axial and a radial stiffness and a half-angle of the groove, SI.
+fn v_belt([mass, axial, radial, half_angle]: [f64; 4]) -> Belt {
+    Belt {
+        mass_per_length: mass,
+        axial_stiffness: axial,
+        kind: BeltKind::V(VBelt {
+            radial_stiffness: radial,
+            half_angle,
+            height: None,
+        }),
+        ..kim(FrictionLaw::Coulomb).belt
+    }
+}
+
+/// A load by two tractive tensions, N.
+fn tractive(slack: f64, tight: f64) -> Load {
+    Load {
+        slack: SpanTension::Tractive(slack),
+        tight: SpanTension::Tractive(tight),
+    }
+}
+
 fn key(drive: &Drive, path: &str) -> Key {
     Key::all(drive).find(|key| key.path() == path).unwrap()
 }
@@ -119,26 +141,14 @@ fn a_branch_from_near_no_load_takes_few_steps() {
 fn a_branch_of_a_belt_that_locks_in_a_stiff_groove_takes_few_steps() {
     // The belt is lifted within 2.4e-3 of the contact. With a turn that is not cut there are 177 points.
     let drive = Drive::from(TwoPulleys {
-        belt: Belt {
-            mass_per_length: 0.082_879_73,
-            axial_stiffness: 39_306.55,
-            kind: BeltKind::V(VBelt {
-                radial_stiffness: 2.662_816_3e7,
-                half_angle: 0.301_887_13,
-                height: None,
-            }),
-            ..kim(FrictionLaw::Coulomb).belt
-        },
+        belt: v_belt([0.082_879_73, 39_306.55, 2.662_816_3e7, 0.301_887_13]),
         friction_coefficient: 0.448_576_24,
         law: FrictionLaw::Coulomb,
         driver_radius: 0.317_597_62,
         driver_speed: 138.222_43,
         driven_radius: 0.424_785_09,
         centre_distance: 2.500_685_4,
-        load: Load {
-            slack: SpanTension::Tractive(28.838_88),
-            tight: SpanTension::Tractive(42.655_224),
-        },
+        load: tractive(28.838_88, 42.655_224),
     });
     let branch = traced(&drive, TIGHT, [42.655_224, 90.0]);
     assert_eq!(branch.end, BranchEnd::Target);
@@ -176,25 +186,13 @@ fn a_branch_passes_the_load_at_which_the_slip_of_a_turn_changes_its_sense() {
 fn the_end_of_a_turn_is_no_limit() {
     // At 20 453 N the friction on the driver, which turns to lift the belt, ceases to pass the middle of that turn.
     let drive = Drive::from(TwoPulleys {
-        belt: Belt {
-            mass_per_length: 0.062_728_92,
-            axial_stiffness: 163_474.3,
-            kind: BeltKind::V(VBelt {
-                radial_stiffness: 1_230_142.4,
-                half_angle: 0.271_928_9,
-                height: None,
-            }),
-            ..kim(FrictionLaw::Coulomb).belt
-        },
+        belt: v_belt([0.062_728_92, 163_474.3, 1_230_142.4, 0.271_928_9]),
         friction_coefficient: 0.344_997_4,
         driver_radius: 0.390_039_15,
         driver_speed: 41.242_612,
         driven_radius: 0.278_158_05,
         centre_distance: 3.286_365_9,
-        load: Load {
-            slack: SpanTension::Tractive(334.413_82),
-            tight: SpanTension::Tractive(827.658_5),
-        },
+        load: tractive(334.413_82, 827.658_5),
         law: FrictionLaw::Coulomb,
     });
     let options = SolveOptions::default();
@@ -211,25 +209,13 @@ fn the_end_of_a_turn_is_no_limit() {
 fn a_limit_point_where_the_slip_of_a_turn_changes_its_sense_on_one_pulley_is_none() {
     // At 491.3 N on the driver, while the driven pulley slips. The largest load is 606 N.
     let drive = Drive::from(TwoPulleys {
-        belt: Belt {
-            mass_per_length: 0.099_591_426_7,
-            axial_stiffness: 25_018.398_58,
-            kind: BeltKind::V(VBelt {
-                radial_stiffness: 1_203_507.338,
-                half_angle: 0.265_264_859,
-                height: None,
-            }),
-            ..kim(FrictionLaw::Coulomb).belt
-        },
+        belt: v_belt([0.099_591_426_7, 25_018.398_58, 1_203_507.338, 0.265_264_859]),
         friction_coefficient: 0.555_808_113_3,
         driver_radius: 0.037_684_894_26,
         driver_speed: 31.405_708_78,
         driven_radius: 0.044_084_830_11,
         centre_distance: 0.224_922_522_1,
-        load: Load {
-            slack: SpanTension::Tractive(362.796_218),
-            tight: SpanTension::Tractive(400.0),
-        },
+        load: tractive(362.796_218, 400.0),
         law: FrictionLaw::Coulomb,
     });
     let key = key(&drive, TIGHT);
@@ -452,25 +438,13 @@ fn the_limit_of_a_drive_whose_branch_takes_many_steps_is_found() {
         stiffness: 3_529.713_3,
     };
     let drive = Drive::from(TwoPulleys {
-        belt: Belt {
-            mass_per_length: 0.511_404_95,
-            axial_stiffness: 12_007.028_5,
-            kind: BeltKind::V(VBelt {
-                radial_stiffness: 10_176_960.4,
-                half_angle: 0.247_959_202,
-                height: None,
-            }),
-            ..kim(law).belt
-        },
+        belt: v_belt([0.511_404_95, 12_007.028_5, 10_176_960.4, 0.247_959_202]),
         friction_coefficient: 0.712_102_06,
         driver_radius: 0.356_365_592,
         driver_speed: 33.123_239_1,
         driven_radius: 0.280_168_979,
         centre_distance: 1.912_698_34,
-        load: Load {
-            slack: SpanTension::Tractive(262.263_879),
-            tight: SpanTension::Tractive(393.337_016),
-        },
+        load: tractive(262.263_879, 393.337_016),
         law,
     });
     let options = SolveOptions::default();
