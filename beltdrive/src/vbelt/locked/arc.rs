@@ -141,7 +141,7 @@ impl Rim {
                 }
             },
             direction,
-            slip: contact.slip[0].hypot(contact.slip[1]),
+            slip: contact.slip_norm,
             sticks: point.sticks,
             gained: 0.0,
             share: 1.0,

@@ -50,7 +50,7 @@ pub(in crate::vbelt) struct Sample {
     pub(in crate::vbelt) turn: f64,
     /// Direction of the traction, continuous along the pulley.
     pub(in crate::vbelt) direction: f64,
-    /// Slip of the belt, per unit of its own speed.
+    /// Normalised slip |e|.
     pub(in crate::vbelt) slip: f64,
     /// Whether friction holds the belt.
     pub(in crate::vbelt) sticks: bool,
@@ -105,7 +105,6 @@ pub(super) fn samples<P: BeltProblem>(
                 _ => 1.0,
             };
             let limit = excess(groove, regime, y, omega, flow);
-            let [along, up] = contact.slip;
             samples.push(Sample {
                 place: before + s * length,
                 limit,
@@ -115,7 +114,7 @@ pub(super) fn samples<P: BeltProblem>(
                     let turns = (last.direction - direction) / TAU;
                     direction + turns.round() * TAU
                 }),
-                slip: along.hypot(up),
+                slip: contact.slip_norm,
                 sticks: is_at_rest || is_held(groove.law, share),
                 gained: match groove.elastic().is_some() && regime.is_elastic() {
                     true => (-contact.friction_power_densities().iter().sum::<f64>()).max(0.0),
