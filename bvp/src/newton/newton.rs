@@ -24,6 +24,12 @@ const KEEP_JACOBIAN_BELOW: f64 = 0.25;
 /// The shortest damped step: below it the path of the iteration has ended at a singular Jacobian.
 const SMALLEST_DAMPING: f64 = 1e-5;
 
+/// So many steps, one after the other, that are all damped by less than this lead nowhere. Of 2700 solves of random belt drives that
+/// converge two have such a row, both behind a mesh on which the iteration fails; those that fail take a fifth of all Newton steps
+/// behind it.
+const MOST_SHORT_STEPS: usize = 8;
+const SHORT_DAMPING: f64 = 0.03;
+
 /// The buffers of the iteration, and what it learns.
 pub(crate) struct Newton {
     /// The affine-invariant curvature 2 ‖Δx̄‖ / ‖Δx‖² of the last full step with a new Jacobian. It
@@ -76,6 +82,7 @@ impl Newton {
         let mut fresh = true;
         let mut size = norm(x, &self.delta);
         let mut damping = 1.0;
+        let mut short_steps = 0;
         // Corrections within two digits of the tolerance that no longer shrink, or not as fast as those of
         // Newton's method do so near a solution, are rounding, unless they are larger than half of the digits:
         // rounding amplified by more is not told from a failure to converge.
@@ -106,6 +113,13 @@ impl Newton {
             std::mem::swap(x, &mut self.trial);
             self.moved += damping * size.mean;
             stats.newton_steps += 1;
+            short_steps = match damping < SHORT_DAMPING {
+                true => short_steps + 1,
+                false => 0,
+            };
+            if short_steps == MOST_SHORT_STEPS {
+                return Err(self.no_convergence(collocation, x, size));
+            }
             if fresh && damping == 1.0 {
                 self.curvature = 2.0 * shrunk.mean / (size.mean * size.mean);
             }
