@@ -160,7 +160,7 @@ fn a_branch_passes_the_load_at_which_the_slip_of_a_turn_changes_its_sense() {
     // On the driver at 100.54 N. The place of the turn turns back there, and the branch came back to its start. In ever
     // shorter steps towards that load the branches took 191, 148 and 258 factorisations.
     for (law, from, most) in [
-        (FrictionLaw::Coulomb, 100.01, 140),
+        (FrictionLaw::Coulomb, 100.01, 155),
         (FrictionLaw::Coulomb, 100.53, 110),
         (FrictionLaw::Epp { stiffness: 8.1e6 }, 100.3, 200),
     ] {

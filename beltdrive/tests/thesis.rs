@@ -379,7 +379,7 @@ fn the_coulomb_drive_ends_in_an_overhang_at_8221_newtons() {
 fn heavy_loads_take_few_newton_steps() {
     // A driven pulley that has lost half of its speed may be in a state to which no load leads from rest. By a branch from a
     // smaller load these took 160, 177 and 85 steps.
-    for (law, steps) in [(FrictionLaw::Coulomb, 75), (EPP, 100), (BRISTLE, 50)] {
+    for (law, steps) in [(FrictionLaw::Coulomb, 75), (EPP, 105), (BRISTLE, 50)] {
         let state = state(law, 7000.0);
         assert!(state.driven.angular_speed < 0.5 * state.driver.angular_speed);
         assert!(state.convergence.newton_iterations <= steps);

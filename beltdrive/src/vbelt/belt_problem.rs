@@ -52,15 +52,20 @@ pub(crate) trait BeltProblem: Problem + Clone {
         LAW..groove.map_or(LAW, Groove::states)
     }
 
-    /// Scaled angular speed of a pulley.
-    fn omega<T: Real>(&self, pulley: usize, p: &[T]) -> T;
+    /// Speed ν of the pitch circle of a pulley over that of the unstretched belt.
+    fn rim_speed<T: Real>(&self, pulley: usize, p: &[T]) -> T;
 
     /// The sense of friction along a pulley: 1 where the belt drives it, −1 where it drives the belt, 0 where it
     /// idles.
     fn sense(&self, pulley: usize) -> f64;
 
-    /// Scaled mass flow.
+    /// Scaled mass flow, and speed of the unstretched belt.
     fn flow<T: Real>(&self, p: &[T]) -> T;
+
+    /// Scaled angular speed of a pulley.
+    fn omega<T: Real>(&self, pulley: usize, p: &[T]) -> T {
+        self.rim_speed(pulley, p) * self.flow(p)
+    }
 
     /// Index of the length of the first segment among the parameters.
     fn first_length(&self) -> usize;
@@ -254,10 +259,10 @@ pub(super) fn in_groove<S: Real, T: Over<S>>(
     p: &[T],
     mut zero: impl FnMut(T),
 ) {
-    let (omega, flow) = (problem.omega(pulley, p), problem.flow(p));
+    let (rim_speed, flow) = (problem.rim_speed(pulley, p), problem.flow(p));
     let contact = |segment, y: &[T]| {
         let regime = problem.regime(segment);
-        Contact::new(groove, regime, y, omega, flow)
+        Contact::new(groove, regime, y, rim_speed, flow)
     };
     let zones = problem.zones(pulley);
     let (entry, exit) = (at.start(zones.start), at.end(zones.end - 1));
@@ -296,7 +301,7 @@ pub(super) fn in_groove<S: Real, T: Over<S>>(
         }
         match (before, behind) {
             (Regime::Stick, _) => {}
-            (before, Regime::Stick) => zero(hold_excess(groove, before, y, omega, flow)),
+            (before, Regime::Stick) => zero(hold_excess(groove, before, y, rim_speed, flow)),
             _ if problem.is_cut(next) => zero(
                 match (next + 1..zones.end).any(|next| problem.is_cut(next)) {
                     true => breakaway_excess(y[LAW]),
@@ -312,9 +317,9 @@ pub(super) fn in_groove<S: Real, T: Over<S>>(
             // An elastic zone without length would meet it, too, and twice.
             (Regime::Elastic, _) if matches!(groove.law, Law::Vector { .. }) => {
                 let length = problem.length(next - 1, p);
-                zero(limit_excess(groove, before, y, omega, flow) / (length * length));
+                zero(limit_excess(groove, before, y, rim_speed, flow) / (length * length));
             }
-            _ => zero(limit_excess(groove, before, y, omega, flow)),
+            _ => zero(limit_excess(groove, before, y, rim_speed, flow)),
         }
     }
 }

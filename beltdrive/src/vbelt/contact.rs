@@ -7,6 +7,18 @@
 //! e_t = v_t = cos θ − ω r/V          e_w = v_r/cos β = sin θ/cos β
 //! ```
 //!
+//! Where the belt locks `e_t` is 1e-9 and less, a difference of numbers near 1, and its direction turns as soon as Newton's
+//! method is off by more. That is off by what is not linear in its unknowns, which are therefore chosen so that the difference is
+//! linear: the speed of the pitch circle over that of the unstretched belt, ν = ω R/G, and ξ = ν x in place of the penetration x,
+//!
+//! ```text
+//! V e_t/G = 1 − ν + T/EA + ξ − (1 + T/EA) (1 − cos θ)          x = ξ/m(ν)
+//! ```
+//!
+//! with m = ν. The penetration does not vanish with the speed of a pulley that stands, so that m = (ν² + a²)/(2a) where ν is less
+//! than a, which goes on from ν with the same slope. With ω, G and x as unknowns the largest loads of 57 random drives with Coulomb
+//! friction take 151 factorisations (median, 376 at nine of ten, 755 at most) in place of 97 (153, 233).
+//!
 //! Each face carries the normal load p and the traction q against the slip, both per length.
 //! Balance across the belt, outward load n and retarding load t of both faces together:
 //!
@@ -33,6 +45,10 @@ use super::{Groove, Law, Over, Regime, Strand};
 use bvp::Real;
 use std::f64::consts::PI;
 
+/// The rim speed a below which m is not ν: no belt locks on so slow a pulley. With 0.5 the drive of Kim (2009) at 7000 N, whose
+/// driven pulley has 0.39, took 10 of 88 Newton steps in that place.
+const SLOW: f64 = 0.2;
+
 /// All local quantities at one point of the contact, scaled.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Contact<T> {
@@ -44,8 +60,12 @@ pub(crate) struct Contact<T> {
     pub(crate) tension: T,
     /// Belt speed V.
     pub(crate) speed: T,
+    /// Penetration x.
+    pub(crate) penetration: T,
     /// Local radius r = R − x.
     pub(crate) radius: T,
+    /// m(ν), by which the rate of the penetration is that of its state.
+    deepening: T,
     /// Sine of the inclination θ; also the outward slip velocity `v_r`.
     pub(crate) sin_theta: T,
     /// Cosine of the inclination θ.
@@ -70,32 +90,32 @@ pub(crate) struct Contact<T> {
 }
 
 impl<T: Real> Contact<T> {
-    /// The contact in `state`, on a pulley of speed `omega`, with the mass flow `flow`.
+    /// The contact in `state`, on a pulley of rim speed ν `rim_speed`, with the mass flow `flow`.
     pub(crate) fn new<S: Real>(
         groove: &Groove<S>,
         regime: Regime,
         state: &[T],
-        omega: T,
+        rim_speed: T,
         flow: T,
     ) -> Self
     where
         T: Over<S>,
     {
         let one = T::from_f64(1.0);
-        let [tractive, theta, penetration] =
-            [state[TENSION], state[INCLINATION], state[PENETRATION]];
+        let [tractive, theta] = [state[TENSION], state[INCLINATION]];
+        let deepening = deepening(rim_speed);
+        let penetration = state[PENETRATION] / deepening;
         let (sin_half, cos_half) = (theta * 0.5).sin_cos();
         let versine = sin_half * sin_half * 2.0;
         let (sin_theta, cos_theta) = (sin_half * cos_half * 2.0, one - versine);
         let tension = groove.strand.tension(tractive, flow);
         let speed = groove.strand.speed(tension, flow);
 
-        // Where the belt locks v_t is 1e-9 … 1e-6, a difference of numbers near 1. Written as
-        // (V − ω r)/V − (1 − cos θ) with V = G + G T/EA and r = 1 − x, the units cancel exactly in
-        // G − ω; what remains is the rounding of the small terms (1e-18) and that of the unknowns
-        // G and ω themselves (1e-16), which shifts v_t by one constant along the whole pulley.
-        let creep = (flow - omega) + flow * groove.strand.strain(tension) + omega * penetration;
-        let slip_t = creep / speed - versine;
+        // The units cancel exactly in 1 − ν; what remains is the rounding of the small terms (1e-18) and that of the
+        // unknown ν itself (1e-16), which shifts v_t by one constant along the whole pulley.
+        let strain = groove.strand.strain(tension);
+        let creep = (one - rim_speed) + strain + rim_speed * penetration;
+        let slip_t = creep / (strain + 1.0) - versine;
         let slip_w = sin_theta / groove.cos_beta;
         let norm = slip_t * slip_t + slip_w * slip_w + groove.normalisation().powi(2);
         let slip_norm = norm.sqrt();
@@ -136,7 +156,9 @@ impl<T: Real> Contact<T> {
             tractive,
             tension,
             speed,
+            penetration,
             radius: one - penetration,
+            deepening,
             sin_theta,
             cos_theta,
             slip: [slip_t, slip_w],
@@ -160,7 +182,7 @@ impl<T: Real> Contact<T> {
         let sweep = self.cos_theta / self.radius;
         rates[TENSION] = self.retarding * self.cos_theta - self.outward * self.sin_theta;
         rates[INCLINATION] = sweep - turning;
-        rates[PENETRATION] = -self.sin_theta;
+        rates[PENETRATION] = -(self.sin_theta * self.deepening);
         rates[ANGLE] = sweep;
         if let Some(elastic) = groove.elastic() {
             rates[groove.displacement()] = self.displacement_rate(elastic.unstretched);
@@ -272,6 +294,15 @@ impl<T: Real> Contact<T> {
     }
 }
 
+/// m(ν), by which the penetration x is multiplied to be a state.
+pub(crate) fn deepening<T: Real>(rim_speed: T) -> T {
+    if rim_speed > SLOW {
+        rim_speed
+    } else {
+        (rim_speed * rim_speed + SLOW * SLOW) / (2.0 * SLOW)
+    }
+}
+
 /// Component of a vector in the groove face across the direction γ of the traction, given by its sine and cosine, positive
 /// where γ has to grow to follow it.
 fn across<T: Real>([t, w]: [T; 2], [sin, cos]: [T; 2]) -> T {
@@ -299,15 +330,15 @@ pub(crate) fn hold_excess<S: Real, T: Over<S>>(
     groove: &Groove<S>,
     before: Regime,
     state: &[T],
-    omega: T,
+    rim_speed: T,
     flow: T,
 ) -> T {
     let mut sinking = [T::from_f64(0.0); MAX_STATES];
     let sinking = &mut sinking[..state.len()];
     sinking.copy_from_slice(state);
     sinking[LAW] = T::from_f64(PI);
-    let sliding = Contact::new(groove, before, sinking, omega, flow);
-    let held = Contact::new(groove, Regime::Stick, state, omega, flow);
+    let sliding = Contact::new(groove, before, sinking, rim_speed, flow);
+    let held = Contact::new(groove, Regime::Stick, state, rim_speed, flow);
     held.traction[1] - sliding.traction[1]
 }
 
@@ -318,18 +349,18 @@ pub(crate) fn limit_excess<S: Real, T: Over<S>>(
     groove: &Groove<S>,
     regime: Regime,
     state: &[T],
-    omega: T,
+    rim_speed: T,
     flow: T,
 ) -> T {
     if let Some(elastic) = groove.elastic() {
-        let slip = Contact::new(groove, Regime::Slip, state, omega, flow);
+        let slip = Contact::new(groove, Regime::Slip, state, rim_speed, flow);
         return groove.elastic_friction(elastic, state)
             - slip.pressure * groove.friction_coefficient;
     }
     let Law::Vector { .. } = groove.law else {
         return T::from_f64(0.0);
     };
-    let contact = Contact::new(groove, regime, state, omega, flow);
+    let contact = Contact::new(groove, regime, state, rim_speed, flow);
     let yielding = Yielding::new(&contact, groove, state);
     yielding.map_or(T::from_f64(0.0), |yielding| {
         yielding.excess(groove.strand.compliance)
@@ -381,22 +412,23 @@ pub(super) mod tests {
         elastic: None,
     };
 
-    /// F, θ, x, φ, then the state of EPP, with ω and G.
+    /// F, θ, ξ, φ, then the state of EPP, with ν and G.
     const STATE: [f64; 5] = [0.7, 0.12, 0.03, 1.1, 0.3];
-    pub(in crate::vbelt) const OMEGA: f64 = 0.96;
+    pub(in crate::vbelt) const RIM_SPEED: f64 = 1.01;
     pub(in crate::vbelt) const FLOW: f64 = 0.95;
 
     fn contact(law: Law, epsilon: f64, regime: Regime, state: &[f64]) -> Contact<f64> {
-        Contact::new(&groove(law, epsilon), regime, state, OMEGA, FLOW)
+        Contact::new(&groove(law, epsilon), regime, state, RIM_SPEED, FLOW)
     }
 
     #[test]
     fn the_face_plane_form_is_the_published_one() {
         let groove = groove(COULOMB, 0.05);
-        let c = Contact::new(&groove, Regime::Slip, &STATE[..4], OMEGA, FLOW);
-        let [tractive, theta, x, _, _] = STATE;
+        let c = Contact::new(&groove, Regime::Slip, &STATE[..4], RIM_SPEED, FLOW);
+        let [tractive, theta, deep, _, _] = STATE;
+        let x = deep / RIM_SPEED;
         let tension = groove.strand.tension(tractive, FLOW);
-        let v_t = theta.cos() - OMEGA / FLOW * (1.0 - x) / (1.0 + 6e-3 * tension);
+        let v_t = theta.cos() - RIM_SPEED * (1.0 - x) / (1.0 + 6e-3 * tension);
         let v_r = theta.sin();
         let v = (v_t * v_t + v_r * v_r + 0.05 * 0.05).sqrt();
         let (sin_gamma, cos_gamma) = (v_t / v, v_r / v);
@@ -482,17 +514,17 @@ pub(super) mod tests {
     #[test]
     fn epp_is_continuous_where_it_begins_to_slip() {
         let groove = groove(epp(1.0), 0.0);
-        let slip = Contact::new(&groove, Regime::Slip, &STATE, OMEGA, FLOW);
+        let slip = Contact::new(&groove, Regime::Slip, &STATE, RIM_SPEED, FLOW);
         let mut state = STATE;
         state[LAW] = 0.4 * slip.pressure / 4.0;
-        assert!(limit_excess(&groove, Regime::Either, &state, OMEGA, FLOW).abs() < 1e-15);
+        assert!(limit_excess(&groove, Regime::Either, &state, RIM_SPEED, FLOW).abs() < 1e-15);
         for regime in [Regime::Elastic, Regime::Slip, Regime::Either] {
-            let c = Contact::new(&groove, regime, &state, OMEGA, FLOW);
+            let c = Contact::new(&groove, regime, &state, RIM_SPEED, FLOW);
             assert!((c.pressure - slip.pressure).abs() < 1e-14);
             assert!((c.retarding - slip.retarding).abs() < 1e-14);
         }
         state[LAW] *= 1.1;
-        assert!(limit_excess(&groove, Regime::Either, &state, OMEGA, FLOW) > 0.0);
+        assert!(limit_excess(&groove, Regime::Either, &state, RIM_SPEED, FLOW) > 0.0);
     }
 
     /// States of sliding friction, the traction turned from the slip by some angle.
@@ -522,7 +554,7 @@ pub(super) mod tests {
     fn the_slip_changes_as_the_states_do() {
         let (law, state) = sliding(0.3);
         let groove = groove(law, 0.0);
-        let here = Contact::new(&groove, Regime::Slip, &state, OMEGA, FLOW);
+        let here = Contact::new(&groove, Regime::Slip, &state, RIM_SPEED, FLOW);
         let mut rates = [0.0; 5];
         here.rates(&groove, &state, &mut rates);
         let step = 1e-6;
@@ -532,7 +564,7 @@ pub(super) mod tests {
                 .zip(rates)
                 .map(|(y, dy)| y + step * dy)
                 .collect();
-            Contact::new(&groove, Regime::Slip, &moved, OMEGA, FLOW).slip
+            Contact::new(&groove, Regime::Slip, &moved, RIM_SPEED, FLOW).slip
         });
         for (axis, rate) in here.slip_rates(&groove, &rates).iter().enumerate() {
             let difference = (after[axis] - before[axis]) / (2.0 * step);
@@ -546,7 +578,7 @@ pub(super) mod tests {
             let (law, state) = sliding(turned);
             let groove = groove(law, 0.0);
             let mut rates = [0.0; 5];
-            let here = Contact::new(&groove, Regime::Slip, &state, OMEGA, FLOW);
+            let here = Contact::new(&groove, Regime::Slip, &state, RIM_SPEED, FLOW);
             here.rates(&groove, &state, &mut rates);
             let turning = across(here.slip_rates(&groove, &rates), here.direction);
             (here, rates[LAW], turning)
@@ -572,8 +604,8 @@ pub(super) mod tests {
             elastic,
         };
         let groove = groove(law, 0.0);
-        let mut state = [0.7, 0.0, 0.025, 1.1, 0.3, 0.02];
-        let c = Contact::new(&groove, Regime::Stick, &state, OMEGA, FLOW);
+        let mut state = [0.7, 0.0, 0.025 * RIM_SPEED, 1.1, 0.3, 0.02];
+        let c = Contact::new(&groove, Regime::Stick, &state, RIM_SPEED, FLOW);
         let mut rates = [0.0; 6];
         c.rates(&groove, &state, &mut rates);
         let held = [TENSION, INCLINATION, PENETRATION, LAW].map(|index| rates[index]);
@@ -587,9 +619,9 @@ pub(super) mod tests {
         // It begins to stick where elastic friction is as large as that.
         state[LAW + 1] = c.friction() / 4.0;
         assert!(c.traction[1] < 0.0);
-        assert!(hold_excess(&groove, Regime::Elastic, &state, OMEGA, FLOW).abs() < 1e-14);
+        assert!(hold_excess(&groove, Regime::Elastic, &state, RIM_SPEED, FLOW).abs() < 1e-14);
         state[LAW + 1] *= 1.1;
-        assert!(hold_excess(&groove, Regime::Elastic, &state, OMEGA, FLOW) > 0.0);
+        assert!(hold_excess(&groove, Regime::Elastic, &state, RIM_SPEED, FLOW) > 0.0);
     }
 
     #[test]
@@ -599,9 +631,9 @@ pub(super) mod tests {
         // Exact for a belt along a circle of radius 1 − x: k x tan β = F/(1 − x).
         let x = 0.03;
         let tractive = x * (1.0 - x) / groove.frictionless_penetration(1.0);
-        let state = [tractive, 0.0, x, 0.0];
+        let state = [tractive, 0.0, x * RIM_SPEED, 0.0];
         let mut rates = [0.0; 4];
-        let c = Contact::new(&groove, Regime::Slip, &state, OMEGA, FLOW);
+        let c = Contact::new(&groove, Regime::Slip, &state, RIM_SPEED, FLOW);
         c.rates(&groove, &state, &mut rates);
         assert!(rates[..3].iter().all(|rate: &f64| rate.abs() < 1e-14));
         assert_eq!(c.torque_density(), 0.0);
@@ -622,27 +654,26 @@ pub(super) mod tests {
         ] {
             let groove = groove(law, 0.02);
             let state = [&STATE[..4], extra].concat();
-            let c = Contact::new(&groove, Regime::Either, &state, OMEGA, FLOW);
+            let c = Contact::new(&groove, Regime::Either, &state, RIM_SPEED, FLOW);
             let mut rates = vec![0.0; state.len()];
             c.rates(&groove, &state, &mut rates);
             let [along, across] = c.friction_power_densities();
-            let spent =
-                c.torque_density() * OMEGA + (along + across) + c.transverse_power_density(&groove);
+            let spent = c.torque_density() * RIM_SPEED * FLOW
+                + (along + across)
+                + c.transverse_power_density(&groove);
             assert!((c.speed * rates[TENSION] - spent).abs() < 1e-14);
         }
     }
 
     #[test]
     fn locked_slip_keeps_its_digits() {
-        // G and ω such that V = ω r (1 + 1e-9): the slip is 1e-9 to the rounding of G.
-        let state = [0.7, 0.0, 0.03, 0.0];
+        // ν such that V = ω r (1 + 1e-9): the slip is 1e-9 to the rounding of ν.
         let groove = groove(COULOMB, 0.0);
-        let mut flow = OMEGA * 0.97;
-        for _ in 0..30 {
-            let tension = groove.strand.tension(state[TENSION], flow);
-            flow = OMEGA * 0.97 * (1.0 + 1e-9) / (1.0 + groove.strand.strain(tension));
-        }
-        let c = Contact::new(&groove, Regime::Slip, &state, OMEGA, flow);
+        let (tractive, x) = (0.7, 0.03);
+        let strain = groove.strand.strain(groove.strand.tension(tractive, FLOW));
+        let rim_speed = (1.0 + strain) / (1.0 - x) / (1.0 + 1e-9);
+        let state = [tractive, 0.0, x * rim_speed, 0.0];
+        let c = Contact::new(&groove, Regime::Slip, &state, rim_speed, FLOW);
         assert!((c.slip[0] / 1e-9 - 1.0).abs() < 5e-7);
     }
 }

@@ -1,8 +1,8 @@
 //! The steady state of a two-pulley drive as a boundary value problem.
 //!
 //! Segments are the friction zones of the driven pulley, then those of the driver, each with the
-//! scaled arc length L s, 0 ≤ s ≤ 1. Unknown parameters are ω₁, G and the length L of every
-//! segment. The speed ω₂ is 1.
+//! scaled arc length L s, 0 ≤ s ≤ 1. Unknown parameters are the rim speeds ν₁ and ν₂ (see `contact`) and the length L of
+//! every segment. The speed ω₂ is 1, so that G = 1/ν₂ and ω₁ = ν₁/ν₂.
 //!
 //! ```text
 //! conditions per pulley with z zones and n states                              number
@@ -47,10 +47,10 @@ pub(crate) enum Instead {
 }
 
 impl DriveProblem {
-    /// Index of ω₁ among the parameters.
-    pub(crate) const DRIVEN_SPEED: usize = 0;
-    /// Index of G among the parameters.
-    pub(crate) const MASS_FLOW: usize = 1;
+    /// Index of the rim speed ν₁ of the driven pulley among the parameters.
+    pub(crate) const DRIVEN_RIM_SPEED: usize = DRIVEN;
+    /// Index of the rim speed ν₂ of the driver among the parameters.
+    pub(crate) const DRIVER_RIM_SPEED: usize = DRIVER;
 
     /// The problem of `drive` in the units `scales`, with one segment on each pulley and the direction of Coulomb
     /// and EPP friction smoothed over the length ℓ/R `lag`. EPP friction is not blended.
@@ -150,8 +150,8 @@ impl DriveProblem {
         p: &[T],
         dy: &mut [T],
     ) {
-        let (omega, flow) = (self.omega(self.pulley(segment), p), self.flow(p));
-        Contact::new(groove, self.regime(segment), y, omega, flow).rates(groove, y, dy);
+        let (rim_speed, flow) = (self.rim_speed(self.pulley(segment), p), self.flow(p));
+        Contact::new(groove, self.regime(segment), y, rim_speed, flow).rates(groove, y, dy);
         let length = self.length(segment, p);
         for rate in dy {
             *rate *= length;
@@ -186,7 +186,7 @@ impl DriveProblem {
         }
         match self.instead {
             None => {}
-            Some(Instead::DrivenSpeed(prescribed)) => zero(p[Self::DRIVEN_SPEED] - prescribed),
+            Some(Instead::DrivenSpeed(prescribed)) => zero(self.omega(DRIVEN, p) - prescribed),
             Some(Instead::DriverLength(prescribed)) => {
                 zero(self.contact_length(DRIVER, p) - prescribed);
             }
@@ -203,10 +203,15 @@ impl BeltProblem for DriveProblem {
         Some(&self.scaled.grooves[pulley])
     }
 
+    fn rim_speed<T: Real>(&self, pulley: usize, p: &[T]) -> T {
+        p[pulley]
+    }
+
+    /// Exactly 1 of the driver.
     fn omega<T: Real>(&self, pulley: usize, p: &[T]) -> T {
         match pulley {
-            DRIVEN => p[Self::DRIVEN_SPEED],
-            _ => T::from_f64(1.0),
+            DRIVEN => p[Self::DRIVEN_RIM_SPEED] / p[Self::DRIVER_RIM_SPEED],
+            _ => T::ONE,
         }
     }
 
@@ -218,7 +223,7 @@ impl BeltProblem for DriveProblem {
     }
 
     fn flow<T: Real>(&self, p: &[T]) -> T {
-        p[Self::MASS_FLOW]
+        T::ONE / p[Self::DRIVER_RIM_SPEED]
     }
 
     fn first_length(&self) -> usize {
@@ -233,8 +238,8 @@ impl BeltProblem for DriveProblem {
         let p = solution.parameters();
         let wrap = |pulley| solution.end(self.zones(pulley).end - 1)[ANGLE];
         vec![
-            p[Self::DRIVEN_SPEED],
-            p[Self::MASS_FLOW],
+            self.omega(DRIVEN, p),
+            self.flow(p),
             wrap(DRIVEN),
             wrap(DRIVER),
         ]
@@ -278,11 +283,11 @@ impl Problem for DriveProblem {
         self.rates(self.groove(self.pulley(segment)), segment, y, p, dy);
     }
 
-    /// On the speed of its pulley, the mass flow and its own length.
+    /// On the rim speed of its pulley, the mass flow and its own length.
     fn depends(&self, segment: usize, parameter: usize) -> bool {
         match parameter {
-            Self::DRIVEN_SPEED => self.pulley(segment) == DRIVEN,
-            Self::MASS_FLOW => true,
+            Self::DRIVEN_RIM_SPEED => self.pulley(segment) == DRIVEN,
+            Self::DRIVER_RIM_SPEED => true,
             length => length == Self::length_index(segment),
         }
     }

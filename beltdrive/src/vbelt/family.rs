@@ -85,12 +85,12 @@ impl DriveFamily {
         &z[lambda - self.first_entry()..lambda]
     }
 
-    /// Speed of the driven pulley, mass flow and both contact lengths: linear in the unknowns `z`.
+    /// Rim speeds of both pulleys and their contact lengths: linear in the unknowns `z`.
     pub(super) fn constants(&self, z: &[f64]) -> [f64; 4] {
         let p = self.own(z);
         [
-            p[DriveProblem::DRIVEN_SPEED],
-            p[DriveProblem::MASS_FLOW],
+            p[DriveProblem::DRIVEN_RIM_SPEED],
+            p[DriveProblem::DRIVER_RIM_SPEED],
             self.problem.contact_length(DRIVEN, p),
             self.problem.contact_length(DRIVER, p),
         ]

@@ -203,7 +203,7 @@ impl<'a> Walk<'a, '_, '_> {
     /// Follows gross slip of the driven pulley; `None` where it cannot be followed at all.
     fn gross_slip(&mut self, values: &[f64]) -> Option<()> {
         let second = self.family.first_entry() + 1;
-        let start = self.discretised(second, DriveProblem::DRIVEN_SPEED, values);
+        let start = self.discretised(second, DriveProblem::DRIVEN_RIM_SPEED, values);
         let (mut curve, z) = start.ok()?;
         let options = self.steps();
         let branch = Branch::new(&mut curve, &z, self.direction(), &options).ok()?;
@@ -227,7 +227,7 @@ impl<'a> Walk<'a, '_, '_> {
         let branch = Branch::new(&mut curve, &start, self.direction(), &options)
             .ok()?
             .event(move |_, point| {
-                point.z[point.z.len() - 2 - constants + DriveProblem::DRIVEN_SPEED]
+                point.z[point.z.len() - 2 - constants + DriveProblem::DRIVEN_RIM_SPEED]
             })
             .event(move |curve: &LimitPointCurve<Curve<'_>>, point| {
                 curve.family().end(&point.z, exit)[INCLINATION] - FRAC_PI_2

@@ -33,7 +33,7 @@ use bvp::Real;
 pub(super) const TENSION: usize = 0;
 /// Index of the inclination θ.
 pub(super) const INCLINATION: usize = 1;
-/// Index of the penetration x.
+/// Index of the penetration as ξ = m x (see `contact`).
 pub(super) const PENETRATION: usize = 2;
 /// Index of the swept angle φ.
 pub(super) const ANGLE: usize = 3;
@@ -50,14 +50,14 @@ pub(super) const LEAD: f64 = 0.02;
 /// displacement u as the last state; without it friction is Coulomb's, or that of bristles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Law<S = f64> {
-    /// Along the slip, which is normalised by ε: states F, θ, x, φ (and u).
+    /// Along the slip, which is normalised by ε: states F, θ, ξ, φ (and u).
     Normalised {
         /// Normalisation ε of the slip, per unit of belt speed.
         epsilon: f64,
         /// What EPP friction has more than Coulomb friction.
         elastic: Option<Elastic<S>>,
     },
-    /// Along a direction γ that follows the slip: F, θ, x, φ, γ (and u).
+    /// Along a direction γ that follows the slip: F, θ, ξ, φ, γ (and u).
     Sliding {
         /// Length ℓ/R over which the direction of the traction follows that of the slip.
         lag: f64,
@@ -66,14 +66,14 @@ pub(crate) enum Law<S = f64> {
         /// What EPP friction has more than Coulomb friction.
         elastic: Option<Elastic<S>>,
     },
-    /// Along the deflection of bristles: F, θ, x, φ, `B_t`, `B_w` (and u).
+    /// Along the deflection of bristles: F, θ, ξ, φ, `B_t`, `B_w` (and u).
     Bristle {
         /// Stiffness κ R.
         stiffness: S,
         /// The limit of EPP friction in place of μ p.
         elastic: Option<Elastic<S>>,
     },
-    /// EPP friction as a vector: F, θ, x, φ, `B_t`, `B_w`.
+    /// EPP friction as a vector: F, θ, ξ, φ, `B_t`, `B_w`.
     Vector {
         /// Stiffness `k_f` R²/`F_ref`.
         stiffness: S,

@@ -14,7 +14,7 @@
 //! fail as a start at high loads, as do speeds without any loss.
 
 use super::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
-use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, EndAngles, Groove, Law};
+use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, EndAngles, Groove, Law, deepening};
 use crate::{Drive, SpanTension};
 
 /// Tractive tension F = T − m V²/(1 + T/EA) of a belt with a tension T that runs on the pitch circles at the speed V of the rim of the
@@ -29,6 +29,8 @@ pub(super) fn tractive_on_pitch_line(drive: &Drive, tension: f64) -> f64 {
 pub(crate) struct Guess<'a> {
     problem: &'a DriveProblem,
     flow: f64,
+    /// Of both pulleys.
+    rim_speeds: [f64; 2],
     pulleys: [Contacting; 2],
 }
 
@@ -54,7 +56,7 @@ impl Contacting {
         }
     }
 
-    /// The state at a part of the contact, 0 at the entry and 1 at the exit.
+    /// The state at a part of the contact, 0 at the entry and 1 at the exit, with the penetration x itself.
     pub(super) fn state(&self, groove: &Groove, flow: f64, part: f64, y: &mut [f64]) {
         let Self {
             tension: [entry, exit],
@@ -113,9 +115,17 @@ impl<'a> Guess<'a> {
         let ends = [DRIVEN, DRIVER]
             .map(|pulley| Contacting::end_angles(problem.groove(pulley), tensions[pulley]));
         let swept = problem.layout().wraps(ends);
+        // The mean depth of the belt, half of that at the tight end, slows it on the driver; the
+        // driven pulley loses as much again.
+        let force = tensions[DRIVER][0];
+        let [driven, driver] = [DRIVEN, DRIVER].map(|pulley| {
+            let depth = problem.groove(pulley).frictionless_penetration(force);
+            1.0 / (1.0 + 0.5 * depth)
+        });
         Self {
             problem,
             flow,
+            rim_speeds: [driven / flow, 1.0 / (flow * driver)],
             pulleys: [DRIVEN, DRIVER].map(|pulley| Contacting {
                 tension: tensions[pulley],
                 swept: swept[pulley],
@@ -141,21 +151,15 @@ impl bvp::Guess for Guess<'_> {
         let pulley = self.problem.pulley(segment);
         let part = (self.zone(segment) + s) * self.zone_share(pulley);
         self.pulleys[pulley].state(self.problem.groove(pulley), self.flow, part, y);
+        y[PENETRATION] *= deepening(self.rim_speeds[pulley]);
     }
 
     /// The parameters; the tight tension is that of the load if it is unknown.
     fn parameters(&self, p: &mut [f64]) {
         let [_, tight] = self.problem.load();
         p.fill(tight.value());
-        // The mean depth of the belt, half of that at the tight end, slows it on the driver; the
-        // driven pulley loses as much again.
-        let force = self.pulleys[DRIVER].tension[0];
-        let [driven, driver] = [DRIVEN, DRIVER].map(|pulley| {
-            let depth = self.problem.groove(pulley).frictionless_penetration(force);
-            1.0 / (1.0 + 0.5 * depth)
-        });
-        p[DriveProblem::MASS_FLOW] = self.flow * driver;
-        p[DriveProblem::DRIVEN_SPEED] = driver * driven;
+        p[DriveProblem::DRIVEN_RIM_SPEED] = self.rim_speeds[DRIVEN];
+        p[DriveProblem::DRIVER_RIM_SPEED] = self.rim_speeds[DRIVER];
         for pulley in [DRIVEN, DRIVER] {
             for segment in self.problem.zones(pulley) {
                 p[DriveProblem::length_index(segment)] =
@@ -237,6 +241,7 @@ mod tests {
         for s in [0.01, 0.2, 0.97] {
             let (before, here, after) = (at(s - 1e-5), at(s), at(s + 1e-5));
             let slope = (after[PENETRATION] - before[PENETRATION]) / (after[ANGLE] - before[ANGLE]);
+            let slope = slope / deepening(guess.rim_speeds[DRIVER]);
             assert!((here[INCLINATION] + slope).abs() < 1e-6);
         }
     }

@@ -53,7 +53,7 @@ mod zones;
 pub(crate) use belt_problem::BeltProblem;
 pub(crate) use closure::{EndAngles, Layout};
 pub(crate) use contact::{
-    BREAKAWAY, Contact, beyond_breakaway, breakaway_excess, hold_excess, limit_excess,
+    BREAKAWAY, Contact, beyond_breakaway, breakaway_excess, deepening, hold_excess, limit_excess,
 };
 pub(crate) use drive_problem::{DriveProblem, Instead};
 pub(crate) use groove::{Groove, Law, Regime};

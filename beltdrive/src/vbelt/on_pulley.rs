@@ -3,7 +3,7 @@
 use super::SLIPPING_BRISTLES;
 use super::groove::{ANGLE, INCLINATION, LAW, MAX_STATES, PENETRATION, TENSION};
 use super::path::Solved;
-use super::{BeltProblem, Contact, EndAngles, Groove, Law, Regime, Units, limit_excess};
+use super::{BeltProblem, Contact, EndAngles, Groove, Law, Regime, Units, deepening, limit_excess};
 use crate::mechanics::maximum;
 use crate::{LeastSlip, Profile, Zone, ZoneKind};
 use bvp::Solution;
@@ -89,7 +89,7 @@ impl<P: BeltProblem> Solved<P> {
             solution: &self.solution,
             groove: problem.in_groove(pulley)?,
             stretches: stretches.collect(),
-            omega: problem.omega(pulley, p),
+            rim_speed: problem.rim_speed(pulley, p),
             flow: problem.flow(p),
             radius: problem.pitch_radius(pulley),
             units: problem.units(),
@@ -125,8 +125,8 @@ pub(super) struct OnPulley<'a> {
     pub(super) groove: &'a Groove,
     /// The segments of the contact, from entry to exit.
     pub(super) stretches: Vec<Stretch>,
-    /// Scaled angular speed of the pulley.
-    pub(super) omega: f64,
+    /// Rim speed ν of the pulley.
+    pub(super) rim_speed: f64,
     /// Scaled mass flow.
     pub(super) flow: f64,
     /// Pitch radius, m.
@@ -156,13 +156,13 @@ impl OnPulley<'_> {
 
     /// \[F r cos θ\] between the ends, which is the torque of the belt on the pulley; scaled.
     pub(super) fn change_of_moment(&self) -> f64 {
-        let arm = |y: &[f64]| y[TENSION] * (1.0 - y[PENETRATION]) * y[INCLINATION].cos();
+        let arm = |y: &[f64]| y[TENSION] * y[INCLINATION].cos();
         arm(self.exit()) - arm(self.entry())
     }
 
     /// All local quantities at a point.
     pub(super) fn contact(&self, regime: Regime, y: &[f64]) -> Contact<f64> {
-        Contact::new(self.groove, regime, y, self.omega, self.flow)
+        Contact::new(self.groove, regime, y, self.rim_speed, self.flow)
     }
 
     /// Calls `visit(stretch, s, weight, y)` at the points of a rule that integrates over the scaled
@@ -230,7 +230,7 @@ impl OnPulley<'_> {
                     .tractive_tension
                     .push(contact.tractive * units.force);
                 profile.inclination.push(y[INCLINATION]);
-                profile.penetration.push(y[PENETRATION] * radius);
+                profile.penetration.push(contact.penetration * radius);
                 profile
                     .displacement
                     .push(displacement * units.displacement(radius));
@@ -321,7 +321,7 @@ impl OnPulley<'_> {
             (_, Regime::Elastic | Regime::Reversed) => true,
             (_, Regime::Slip) => false,
             (_, Regime::Either) => {
-                limit_excess(self.groove, regime, y, self.omega, self.flow) < 0.0
+                limit_excess(self.groove, regime, y, self.rim_speed, self.flow) < 0.0
             }
         }
     }
@@ -428,7 +428,7 @@ impl OnPulley<'_> {
             let summit = maximum::between(&mut depth, beside, SUMMIT);
             depths[highest].max(depth(summit))
         });
-        deepest.fold(0.0, f64::max) * self.radius
+        deepest.fold(0.0, f64::max) / deepening(self.rim_speed) * self.radius
     }
 }
 

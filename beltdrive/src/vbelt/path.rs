@@ -4,7 +4,7 @@
 use super::carried::Carried;
 use super::laws::Astray;
 use super::steps::Steps;
-use super::{BeltProblem, DRIVER, DriveProblem, Law};
+use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, Law};
 use crate::{Drive, FrictionLaw, TraceConvergence};
 use bvp::{Control, Options, Scheme, Solution, Stats};
 
@@ -97,7 +97,7 @@ pub(crate) struct Solved<P = DriveProblem> {
 impl Solved {
     /// Scaled speed ω₁ of the driven pulley.
     pub(super) fn driven_speed(&self) -> f64 {
-        self.solution.parameters()[DriveProblem::DRIVEN_SPEED]
+        self.problem.omega(DRIVEN, self.solution.parameters())
     }
 
     /// Scaled tight tension, prescribed or found.

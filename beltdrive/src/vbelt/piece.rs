@@ -216,7 +216,7 @@ impl Tracer<'_> {
         // is before the branch has come back to its start.
         let mut has_cut_turned = false;
         let driven_speed = |point: &Point| {
-            let of = |vector| family.own(vector)[DriveProblem::DRIVEN_SPEED];
+            let of = |vector| family.own(vector)[DriveProblem::DRIVEN_RIM_SPEED];
             [of(&point.z), of(&point.tangent), point.arclength]
         };
         while let Some(mut point) = branch.next() {

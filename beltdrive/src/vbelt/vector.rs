@@ -171,7 +171,7 @@ const SLIPPING: f64 = 0.95;
 
 #[cfg(test)]
 mod tests {
-    use super::super::contact::tests::{FLOW, OMEGA, groove};
+    use super::super::contact::tests::{FLOW, RIM_SPEED, groove};
     use super::*;
 
     const STIFFNESS: f64 = 700.0;
@@ -193,7 +193,7 @@ mod tests {
 
     /// Derivatives of both tractions and of |B|.
     fn growing(groove: &Groove, regime: Regime, state: &[f64; 6]) -> ([f64; 2], f64) {
-        let at = |state: &[f64]| Contact::new(groove, regime, state, OMEGA, FLOW);
+        let at = |state: &[f64]| Contact::new(groove, regime, state, RIM_SPEED, FLOW);
         let mut rates = [0.0; 6];
         at(state).rates(groove, state, &mut rates);
         let step = 1e-7;
@@ -210,7 +210,7 @@ mod tests {
     fn elastic_traction_grows_with_the_slip() {
         let (groove, state) = yielding(0.7, 0.0);
         let (growth, _) = growing(&groove, Regime::Elastic, &state);
-        let contact = Contact::new(&groove, Regime::Elastic, &state, OMEGA, FLOW);
+        let contact = Contact::new(&groove, Regime::Elastic, &state, RIM_SPEED, FLOW);
         for (growth, slip) in growth.into_iter().zip(contact.slip) {
             assert!((growth / (STIFFNESS * slip) - 1.0).abs() < 1e-6);
         }
@@ -227,7 +227,7 @@ mod tests {
             assert!(growth.abs() < 1e-5, "{growth}");
         }
         let (groove, state) = yielding(1.0, 0.0);
-        let contact = Contact::new(&groove, Regime::Elastic, &state, OMEGA, FLOW);
+        let contact = Contact::new(&groove, Regime::Elastic, &state, RIM_SPEED, FLOW);
         let plastic = Yielding::new(&contact, &groove, &state)
             .unwrap()
             .plastic_rate();

@@ -3,7 +3,7 @@
 use super::curve::Curve;
 use super::path::Solved;
 use super::tracer::Tracer;
-use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, INCLINATION, PENETRATION};
+use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, INCLINATION, PENETRATION, deepening};
 use crate::{EventKind, Role};
 use continuation::{Branch, Kind, Point, System};
 use std::f64::consts::FRAC_PI_2;
@@ -41,18 +41,20 @@ impl Tracer<'_> {
                     return -1.0;
                 };
                 let solution = curve.family.solution(&point.z);
+                let rim_speed = parameter(curve, point, pulley);
                 let depths = zones.clone().flat_map(|segment| {
                     let nodes = 0..solution.mesh(segment).len();
                     let depth = |node| solution.node(segment, node)[PENETRATION];
                     nodes.map(depth).collect::<Vec<_>>()
                 });
-                depths.fold(0.0, f64::max) * radius[pulley] / height - 1.0
+                let deepest = depths.fold(0.0, f64::max) / deepening(rim_speed);
+                deepest * radius[pulley] / height - 1.0
             }
         };
         let mut branch = branch
             .event(overhang(exits[DRIVEN]))
             .event(overhang(exits[DRIVER]))
-            .event(move |curve, point| parameter(curve, point, DriveProblem::DRIVEN_SPEED))
+            .event(move |curve, point| parameter(curve, point, DriveProblem::DRIVEN_RIM_SPEED))
             .event(sunk(DRIVEN))
             .event(sunk(DRIVER));
         if problem.has_junctions() {

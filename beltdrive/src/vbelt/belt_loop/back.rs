@@ -66,13 +66,14 @@ impl Back {
         LAW + usize::from(matches!(self.law, Law::Bristle { .. } | Law::Vector { .. }))
     }
 
-    /// The contact in `state`, on a pulley of speed `omega`, with the mass flow `flow`.
-    pub(super) fn at<T: Real>(&self, state: &[T], omega: T, flow: T) -> Rubbing<T> {
+    /// The contact in `state`, on a pulley of rim speed ν `rim_speed`, with the mass flow `flow`.
+    pub(super) fn at<T: Real>(&self, state: &[T], rim_speed: T, flow: T) -> Rubbing<T> {
         let tractive = state[TENSION];
         let tension = self.strand.tension(tractive, flow);
         let speed = self.strand.speed(tension, flow);
-        let creep = (flow - omega) + flow * self.strand.strain(tension);
-        let slip = creep / speed;
+        let strain = self.strand.strain(tension);
+        let creep = (T::ONE - rim_speed) + strain;
+        let slip = creep / (strain + 1.0);
         let epsilon = match self.law {
             // Only keeps the derivative of |e| finite where e = 0.
             Law::Bristle { .. } | Law::Vector { .. } => 1e-20,
@@ -96,7 +97,7 @@ impl Back {
             slip,
             friction,
             size,
-            creep: creep / flow,
+            creep,
         }
     }
 

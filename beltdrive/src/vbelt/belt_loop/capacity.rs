@@ -9,7 +9,7 @@
 //! φ − (θ_out − θ_in) = the angle between the spans          R (F_out cos θ_out − F_in cos θ_in) = λ M
 //! ```
 //!
-//! with the unknown speed ω and lengths of the contact, and the logarithm of λ, since a torque may be small beside
+//! with the unknown rim speed ν and lengths of the contact, and the logarithm of λ, since a torque may be small beside
 //! the largest. On the back of the belt nothing of this depends on the law: it carries R F (exp(μ φ) − 1). Where the
 //! curve cannot be followed with the friction of the state itself it is that of bristles (see `stiffening`).
 
@@ -24,13 +24,12 @@ use super::problem::LoopProblem;
 use super::seat::Seat;
 use super::solve::Search;
 use super::stiffening::{Stiffened, is_followed};
-use super::unknowns::FLOW;
 use crate::FrictionLaw;
 use crate::results::difficulty;
 use bvp::{Ends, Problem, Real, Segment, Solution};
 
 /// Indices of the parameters: the lengths of all zones follow, and the logarithm of λ if it is one.
-const SPEED: usize = 0;
+const RIM_SPEED: usize = 0;
 const FIRST_LENGTH: usize = 1;
 
 /// Where the search ends, as multiple of what the slack side carries with all friction along the pulley. Radial
@@ -94,8 +93,8 @@ impl BeltProblem for OneGroove {
         Some(&self.groove)
     }
 
-    fn omega<T: Real>(&self, _: usize, p: &[T]) -> T {
-        p[SPEED]
+    fn rim_speed<T: Real>(&self, _: usize, p: &[T]) -> T {
+        p[RIM_SPEED]
     }
 
     fn sense(&self, _: usize) -> f64 {
@@ -116,7 +115,7 @@ impl BeltProblem for OneGroove {
 
     fn constants(&self, solution: &Solution) -> Vec<f64> {
         let p = solution.parameters();
-        vec![p[SPEED], self.contact_length(0, p)]
+        vec![self.omega(0, p), self.contact_length(0, p)]
     }
 
     fn pitch_radius(&self, _: usize) -> f64 {
@@ -153,7 +152,7 @@ impl Problem for OneGroove {
 
     fn rhs<T: Real>(&self, segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
         let (regime, flow) = (self.regime(segment), self.flow(p));
-        let contact = Contact::new(&self.groove, regime, y, p[SPEED], flow);
+        let contact = Contact::new(&self.groove, regime, y, self.rim_speed(0, p), flow);
         contact.rates(&self.groove, y, dy);
         if self.groove.elastic().is_some() {
             dy[self.groove.displacement()] -= self.reference;
@@ -165,7 +164,7 @@ impl Problem for OneGroove {
     }
 
     fn depends(&self, segment: usize, parameter: usize) -> bool {
-        [SPEED, FIRST_LENGTH + segment].contains(&parameter)
+        [RIM_SPEED, FIRST_LENGTH + segment].contains(&parameter)
     }
 
     fn conditions<T: Real>(&self, at: Ends<'_, T>, p: &[T], r: &mut [T]) {
@@ -216,7 +215,7 @@ impl bvp::Guess for OfState<'_> {
 
     fn parameters(&self, p: &mut [f64]) {
         let (problem, known) = (&self.solved.problem, self.solved.solution.parameters());
-        p[SPEED] = problem.omega(self.pulley, known);
+        p[RIM_SPEED] = problem.rim_speed(self.pulley, known);
         let zones = problem.zones(self.pulley);
         for (length, segment) in p[FIRST_LENGTH..].iter_mut().zip(zones) {
             *length = problem.length(segment, known);
@@ -301,7 +300,7 @@ impl Search<'_> {
             units: problem.units,
             radius: problem.pitch_radius(pulley),
             sense: problem.sense(pulley),
-            flow: p[FLOW],
+            flow: problem.flow(p),
             reference: problem.reference(p),
             slack,
             turned,
@@ -341,7 +340,7 @@ impl Search<'_> {
     ) -> Result<Option<Largest>, Lost> {
         let (mut levelling, mut below) = (Levelling::default(), Vec::new());
         let within = [-1.0, to.ln()];
-        let margin = self.along(begin, within, &[SPEED], |_, place, point, here| {
+        let margin = self.along(begin, within, &[RIM_SPEED], |_, place, point, here| {
             let growth = match place {
                 Place::LimitPoint | Place::Zero(_) => Some(point.lambda()),
                 Place::End => return Some(None),

@@ -17,7 +17,6 @@ use super::super::path::Solved;
 use super::contacts::Touching;
 use super::plane::{Laid, Plane};
 use super::problem::LoopProblem;
-use super::unknowns::FLOW;
 use crate::{Check, Mount};
 use std::f64::consts::FRAC_PI_2;
 
@@ -50,7 +49,7 @@ impl Checked<'_> {
             .sum();
         let [lowest, highest, excess] = self.contact_forces();
         let units = self.solved.problem.units;
-        let flow = self.solved.solution.parameters()[FLOW];
+        let flow = self.solved.problem.flow(self.solved.solution.parameters());
         let strand = units.strand();
         let waves = flow * flow * strand.inertia * strand.compliance;
         let check = |name, deviation: f64, limit| Check {

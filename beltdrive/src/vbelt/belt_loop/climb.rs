@@ -13,7 +13,6 @@ use super::problem::LoopProblem;
 use super::slipping::Slipping;
 use super::solve::Search;
 use super::stiffening::{Judge, is_followed};
-use super::unknowns::FLOW;
 use crate::SolveError;
 use crate::results::difficulty;
 use continuation::Point;
@@ -265,7 +264,8 @@ impl Search<'_> {
         mut slipping: Option<&mut Slipping>,
     ) -> Climbed {
         let moving: Vec<_> = (0..from.problem.pulleys())
-            .filter_map(|pulley| Some((pulley, from.problem.unknowns.speeds[pulley]?)))
+            .filter(|&pulley| pulley != from.problem.driver)
+            .filter_map(|pulley| Some((pulley, from.problem.unknowns.rim_speeds[pulley]?)))
             .collect();
         let watched: Vec<_> = moving.iter().map(|&(_, index)| index).collect();
         let (mut levelling, mut below) = (Levelling::default(), Vec::new());
@@ -319,12 +319,9 @@ fn most_slowed(solved: &Solved<LoopProblem>, point: &Point) -> (usize, bool) {
     let problem = &solved.problem;
     let p = solved.solution.parameters();
     let moved = &point.tangent[point.tangent.len() - p.len()..];
-    let of_belt = moved[FLOW] / p[FLOW];
-    let touched = (0..problem.pulleys()).filter(|&pulley| !problem.is_idle(pulley));
-    let slowed = touched.map(|pulley| {
-        let of_pulley = problem.unknowns.speeds[pulley].map(|index| moved[index]);
-        let of_pulley = of_pulley.unwrap_or(0.0) / problem.omega(pulley, p);
-        ((of_pulley - of_belt).abs(), pulley)
+    let slowed = (0..problem.pulleys()).filter_map(|pulley| {
+        let index = problem.unknowns.rim_speeds[pulley]?;
+        Some(((moved[index] / p[index]).abs(), pulley))
     });
     let (_, slips) = slowed.fold(
         (0.0, 0),

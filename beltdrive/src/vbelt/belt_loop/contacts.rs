@@ -6,7 +6,6 @@ use super::super::path::Solved;
 use super::back::Back;
 use super::problem::LoopProblem;
 use super::seat::Seat;
-use super::unknowns::FLOW;
 use crate::vbelt::SLIPPING_BRISTLES;
 use crate::{Profile, Zone, ZoneKind};
 use std::f64::consts::FRAC_PI_2;
@@ -59,8 +58,8 @@ impl OnBack<'_> {
 
     fn at(&self, y: &[f64]) -> super::back::Rubbing<f64> {
         let p = self.solved.solution.parameters();
-        let omega = self.problem().omega(self.pulley, p);
-        self.back.at(y, omega, p[FLOW])
+        let rim_speed = self.problem().rim_speed(self.pulley, p);
+        self.back.at(y, rim_speed, self.problem().flow(p))
     }
 
     /// Whether friction is at its limit, by less than the share that counts as slip.

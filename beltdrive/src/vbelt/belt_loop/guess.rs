@@ -9,12 +9,12 @@
 //! Σ ∫ T/EA ds + Σ ∫ F/(k R tan β) dφ      is about what it is at rest.
 //! ```
 
-use super::super::BeltProblem;
+use super::super::groove::PENETRATION;
 use super::super::guess::{Contacting, tractive_on_pitch_line};
+use super::super::{BeltProblem, deepening};
 use super::problem::LoopProblem;
 use super::round::Target;
 use super::seat::Seat;
-use super::unknowns::FLOW;
 use crate::Drive;
 use crate::drive::layout::{Layout, Side};
 
@@ -131,6 +131,21 @@ impl<'a> LoopGuess<'a> {
         }
     }
 
+    /// Rim speed of a pulley: the belt slows down by its mean depth where it is driven, and a driven pulley loses as much again; an
+    /// idler does not.
+    fn rim_speed(&self, pulley: usize) -> f64 {
+        let (strand, driver) = (self.problem.units.strand(), self.problem.driver);
+        let [entering, _] = self.tension(driver);
+        let stretch = strand.speed(strand.tension(entering, 1.0), 1.0);
+        let [entry, exit] = self.tension(pulley);
+        let depth = 0.5 * self.depth(pulley);
+        stretch
+            * match exit > entry {
+                true if pulley != driver => 1.0 / (1.0 + depth),
+                _ => 1.0 + depth,
+            }
+    }
+
     /// Depth of the belt in the groove of a pulley where its tension is larger; 0 on its back.
     fn depth(&self, pulley: usize) -> f64 {
         let [behind, before] = self.tension(pulley);
@@ -150,6 +165,7 @@ impl bvp::Guess for LoopGuess<'_> {
         match &self.problem.seats[pulley] {
             Seat::Groove(groove) => {
                 contacting.state(groove, 1.0, s, y);
+                y[PENETRATION] *= deepening(self.rim_speed(pulley));
                 if entry == exit {
                     // Nothing bends the bristles of an idler one way rather than the other.
                     y[super::super::LAW..last].fill(0.0);
@@ -168,23 +184,12 @@ impl bvp::Guess for LoopGuess<'_> {
 
     fn parameters(&self, p: &mut [f64]) {
         let problem = self.problem;
-        let strand = problem.units.strand();
-        let driver = problem.driver;
-        let [entering, _] = self.tension(driver);
-        let speed = 1.0 / (1.0 + 0.5 * self.depth(driver));
-        p[FLOW] = speed / strand.speed(strand.tension(entering, 1.0), 1.0);
         if let Some(index) = problem.unknowns.coordinate {
             p[index] = self.coordinate;
         }
         for pulley in 0..problem.pulleys() {
-            if let Some(index) = problem.unknowns.speeds[pulley] {
-                let [entry, exit] = self.tension(pulley);
-                // The belt slows down by its mean depth where it is driven, and a driven pulley loses as
-                // much again; an idler does not.
-                p[index] = match exit > entry {
-                    true => speed / (1.0 + 0.5 * self.depth(pulley)),
-                    false => speed * (1.0 + 0.5 * self.depth(pulley)),
-                };
+            if let Some(index) = problem.unknowns.rim_speeds[pulley] {
+                p[index] = self.rim_speed(pulley);
             }
             for segment in problem.zones(pulley) {
                 p[problem.first_length() + segment] = self.contacting(pulley).swept;

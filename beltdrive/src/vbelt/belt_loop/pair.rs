@@ -12,13 +12,12 @@
 
 use super::super::path::{Effort, Path, Solved};
 use super::super::solve::solve;
-use super::super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, TENSION};
+use super::super::{BeltProblem, DRIVEN, DRIVER, TENSION};
 use super::guess::groove_compliances;
 use super::problem::LoopProblem;
 use super::round::Target;
 use super::solve::Search;
 use super::start::Start;
-use super::unknowns::FLOW;
 use crate::{Drive, Load, SolveOptions, SpanTension};
 use bvp::Guess;
 
@@ -128,7 +127,7 @@ impl Tensions {
             return None;
         }
         let units = solved.problem.units;
-        let flow = solved.solution.parameters()[FLOW];
+        let flow = solved.problem.flow(solved.solution.parameters());
         let is_tractive = matches!(target, Target::Tractive { .. });
         let tension = |span: usize| {
             let tractive = solved.round(|round| round.leaving(span));
@@ -223,16 +222,17 @@ impl Guess for OfPair<'_> {
         let arc = before.sum::<f64>() + s * problem.length(segment, p);
         let mean = 0.5 * (solution.start(first)[TENSION] + y[TENSION]);
         let strand = self.problem.units.strand();
-        let strain = strand.strain(strand.tension(mean, p[DriveProblem::MASS_FLOW]));
+        let strain = strand.strain(strand.tension(mean, problem.flow(p)));
         y[last] = arc * strain / (1.0 + strain);
     }
 
     fn parameters(&self, p: &mut [f64]) {
         let Solved { problem, solution } = self.pair;
         let (known, unknowns) = (solution.parameters(), &self.problem.unknowns);
-        p[FLOW] = known[DriveProblem::MASS_FLOW];
-        if let Some(index) = unknowns.speeds[1 - self.problem.driver] {
-            p[index] = known[DriveProblem::DRIVEN_SPEED];
+        for pulley in 0..self.problem.pulleys() {
+            if let Some(index) = unknowns.rim_speeds[pulley] {
+                p[index] = problem.rim_speed(role(pulley, self.problem.driver), known);
+            }
         }
         let segments = self.problem.zoning().count();
         for segment in 0..segments {

@@ -3,8 +3,8 @@
 //! Segments are the friction zones of the pulleys in belt order, with the scaled arc length L s, 0 ≤ s ≤ 1; on its
 //! back the belt has one for a pulley, and none for an idler, since the tension passes it unchanged. The last state
 //! of every segment is the elongation e of the belt from the entry, de/ds = (T/EA)/(1 + T/EA). Unknown parameters are
-//! G, the coordinate q of the tensioner, the speeds of all pulleys with a segment but the driver, and the length L
-//! of every segment; with EPP friction also the tension `T_o` at which the displacement in grooves does not grow.
+//! the rim speeds ν of all pulleys with a segment (see `contact`), the coordinate q of the tensioner, and the length L of every
+//! segment; the speed of the driver is 1, so that G is one over its ν; with EPP friction also the tension `T_o` at which the displacement in grooves does not grow.
 //!
 //! ```text
 //! conditions of a contact with z zones and n states                               number
@@ -29,7 +29,7 @@ use super::plane::Plane;
 use super::round::Target;
 use super::seat::Seat;
 use super::tensioner::{coordinate_unit, unbalanced};
-use super::unknowns::{FLOW, Unknowns};
+use super::unknowns::{DRIVER_RIM_SPEED, Unknowns};
 use crate::drive::layout::Layout;
 use crate::{Drive, Duty, FrictionLaw, Tensioner};
 use bvp::{Ends, Problem, Real, Segment, Solution};
@@ -268,8 +268,17 @@ impl BeltProblem for LoopProblem {
         first..seat.states() - 1
     }
 
+    fn rim_speed<T: Real>(&self, pulley: usize, p: &[T]) -> T {
+        let index = self.unknowns.rim_speeds[pulley];
+        p[index.unwrap_or(DRIVER_RIM_SPEED)]
+    }
+
+    /// Exactly 1 of the driver, and of idlers, which have none of their own.
     fn omega<T: Real>(&self, pulley: usize, p: &[T]) -> T {
-        self.unknowns.speeds[pulley].map_or(T::ONE, |index| p[index])
+        match self.unknowns.rim_speeds[pulley] {
+            None | Some(DRIVER_RIM_SPEED) => T::ONE,
+            Some(index) => p[index] / p[DRIVER_RIM_SPEED],
+        }
     }
 
     fn sense(&self, pulley: usize) -> f64 {
@@ -281,7 +290,7 @@ impl BeltProblem for LoopProblem {
     }
 
     fn flow<T: Real>(&self, p: &[T]) -> T {
-        p[FLOW]
+        T::ONE / p[DRIVER_RIM_SPEED]
     }
 
     fn first_length(&self) -> usize {
@@ -302,8 +311,10 @@ impl BeltProblem for LoopProblem {
                 Seat::Back(_) | Seat::Idle => self.length(last, p),
             })
         });
-        let constants = p[..self.first_length()].iter().copied();
-        constants.chain([self.reference(p)]).chain(wraps).collect()
+        let speeds = (0..self.seats.len()).map(|pulley| self.omega(pulley, p));
+        let others = [self.flow(p), self.coordinate(p) / self.coordinate_unit()];
+        let constants = speeds.chain(others).chain([self.reference(p)]);
+        constants.chain(wraps).collect()
     }
 
     fn pitch_radius(&self, pulley: usize) -> f64 {
@@ -361,10 +372,10 @@ impl Problem for LoopProblem {
 
     fn rhs<T: Real>(&self, segment: usize, _s: T, y: &[T], p: &[T], dy: &mut [T]) {
         let pulley = self.pulley(segment);
-        let (omega, flow) = (self.omega(pulley, p), self.flow(p));
+        let (rim_speed, flow) = (self.rim_speed(pulley, p), self.flow(p));
         let tension = match &self.seats[pulley] {
             Seat::Groove(groove) => {
-                let contact = Contact::new(groove, self.regime(segment), y, omega, flow);
+                let contact = Contact::new(groove, self.regime(segment), y, rim_speed, flow);
                 contact.rates(groove, y, dy);
                 if let Some(index) = self.unknowns.reference(self.segments.len()) {
                     dy[groove.displacement()] -= p[index];
@@ -372,7 +383,7 @@ impl Problem for LoopProblem {
                 contact.tension
             }
             Seat::Back(back) => {
-                let rubbing = back.at(y, omega, flow);
+                let rubbing = back.at(y, rim_speed, flow);
                 back.rates(&rubbing, y, dy);
                 rubbing.tension
             }
@@ -386,12 +397,12 @@ impl Problem for LoopProblem {
         }
     }
 
-    /// On the speed of its pulley, the mass flow, its own length and the tension `T_o`.
+    /// On the rim speed of its pulley, the mass flow, its own length and the tension `T_o`.
     fn depends(&self, segment: usize, parameter: usize) -> bool {
         let unknowns = &self.unknowns;
-        parameter == FLOW
+        parameter == DRIVER_RIM_SPEED
             || parameter == unknowns.first_length + segment
-            || unknowns.speeds[self.pulley(segment)] == Some(parameter)
+            || unknowns.rim_speeds[self.pulley(segment)] == Some(parameter)
             || unknowns.reference(self.segments.len()) == Some(parameter)
     }
 

@@ -8,7 +8,6 @@ use super::plane::Laid;
 use super::problem::LoopProblem;
 use super::rest::Known;
 use super::seat::Seat;
-use super::unknowns::FLOW;
 use crate::Closure;
 use bvp::{Ends, Problem, Real, Solution};
 
@@ -112,7 +111,11 @@ impl<T: Real> Round<'_, T> {
         let slackest = spans.fold(T::from_f64(f64::INFINITY), Real::min);
         match self.problem.target {
             Target::Tractive { .. } => slackest,
-            _ => self.problem.units.strand().tension(slackest, self.p[FLOW]),
+            _ => self
+                .problem
+                .units
+                .strand()
+                .tension(slackest, self.problem.flow(self.p)),
         }
     }
 
@@ -122,7 +125,7 @@ impl<T: Real> Round<'_, T> {
         let strand = problem.units.strand();
         let (mut elongation, mut length) = (T::ZERO, T::ZERO);
         for (pulley, &span) in laid.lengths.iter().enumerate() {
-            let tension = strand.tension(self.leaving(pulley), self.p[FLOW]);
+            let tension = strand.tension(self.leaving(pulley), self.problem.flow(self.p));
             let strain = strand.strain(tension);
             length += span;
             elongation += span * (strain / (strain + 1.0));
@@ -161,7 +164,7 @@ impl<T: Real> Round<'_, T> {
             }
             Target::Tension { span, tension } => {
                 let tractive = self.leaving(span);
-                units.strand().tension(tractive, self.p[FLOW]) - tension / units.force
+                units.strand().tension(tractive, self.problem.flow(self.p)) - tension / units.force
             }
             Target::Tractive { span, tension } => self.leaving(span) - tension / units.force,
         }

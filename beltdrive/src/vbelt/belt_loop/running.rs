@@ -17,7 +17,6 @@ use super::slipping::slip;
 use super::solve::{Search, lost};
 use super::start::Start;
 use super::stiffening::is_followed;
-use super::unknowns::FLOW;
 use crate::drive::layout::Layout;
 use crate::{Drive, FrictionLaw, SolveError};
 use bvp::Problem;
@@ -396,7 +395,7 @@ pub(super) fn is_safe(solved: &Solved<LoopProblem>) -> bool {
 pub(super) fn is_drive(solved: &Solved<LoopProblem>) -> bool {
     let p = solved.solution.parameters();
     let Solved { problem, solution } = solved;
-    p[FLOW] > 0.0
+    problem.flow(p) > 0.0
         && (0..problem.pulleys()).all(|pulley| problem.omega(pulley, p) > 0.0)
         && (0..problem.zoning().count())
             .all(|segment| problem.length(segment, p) > 0.0 && solution.end(segment)[TENSION] > 0.0)

@@ -14,7 +14,6 @@ use super::climb::{Limit, Top, limit_accuracy, without_zones};
 use super::problem::LoopProblem;
 use super::solve::Search;
 use super::stiffening::Judge;
-use super::unknowns::FLOW;
 use crate::LeastSlip;
 use crate::mechanics::root::bracketed;
 
@@ -68,8 +67,9 @@ pub(super) fn slip(state: &Solved<LoopProblem>, pulley: usize) -> f64 {
         return in_groove.least_slip().slip;
     }
     let strand = problem.units.strand();
-    let tension = strand.tension(state.entry(pulley)[TENSION], p[FLOW]);
-    (strand.speed(tension, p[FLOW]) - problem.omega(pulley, p)).abs()
+    let flow = problem.flow(p);
+    let tension = strand.tension(state.entry(pulley)[TENSION], flow);
+    (strand.speed(tension, flow) - problem.omega(pulley, p)).abs()
 }
 
 impl Slipping {

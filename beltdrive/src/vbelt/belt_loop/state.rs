@@ -11,7 +11,6 @@ use super::rest::{Known, Rest, RestProblem};
 use super::rest_guess::RestNear;
 use super::solve::Search;
 use super::tensioner::{held, length_derivatives};
-use super::unknowns::FLOW;
 use crate::mechanics::span::{DEFLECTION, first_frequency, rest_frequency};
 use crate::results::loop_state::{
     Contacts, FrictionParts, GrooveState, LoopConvergence, LoopState, Profiles, PulleyState,
@@ -56,7 +55,7 @@ impl<'a> Lying<'a> {
             Touching::Back(on) => on.profile(),
             Touching::Idle(wrap) => {
                 let tractive = self.tractive[pulley];
-                let flow = solved.solution.parameters()[FLOW];
+                let flow = problem.flow(solved.solution.parameters());
                 let tension = problem.units.strand().tension(tractive, flow);
                 let radius = problem.plane.spots[pulley].radius;
                 idle_profile(*wrap, radius, tension * force, tractive * force)
@@ -91,10 +90,10 @@ impl<'a> Seen<'a> {
             Touching::Back(on) => on.integrate(),
             Touching::Idle(_) => Integrals::default(),
         });
-        let strand = problem.units.strand();
+        let (strand, flow) = (problem.units.strand(), problem.flow(p));
         let omegas = (0..count).map(|pulley| match problem.is_idle(pulley) {
             false => problem.omega(pulley, p),
-            true => strand.speed(strand.tension(lying.tractive[pulley], p[FLOW]), p[FLOW]),
+            true => strand.speed(strand.tension(lying.tractive[pulley], flow), flow),
         });
         let wraps = lying.touching.iter().map(|touching| match touching {
             Touching::Groove(on) => on.exit()[super::super::ANGLE],
@@ -105,7 +104,7 @@ impl<'a> Seen<'a> {
             integrals: integrals.collect(),
             omegas: omegas.collect(),
             wraps: wraps.collect(),
-            flow: p[FLOW],
+            flow,
             solved,
             rest,
             lying,

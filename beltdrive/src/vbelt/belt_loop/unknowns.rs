@@ -2,17 +2,17 @@
 
 use super::seat::Seat;
 
-/// Index of G among the parameters.
-pub(super) const FLOW: usize = 0;
+/// Index of the rim speed ν of the driver among the parameters.
+pub(super) const DRIVER_RIM_SPEED: usize = 0;
 
-/// Where the parameters stand: G, the coordinate of the tensioner, the speeds of all pulleys with a segment but the
-/// driver, the lengths of all segments, and the tension `T_o` of EPP friction.
+/// Where the parameters stand: the rim speed of the driver (see `contact`), the coordinate of the tensioner, the rim speeds of the
+/// other pulleys with a segment, the lengths of all segments, and the tension `T_o` of EPP friction.
 #[derive(Clone, Debug)]
 pub(super) struct Unknowns {
     /// The coordinate of the tensioner.
     pub(super) coordinate: Option<usize>,
-    /// The speed of each pulley.
-    pub(super) speeds: Vec<Option<usize>>,
+    /// The rim speed of each pulley but idlers.
+    pub(super) rim_speeds: Vec<Option<usize>>,
     /// The length of the first segment.
     pub(super) first_length: usize,
     /// Whether `T_o` is one.
@@ -27,15 +27,18 @@ impl Unknowns {
         has_tensioner: bool,
         has_reference: bool,
     ) -> Self {
-        let mut first_length = FLOW + 1 + usize::from(has_tensioner);
-        let speeds = seats.iter().enumerate().map(|(pulley, seat)| {
-            let is_unknown = pulley != driver && !matches!(seat, Seat::Idle);
-            first_length += usize::from(is_unknown);
-            is_unknown.then_some(first_length - 1)
+        let mut first_length = DRIVER_RIM_SPEED + 1 + usize::from(has_tensioner);
+        let rim_speeds = seats.iter().enumerate().map(|(pulley, seat)| match seat {
+            Seat::Idle => None,
+            _ if pulley == driver => Some(DRIVER_RIM_SPEED),
+            _ => {
+                first_length += 1;
+                Some(first_length - 1)
+            }
         });
         Self {
-            speeds: speeds.collect(),
-            coordinate: has_tensioner.then_some(FLOW + 1),
+            rim_speeds: rim_speeds.collect(),
+            coordinate: has_tensioner.then_some(DRIVER_RIM_SPEED + 1),
             first_length,
             has_reference,
         }

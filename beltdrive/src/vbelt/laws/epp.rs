@@ -298,7 +298,7 @@ mod tests {
             ],
             [51.222_205_504, 54.450_203_43],
         );
-        assert_found(&drive, [258.875, 2e-2], 320);
+        assert_found(&drive, [258.875, 2e-2], 360);
     }
 
     #[test]

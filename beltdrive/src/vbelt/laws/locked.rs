@@ -111,21 +111,21 @@ mod tests {
     #[test]
     fn a_state_whose_arcs_are_lost_is_found_from_another_stiffness() {
         let law = FrictionLaw::Epp {
-            stiffness: 559_339_014.055_584_1,
+            stiffness: 39_995_165.793_381_99,
         };
-        let slack = 72.550_847_139_390_57;
+        let slack = 87.517_361_855_727_84;
         let drive = Drive::from(TwoPulleys {
             belt: v_belt([
-                0.104_187_118_059_340_97,
-                289_011.529_809_911_7,
-                16_814_012.519_300_427,
-                0.230_994_575_653_755_1,
+                0.227_930_482_041_539_82,
+                40_391.272_993_298_98,
+                1_002_511.578_783_240_9,
+                18.149_197_705_592_858_f64.to_radians(),
             ]),
-            friction_coefficient: 0.732_712_168_555_528_2,
-            driver_radius: 0.064_331_985_118_205_08,
-            driver_speed: 16.960_806_162_526_815,
-            driven_radius: 0.143_874_765_801_046_8,
-            centre_distance: 0.984_978_076_055_671_2,
+            friction_coefficient: 0.589_630_040_562_572_1,
+            driver_radius: 0.161_744_359_669_158_04,
+            driver_speed: 35.834_439_622_279_76,
+            driven_radius: 0.065_207_092_425_893_97,
+            centre_distance: 0.630_326_197_871_491_8,
             load: tractive(slack, slack),
             ..kim(law, 0.25)
         });
@@ -136,6 +136,6 @@ mod tests {
         let solved = path.at_load(tight).unwrap();
         assert!(solved.problem.sticks(), "{:?}", solved.problem.regimes());
         let steps = path.stats.newton_steps - steps;
-        assert!(steps <= 260, "{steps}");
+        assert!(steps <= 650, "{steps}");
     }
 }

@@ -95,7 +95,7 @@ fn wrong_on(on: &OnPulley<'_>) -> [f64; 2] {
         let pressure = on.contact(stretch.regime, y).pressure;
         highest = highest.max(pressure);
         wrong = wrong.max(-pressure);
-        let excess = limit_excess(on.groove, stretch.regime, y, on.omega, on.flow);
+        let excess = limit_excess(on.groove, stretch.regime, y, on.rim_speed, on.flow);
         wrong = wrong.max(match stretch.regime {
             Regime::Elastic | Regime::Reversed => excess,
             Regime::Slip => match on.groove.law {

@@ -11,7 +11,7 @@ use super::rest::{Rest, Rim};
 use super::runge_kutta::{Next, Rates};
 use crate::vbelt::groove::{ANGLE, INCLINATION, LAW, PENETRATION};
 use crate::vbelt::zones::{Sample, displacement_felt};
-use crate::vbelt::{BREAKAWAY, Contact, Regime, limit_excess};
+use crate::vbelt::{BREAKAWAY, Contact, Regime, deepening, limit_excess};
 
 /// Error of a step as a share of the slip. With 1e-5 the slowest of 100 random drives at 1.001 times the slack tension takes 9 s in
 /// place of 0.5 s.
@@ -47,7 +47,7 @@ pub(super) const DISPLACEMENT: usize = LAW;
 pub(super) struct Point {
     /// Arc length from the place where the integration begins.
     pub(super) s: f64,
-    /// F, θ, x, φ, the direction γ of the slip in (−π, π], and u.
+    /// F, θ, ξ, φ, the direction γ of the slip in (−π, π], and u.
     pub(super) states: [f64; LAW + 2],
     /// Their derivatives with respect to s.
     pub(super) rates: [f64; LAW + 2],
@@ -59,15 +59,15 @@ pub(super) struct Point {
 pub(super) type States = [f64; DISPLACEMENT + 1];
 
 impl Rim {
-    /// F, θ, x, φ and u.
+    /// F, θ, ξ, φ and u.
     pub(super) fn states(&self, &[slip, theta, x, phi, displacement]: &Belt) -> States {
-        let speed = self.omega * (1.0 - x) / (theta.cos() - slip);
+        let stretch = self.speed * (1.0 - x) / (theta.cos() - slip);
         let strand = self.groove.strand;
-        let tension = (speed / self.flow - 1.0) / strand.compliance;
+        let tension = (stretch - 1.0) / strand.compliance;
         [
             strand.tractive(tension, self.flow),
             theta,
-            x,
+            deepening(self.speed) * x,
             phi,
             displacement,
         ]
@@ -76,16 +76,16 @@ impl Rim {
     /// A belt at the surface of the groove, with a tractive tension, an inclination and a displacement.
     pub(super) fn at_surface(&self, tractive: f64, theta: f64, displacement: f64) -> Belt {
         let strand = self.groove.strand;
-        let speed = strand.speed(strand.tension(tractive, self.flow), self.flow);
-        let slip = theta.cos() - self.omega / speed;
+        let strain = strand.strain(strand.tension(tractive, self.flow));
+        let slip = theta.cos() - self.speed / (1.0 + strain);
         [slip, theta, 0.0, 0.0, displacement]
     }
 
     pub(super) fn contact(&self, states: &States) -> Contact<f64> {
-        Contact::new(&self.groove, Regime::Either, states, self.omega, self.flow)
+        Contact::new(&self.groove, Regime::Either, states, self.speed, self.flow)
     }
 
-    /// Derivatives of F, θ, x, φ and u with respect to the arc length.
+    /// Derivatives of F, θ, ξ, φ and u with respect to the arc length.
     fn belt_rates(&self, contact: &Contact<f64>, states: &States) -> States {
         let mut rates = [0.0; DISPLACEMENT + 1];
         contact.rates(&self.groove, states, &mut rates);
@@ -111,8 +111,8 @@ impl Rim {
             let [rate_t, rate_w] = contact.slip_rates(&self.groove, &rates);
             let direction = slip_t.atan2(slip_w);
             let turning = (slip_w * rate_t - slip_t * rate_w) / (slip_t * slip_t + slip_w * slip_w);
-            let with = |[tension, theta, x, phi, displacement]: States, direction| {
-                [tension, theta, x, phi, direction, displacement]
+            let with = |[tension, theta, deep, phi, displacement]: States, direction| {
+                [tension, theta, deep, phi, direction, displacement]
             };
             Point {
                 s,
@@ -126,10 +126,10 @@ impl Rim {
 
     /// What is seen of a belt at a point of an arc.
     pub(super) fn sample(&self, point: &Point) -> Sample {
-        let [tension, theta, x, phi, direction, displacement] = point.states;
-        let states = [tension, theta, x, phi, displacement];
+        let [tension, theta, deep, phi, direction, displacement] = point.states;
+        let states = [tension, theta, deep, phi, displacement];
         let contact = self.contact(&states);
-        let limit = limit_excess(&self.groove, Regime::Slip, &states, self.omega, self.flow);
+        let limit = limit_excess(&self.groove, Regime::Slip, &states, self.speed, self.flow);
         Sample {
             place: point.s,
             limit,
@@ -158,7 +158,7 @@ impl Rates<5> for Rest {
         [
             slip,
             rates[INCLINATION],
-            rates[PENETRATION],
+            rates[PENETRATION] / deepening(self.rim.speed),
             rates[ANGLE],
             rates[DISPLACEMENT],
         ]

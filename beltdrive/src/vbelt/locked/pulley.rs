@@ -7,7 +7,7 @@ use super::rest::Rest;
 use crate::SpanTension;
 use crate::vbelt::groove::{ANGLE, INCLINATION, LAW, PENETRATION, TENSION};
 use crate::vbelt::zones::{Zone, zones_of};
-use crate::vbelt::{EndAngles, Regime};
+use crate::vbelt::{EndAngles, Regime, deepening};
 use std::f64::consts::{PI, TAU};
 
 /// The belt along a segment, from its beginning.
@@ -140,13 +140,17 @@ impl Pulley {
     /// The arc on which friction holds the belt.
     fn held(&self, enters: Point) -> Vec<Point> {
         let Rest {
-            tractive, depth, ..
+            rim,
+            tractive,
+            depth,
+            ..
         } = self.rest;
+        let deep = deepening(rim.speed) * depth;
         let sweep = 1.0 / (1.0 - depth);
         let at = |share: f64| {
             let s = share * self.locked;
             let mut states = enters.states;
-            (states[TENSION], states[INCLINATION], states[PENETRATION]) = (tractive, 0.0, depth);
+            (states[TENSION], states[INCLINATION], states[PENETRATION]) = (tractive, 0.0, deep);
             states[ANGLE] += s * sweep;
             states[LAW] = PI;
             let mut rates = [0.0; DISPLACEMENT + 1];
@@ -165,15 +169,17 @@ impl Pulley {
     fn hardly_slipping(&self, [enters, leaves]: [Point; 2]) -> Vec<Point> {
         let locked = self.locked;
         let Rest {
+            rim,
             rate,
             depth,
             tractive,
             turning,
             ..
         } = self.rest;
+        let at_rest = deepening(rim.speed) * depth;
         let beside = [enters, leaves].map(|point| {
-            let [tension, theta, x, ..] = point.states;
-            [tension - tractive, theta, x - depth]
+            let [tension, theta, deep, ..] = point.states;
+            [tension - tractive, theta, deep - at_rest]
         });
         let mut places = Vec::new();
         let (mut place, mut step) = (STEP / rate, STEP / rate);
@@ -191,7 +197,7 @@ impl Pulley {
             let mut states = [0.0; DISPLACEMENT + 1];
             states[TENSION] = tractive + rest(0);
             states[INCLINATION] = rest(1);
-            states[PENETRATION] = depth + rest(2);
+            states[PENETRATION] = at_rest + rest(2);
             states[ANGLE] = enters.states[ANGLE] + s / (1.0 - depth);
             states[LAW] = PI - turning * rest(1);
             let mut rates = [0.0; DISPLACEMENT + 1];

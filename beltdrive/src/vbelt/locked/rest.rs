@@ -18,12 +18,13 @@
 
 use crate::vbelt::{Groove, Law};
 
-/// The belt on a pulley of a certain speed, with a certain mass flow, scaled.
+/// The belt on a pulley of a certain rim speed, with a certain mass flow, scaled.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rim {
     /// The groove, with friction along the slip.
     pub(super) groove: Groove,
-    pub(super) omega: f64,
+    /// ν.
+    pub(super) speed: f64,
     pub(super) flow: f64,
 }
 
@@ -66,22 +67,23 @@ impl Rest {
         };
         let depth = depth(&held, tractive)?;
         let (strand, radius) = (groove.strand, 1.0 - depth);
-        let [omega, flow] = match on {
+        let [speed, flow] = match on {
             On::Driver(omega) => {
                 let speed = omega * radius;
                 // V = G (1 + e T) with T = F + c G V, for G.
                 let (inertia, compliance) = (strand.inertia, strand.compliance);
                 let stretch = 1.0 + compliance * tractive;
                 let root = (stretch * stretch + 4.0 * compliance * inertia * speed * speed).sqrt();
-                [omega, 2.0 * speed / (stretch + root)]
+                let flow = 2.0 * speed / (stretch + root);
+                [omega / flow, flow]
             }
             On::Driven(flow) => {
-                let speed = strand.speed(strand.tension(tractive, flow), flow);
-                [speed / radius, flow]
+                let stretch = 1.0 + strand.strain(strand.tension(tractive, flow));
+                [stretch / radius, flow]
             }
         };
-        let speed = omega * radius;
-        let follows = -omega / (speed * strand.stretching(strand.tension(tractive, flow), speed));
+        let stretching = strand.stretching(strand.tension(tractive, flow), speed * radius * flow);
+        let follows = -1.0 / (radius * stretching);
         let friction = held.friction_coefficient * held.radial_stiffness * depth / free(&held)?;
         let square =
             stiffness(&held)? / tractive * (1.0 - depth * follows / tractive) - radius.powi(-2);
@@ -92,7 +94,7 @@ impl Rest {
         };
         let rim = Rim {
             groove: Groove { law, ..*groove },
-            omega,
+            speed,
             flow,
         };
         (square > 0.0).then(|| Self {
@@ -167,7 +169,7 @@ mod tests {
     use super::*;
     use crate::FrictionLaw;
     use crate::vbelt::scaling::tests::kim;
-    use crate::vbelt::{Contact, DRIVER, DriveProblem, INCLINATION, Regime, Scales};
+    use crate::vbelt::{Contact, DRIVER, DriveProblem, INCLINATION, Regime, Scales, deepening};
 
     fn groove() -> Groove {
         let drive = kim(FrictionLaw::Coulomb, 0.25);
@@ -181,12 +183,13 @@ mod tests {
         for rest in [on_driver, on_driven] {
             let Rim {
                 groove,
-                omega,
+                speed,
                 flow,
             } = rest.rim;
             // Sinking slowly, the belt slides straight down.
-            let state = [rest.tractive, -1e-9, rest.depth, 0.0];
-            let contact = Contact::new(&groove, Regime::Slip, &state, omega, flow);
+            let deep = deepening(speed) * rest.depth;
+            let state = [rest.tractive, -1e-9, deep, 0.0];
+            let contact = Contact::new(&groove, Regime::Slip, &state, speed, flow);
             assert!(contact.slip[0].abs() < 1e-15, "{contact:?}");
             let mut rates = [0.0; 4];
             contact.rates(&groove, &state, &mut rates);
@@ -201,20 +204,21 @@ mod tests {
         let [held, full] = [-0.4, 1.0]
             .map(|displaced| Rest::new(&groove, On::Driver(1.0), 0.15, displaced).unwrap());
         assert!(held.is_held && !full.is_held && held.depth > full.depth);
-        let state = [held.tractive, -1e-9, held.depth, 0.0, held.displacement];
         let Rim {
             groove,
-            omega,
+            speed,
             flow,
         } = held.rim;
-        let contact = Contact::new(&groove, Regime::Either, &state, omega, flow);
+        let deep = deepening(speed) * held.depth;
+        let state = [held.tractive, -1e-9, deep, 0.0, held.displacement];
+        let contact = Contact::new(&groove, Regime::Either, &state, speed, flow);
         let mut rates = [0.0; 5];
         contact.rates(&groove, &state, &mut rates);
         assert!(
             contact.slip[0].abs() < 1e-15 && rates[INCLINATION].abs() < 1e-8,
             "{rates:?}"
         );
-        let limit = Contact::new(&groove, Regime::Slip, &state, omega, flow).friction();
+        let limit = Contact::new(&groove, Regime::Slip, &state, speed, flow).friction();
         assert!(contact.friction() < 0.9 * limit && held.displacement < 0.0);
     }
 

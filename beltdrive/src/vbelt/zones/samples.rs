@@ -69,7 +69,7 @@ pub(super) fn samples<P: BeltProblem>(
 ) -> Vec<Sample> {
     let (problem, solution) = (&solved.problem, &solved.solution);
     let p = solution.parameters();
-    let (omega, flow) = (problem.omega(pulley, p), problem.flow(p));
+    let (rim_speed, flow) = (problem.rim_speed(pulley, p), problem.flow(p));
     let whole = problem.contact_length(pulley, p);
     let mut samples: Vec<Sample> = Vec::new();
     let mut before = 0.0;
@@ -80,7 +80,7 @@ pub(super) fn samples<P: BeltProblem>(
             continue;
         }
         let is_at_rest = problem.regime(segment) == Regime::Stick
-            && holds(groove, solution.start(segment), omega, flow);
+            && holds(groove, solution.start(segment), rim_speed, flow);
         let mut y = [0.0; MAX_STATES];
         let y = &mut y[..solution.segments()[segment].states];
         let inside = solution.mesh(segment).windows(2).flat_map(|pair| {
@@ -98,13 +98,13 @@ pub(super) fn samples<P: BeltProblem>(
         for s in entry.chain(inside).chain(exit) {
             solution.state(segment, s, y);
             let regime = problem.regime(segment);
-            let contact = Contact::new(groove, regime, y, omega, flow);
+            let contact = Contact::new(groove, regime, y, rim_speed, flow);
             let direction = direction(groove.law, y, &contact);
             let share = match groove.law {
                 Law::Bristle { .. } => y[LAW].hypot(y[LAW + 1]) / groove.friction_coefficient,
                 _ => 1.0,
             };
-            let limit = excess(groove, regime, y, omega, flow);
+            let limit = excess(groove, regime, y, rim_speed, flow);
             samples.push(Sample {
                 place: before + s * length,
                 limit,
@@ -133,8 +133,8 @@ pub(super) fn samples<P: BeltProblem>(
 
 /// What is zero where a zone ends, as in [`limit_excess`]. Where vector EPP friction is taken to be elastic and is not,
 /// it slips as long as the plastic rate is positive, which ends before |B| is back at its limit.
-fn excess(groove: &Groove, regime: Regime, y: &[f64], omega: f64, flow: f64) -> f64 {
-    let of = |regime| limit_excess(groove, regime, y, omega, flow);
+fn excess(groove: &Groove, regime: Regime, y: &[f64], rim_speed: f64, flow: f64) -> f64 {
+    let of = |regime| limit_excess(groove, regime, y, rim_speed, flow);
     match (groove.law, regime) {
         (Law::Vector { .. }, Regime::Elastic) => of(Regime::Elastic).min(of(Regime::Slip)),
         _ => of(regime),
@@ -154,9 +154,9 @@ pub(in crate::vbelt) fn displacement_felt(groove: &Groove, states: &[f64], limit
 }
 
 /// Whether friction is elastic where the belt comes to rest.
-fn holds(groove: &Groove, y: &[f64], omega: f64, flow: f64) -> bool {
-    let friction = Contact::new(groove, Regime::Elastic, y, omega, flow).friction();
-    limit_excess(groove, Regime::Slip, y, omega, flow) < -RESTING * friction
+fn holds(groove: &Groove, y: &[f64], rim_speed: f64, flow: f64) -> bool {
+    let friction = Contact::new(groove, Regime::Elastic, y, rim_speed, flow).friction();
+    limit_excess(groove, Regime::Slip, y, rim_speed, flow) < -RESTING * friction
 }
 
 /// Whether bristles are seen to hold the belt.
