@@ -171,6 +171,14 @@ pub(crate) trait BeltProblem: Problem + Clone {
         self.zoning().regimes.contains(&Regime::Stick)
     }
 
+    /// Whether elastic friction is reversed on a pulley right in front of the place at which the belt comes to rest.
+    fn reverses_to_rest(&self) -> bool {
+        let to_rest = [Regime::Reversed, Regime::Stick];
+        let mut zones =
+            (0..self.pulleys()).map(|pulley| &self.zoning().regimes[self.zones(pulley)]);
+        zones.any(|zones| zones.windows(2).any(|pair| pair == to_rest))
+    }
+
     /// The segment at whose end the belt breaks away on a pulley, if it does: the turn lies behind it.
     fn breakaway(&self, pulley: usize) -> Option<usize> {
         let mut cuts = self.zones(pulley).filter(|&segment| self.is_cut(segment));

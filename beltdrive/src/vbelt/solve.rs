@@ -13,7 +13,9 @@ use web_time::Instant;
 /// branch that leads there or to the limit of the load. Where there is no such branch, from states near the load.
 ///
 /// Scalar elastic friction may have several states under one load. Where the one at its own load is found only with a normalised
-/// direction, that to which the branch of the load leads takes its place, if it leads there.
+/// direction, or its friction is reversed in front of the place at which the belt comes to rest, that to which the branch of the
+/// load leads takes its place, if it leads there. One random drive has two states from 307 to 322 N, of which that with reversed
+/// friction is found first; it is 0.4 % faster, and loads of 1.5 to 3 times the slack tension lead to the other one.
 pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
     let tolerance = options.tolerance;
@@ -26,7 +28,9 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
             let is_sure = !may_be_another(&solved)
                 || path.is_reached(&solved)
                 || is_led_from_rest(&mut path, &solved);
-            let may_be_one_of_two = is_elastic && !solved.problem.has_direction();
+            let problem = &solved.problem;
+            let may_be_one_of_two =
+                is_elastic && (!problem.has_direction() || problem.reverses_to_rest());
             match checked(&path, solved, start) {
                 fault @ Err(SolveError::Violated(_) | SolveError::Impossible(_)) => Some(fault),
                 Ok(state) if is_sure && may_be_one_of_two => {
@@ -184,7 +188,7 @@ mod tests {
 
     #[test]
     fn of_two_states_that_of_the_branch_is_told() {
-        // The other one, whose direction is normalised, is 0.4 % faster and has an efficiency of 0.910.
+        // The other one is 0.4 % faster and has an efficiency of 0.910.
         let law = FrictionLaw::Epp {
             stiffness: 1.438_469e8,
         };
