@@ -171,12 +171,14 @@ pub(crate) trait BeltProblem: Problem + Clone {
         self.zoning().regimes.contains(&Regime::Stick)
     }
 
-    /// Whether elastic friction is reversed on a pulley right in front of the place at which the belt comes to rest.
-    fn reverses_to_rest(&self) -> bool {
-        let to_rest = [Regime::Reversed, Regime::Stick];
-        let mut zones =
-            (0..self.pulleys()).map(|pulley| &self.zoning().regimes[self.zones(pulley)]);
-        zones.any(|zones| zones.windows(2).any(|pair| pair == to_rest))
+    /// Whether elastic friction is reversed on a pulley right in front of the place at which the belt comes to rest, and is not
+    /// reversed back behind it.
+    fn stays_reversed(&self) -> bool {
+        (0..self.pulleys()).any(|pulley| {
+            let zones = &self.zoning().regimes[self.zones(pulley)];
+            let last = zones.iter().rposition(|&zone| zone == Regime::Reversed);
+            last.is_some_and(|last| zones.get(last + 1) == Some(&Regime::Stick))
+        })
     }
 
     /// The segment at whose end the belt breaks away on a pulley, if it does: the turn lies behind it.
