@@ -156,6 +156,25 @@ fn a_branch_of_a_belt_that_locks_in_a_stiff_groove_takes_few_steps() {
 }
 
 #[test]
+fn a_branch_of_a_belt_that_hardly_slips_takes_long_steps() {
+    // With ω, G and x as unknowns, in which the slip is not linear, 325 factorisations and 54 points.
+    let drive = Drive::from(TwoPulleys {
+        belt: v_belt([0.186_438_5, 20_031.784, 2.890_924_8e7, 0.269_566_09]),
+        friction_coefficient: 0.638_572_6,
+        law: FrictionLaw::Coulomb,
+        driver_radius: 0.142_344_42,
+        driver_speed: 23.515_329,
+        driven_radius: 0.064_014_127,
+        centre_distance: 0.243_540_87,
+        load: tractive(46.052_016, 61.078_36),
+    });
+    let branch = traced(&drive, TIGHT, [61.078_36, 2000.0]);
+    assert_eq!(branch.end, BranchEnd::Target);
+    let factorisations = branch.convergence.factorisations;
+    assert!(factorisations <= 150, "{factorisations}");
+}
+
+#[test]
 fn a_branch_passes_the_load_at_which_the_slip_of_a_turn_changes_its_sense() {
     // On the driver at 100.54 N. The place of the turn turns back there, and the branch came back to its start. In ever
     // shorter steps towards that load the branches took 191, 148 and 258 factorisations.
