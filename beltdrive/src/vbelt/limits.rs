@@ -145,9 +145,9 @@ fn states<'d>(
     let is_elastic = matches!(drive.law, FrictionLaw::Epp { .. });
     let mut path = Path::new(drive, tolerance);
     let mut loads = start_loads(drive, true).map(Some);
-    // Where the load of the drive is not carried, with elastic friction one of some slip.
+    // Where the load of the drive is not carried, one of some slip.
     let own = loads.next().into_iter();
-    let begins = own.chain([None]).chain(loads);
+    let begins = own.chain(is_elastic.then_some(None)).chain(loads);
     let mut may_be = true;
     begins
         .filter(move |_| is_load)
@@ -156,10 +156,7 @@ fn states<'d>(
             Some(_) => None,
             None => {
                 may_be = pressed_through_without_states(&mut path).is_none();
-                if !may_be || !is_elastic {
-                    return None;
-                }
-                let idle = path.idle_bristles()?;
+                let idle = path.idle_bristles().filter(|_| may_be)?;
                 path.slipping(&idle, f64::INFINITY)
             }
         })
