@@ -64,8 +64,9 @@ pub(super) struct Stretch {
 
 /// The slip at a place of a contact.
 struct Slip {
-    /// Segment of the solution, and the place s on it.
-    at: (usize, f64),
+    /// The segment, and the place s on it.
+    stretch: Stretch,
+    place: f64,
     angle: f64,
     /// Its velocity as a share of the belt speed.
     slip: f64,
@@ -158,7 +159,7 @@ impl OnPulley<'_> {
         }
     }
 
-    /// \[F r cos θ\] between the ends, which is the torque of the belt on the pulley; scaled.
+    /// \[F R cos θ\] between the ends, at which x = 0, which is the torque of the belt on the pulley; scaled.
     pub(super) fn change_of_moment(&self) -> f64 {
         let arm = |y: &[f64]| y[TENSION] * y[INCLINATION].cos();
         arm(self.exit()) - arm(self.entry())
@@ -292,6 +293,12 @@ impl OnPulley<'_> {
         }
     }
 
+    /// The size of the slip.
+    fn slip(&self, regime: Regime, y: &[f64]) -> f64 {
+        let [along, up] = self.contact(regime, y).slip;
+        along.hypot(up)
+    }
+
     /// The slip along the contact, at the same number of places on every mesh interval.
     fn slips(&self) -> Vec<Slip> {
         let mut slips = Vec::new();
@@ -302,11 +309,11 @@ impl OnPulley<'_> {
                 for part in 0..=SLIP_SAMPLES {
                     let s = pair[0] + (pair[1] - pair[0]) * part as f64 / SLIP_SAMPLES as f64;
                     self.solution.state(stretch.segment, s, y);
-                    let [along, up] = self.contact(stretch.regime, y).slip;
                     slips.push(Slip {
-                        at: (stretch.segment, s),
+                        stretch: *stretch,
+                        place: s,
                         angle: y[ANGLE],
-                        slip: along.hypot(up),
+                        slip: self.slip(stretch.regime, y),
                         is_full: matches!(stretch.regime, Regime::Slip | Regime::Either),
                     });
                 }
@@ -326,21 +333,19 @@ impl OnPulley<'_> {
         if lowest.slip < LeastSlip::LOCKED {
             return lowest.slip;
         }
-        let (segment, place) = lowest.at;
-        let beside = samples.iter().filter(|at| at.at.0 == segment);
-        let [from, to] = beside.fold([0.0_f64, 1.0], |[from, to], at| match at.at.1 {
+        let Slip { stretch, place, .. } = *lowest;
+        let beside = samples.iter();
+        let beside = beside.filter(|at| at.stretch.segment == stretch.segment);
+        let [from, to] = beside.fold([0.0_f64, 1.0], |[from, to], at| match at.place {
             before if before < place => [from.max(before), to],
             behind if behind > place => [from, to.min(behind)],
             _ => [from, to],
         });
-        let stretch = self.stretches.iter().find(|on| on.segment == segment);
-        let regime = stretch.map_or(Regime::Either, |on| on.regime);
         let mut y = [0.0; MAX_STATES];
-        let y = &mut y[..self.solution.segments()[segment].states];
+        let y = &mut y[..self.solution.segments()[stretch.segment].states];
         let mut slip = |s: f64| {
-            self.solution.state(segment, s, y);
-            let [along, up] = self.contact(regime, y).slip;
-            along.hypot(up)
+            self.solution.state(stretch.segment, s, y);
+            self.slip(stretch.regime, y)
         };
         let least = maximum::between(|s| -slip(s), [from, to], LEAST);
         lowest.slip.min(slip(least))
