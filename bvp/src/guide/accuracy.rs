@@ -36,7 +36,9 @@
 //!    too coarse for its defect. If forcings of the size of the tolerance grow there by 3.3 or more, the solution
 //!    must be the same on halved intervals.
 //!
-//! With [`Control::Defect`] only the defect and the conditions are tested, and nothing is examined.
+//! With [`Control::Defect`] only the defect and the conditions are tested, and nothing is examined. What is found in 3, 5 and 6
+//! holds for neighbours, too, so that it is left out with [`Options::from_neighbour`]: for a path of problems, each solved from the
+//! solution of the one before.
 //!
 //! # What may be missed
 //!

@@ -53,11 +53,13 @@ impl Acceptance {
     }
 
     /// Estimates the error of a solution by the last linearisation. One beyond the tolerance is refused where it may
-    /// be nothing but rounding: no mesh changes that. The others are confirmed or refused by a second look.
+    /// be nothing but rounding: no mesh changes that. The others are confirmed or refused by a second look. The first solution
+    /// that is reached from a neighbour misses the tolerance by its mesh.
     pub(crate) fn estimate(
         &mut self,
         problem: &mut Discretised<'_>,
         solution: &mut Solution,
+        is_first: bool,
     ) -> Result<(), Error> {
         let (samples, local) = (&problem.samples, &solution.quality.defects.local);
         let Discretised {
@@ -67,7 +69,11 @@ impl Acceptance {
         } = problem;
         solution.quality.errors = newton.global_errors(collocation, &solution.x, samples, local);
         let within = |error: f64| error <= problem.options.tolerance;
-        if solution.error_estimate().is_some_and(within) || !problem.collocation.is_suspect() {
+        let by_mesh = is_first && problem.options.from_neighbour;
+        if solution.error_estimate().is_some_and(within)
+            || by_mesh
+            || !problem.collocation.is_suspect()
+        {
             return Ok(());
         }
         let a = problem.amplification(&solution.x);
@@ -75,7 +81,8 @@ impl Acceptance {
     }
 
     /// Takes a second look at a solution within the tolerance: what was found of it must hold at the
-    /// solution itself, it must be isolated, and no layer may hide from the mesh.
+    /// solution itself, it must be isolated, and no layer may hide from the mesh. For one that is reached from a neighbour all of
+    /// that is known but its own rounding.
     pub(crate) fn confirm(
         &mut self,
         problem: &mut Discretised<'_>,
@@ -83,13 +90,14 @@ impl Acceptance {
     ) -> Result<Confirmed, Error> {
         // The amplification of random forcings is a lower bound, ten to a thousand times less than κ.
         let harmless = UNNOTICED * problem.options.tolerance;
-        let mut a = match problem.is_current(&solution.x) {
+        let is_known = problem.options.from_neighbour;
+        let mut a = match is_known || problem.is_current(&solution.x) {
             true => problem.amplification(&solution.x),
             false => f64::INFINITY,
         };
         // A long step leaves its rounding, too; and a direction is looked at closely at the solution only.
         let moved = problem.newton.moved;
-        if a * UNIT_ROUNDOFF * moved > harmless || moved > 0.0 && is_amplified(a) {
+        if a * UNIT_ROUNDOFF * moved > harmless || !is_known && moved > 0.0 && is_amplified(a) {
             if self.goes_on(problem, solution)? {
                 return Ok(Confirmed::Moved);
             }
@@ -123,7 +131,7 @@ impl Acceptance {
             let (mesh, _) = self.doubt(problem, direction, a, solution)?;
             return Ok(Confirmed::On(mesh));
         }
-        let direction = match is_amplified(a) {
+        let direction = match !is_known && is_amplified(a) {
             true => problem.direction(&solution.x, a),
             false => None,
         };
@@ -132,6 +140,9 @@ impl Acceptance {
             .inspect_err(|_| self.refused = true)?;
         if let Some(mesh) = self.look_further(problem, solution) {
             return Ok(Confirmed::On(mesh));
+        }
+        if is_known {
+            return Ok(Confirmed::Yes);
         }
         let layers = match std::mem::replace(&mut self.layers_sought, true) {
             true => None,

@@ -37,6 +37,12 @@ pub struct Options {
     /// What is brought to at most the tolerance, and so what the mesh is chosen for; default
     /// [`Control::Error`].
     pub control: Control,
+    /// Whether the guess is a solution of a neighbouring problem on a mesh that resolves it, as along a path of problems; default
+    /// false. What is true of a solution then holds for its neighbour: one within the tolerance is not
+    /// [examined](crate::guide::accuracy#what-success-means) for other solutions near it, for hidden layers and for what grows from below
+    /// the tolerance, and its rounding is told by the last linearisation. That saves one to three factorisations. From a guess that is
+    /// no neighbour a wrong solution may be returned: layers a tenth as thick as those that the mesh resolves are not seen.
+    pub from_neighbour: bool,
     /// Below what size the error of each state or parameter is absolute, in the unit of that state or
     /// parameter: where this documentation says 1 + |y| or 1 + |f|, the 1 stands for this number, or for
     /// this number per unit of s. One positive number for every state of all segments in turn, then one for
@@ -90,6 +96,7 @@ impl Default for Options {
             max_newton_steps: 60,
             retries: 3,
             control: Control::Error,
+            from_neighbour: false,
             absolute: vec![],
         }
     }

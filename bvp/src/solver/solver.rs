@@ -240,7 +240,9 @@ impl Run<'_> {
         if !estimating {
             return Ok(None);
         }
-        self.acceptance.estimate(&mut self.problem, solution)?;
+        let is_first = self.missed == 0;
+        self.acceptance
+            .estimate(&mut self.problem, solution, is_first)?;
         if solution
             .error_estimate()
             .is_some_and(|error| error <= tolerance)

@@ -248,6 +248,24 @@ fn a_solution_fixed_through_layers_is_refused_when_they_are_thin() {
 }
 
 #[test]
+fn rounding_is_refused_from_a_neighbour_too() {
+    let near = from_zero(&near_the_eigenvalue(1e-6), 1e-6).unwrap();
+    let thick = from_zero(&TwoLayers { eps: 0.018 }, 1e-6).unwrap();
+    for (equations, guess, tolerance) in [
+        (&near_the_eigenvalue(1e-12) as &dyn Equations, &near, 1e-6),
+        (&TwoLayers { eps: 0.016 }, &thick, 1e-6),
+    ] {
+        let options = Options {
+            tolerance,
+            from_neighbour: true,
+            ..Options::default()
+        };
+        let rounding = refusal(solve(equations, guess, &options), tolerance);
+        assert!(rounding > 1e-3 * tolerance, "{rounding:e}");
+    }
+}
+
+#[test]
 fn a_known_solution_of_a_well_conditioned_problem_is_found_again() {
     let problems = [
         exponential(50.0),

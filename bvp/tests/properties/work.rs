@@ -85,6 +85,28 @@ fn the_fitzhugh_nagumo_impulse() {
 }
 
 #[test]
+fn a_solution_from_that_of_a_neighbour_is_not_examined_for_what_is_known_of_that() {
+    let near = solve(
+        &FitzHughNagumo,
+        &FitzHughNagumo::guess(),
+        &Options::to(1e-3),
+    )
+    .unwrap();
+    let [own, known] = [false, true].map(|from_neighbour| {
+        let options = Options {
+            from_neighbour,
+            ..Options::default()
+        };
+        let solution = solve(&FitzHughNagumo, &near, &options).unwrap();
+        let stats = solution.stats();
+        let work = [stats.newton_steps, stats.factorisations, stats.meshes];
+        (solution.parameters()[0], work)
+    });
+    assert!((own.0 - known.0).abs() < 1e-6, "{own:?} {known:?}");
+    assert_eq!((own.1, known.1), ([4, 3, 2], [4, 2, 2]));
+}
+
+#[test]
 fn the_time_optimal_double_integrator() {
     let guess = Constant {
         states: vec![vec![0.5, 0.5]; 2],
