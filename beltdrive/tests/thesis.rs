@@ -54,7 +54,7 @@ fn coulomb_friction_at_the_loads_of_table_4() {
     ] {
         let state = state(FrictionLaw::Coulomb, tight);
         assert_constants(&state, expected, 1e-6);
-        assert!(state.convergence.newton_iterations <= 80);
+        assert!(state.convergence.newton_iterations <= 45);
         assert!(state.convergence.error_estimate <= 1e-6);
         assert!(state.convergence.slip_normalisation_effect <= 1e-6);
         assert!(state.warnings.is_empty());
@@ -93,7 +93,7 @@ fn longer_arcs(state: &SteadyState, arcs: [f64; 2]) -> [f64; 2] {
 #[test]
 fn locked_belts_are_found_within_the_error_that_is_stated() {
     // The Newton steps are those of the whole way from nothing.
-    for ((tight, expected, arcs), steps) in LOCKED.into_iter().zip([70, 85, 25]) {
+    for ((tight, expected, arcs), steps) in LOCKED.into_iter().zip([45, 55, 25]) {
         let state = state(FrictionLaw::Coulomb, tight);
         let c = &state.convergence;
         assert!(c.slip_normalisation_effect <= 1e-7);
@@ -111,9 +111,21 @@ fn locked_belts_are_found_within_the_error_that_is_stated() {
         .least_slip
         .unwrap();
     assert!((least.slip / 6.0e-6 - 1.0).abs() < 0.1);
-    for tight in [110.0, 150.0, 300.0, 400.0] {
+    for (tight, most) in [
+        (110.0, 90),
+        (120.0, 85),
+        (130.0, 65),
+        (150.0, 65),
+        (250.0, 65),
+        (300.0, 55),
+        (400.0, 50),
+        (550.0, 45),
+        (1000.0, 45),
+        (5000.0, 35),
+    ] {
         let state = state(FrictionLaw::Coulomb, tight);
-        assert!(state.convergence.newton_iterations <= 120);
+        let steps = state.convergence.newton_iterations;
+        assert!(steps <= most, "{steps} at {tight} N");
     }
 }
 
@@ -167,7 +179,7 @@ fn a_belt_that_hardly_presses_locks() {
 
 #[test]
 fn locked_belts_are_found_to_small_tolerances() {
-    let asked = [(1e-12, 78), (1e-9, 85), (1e-9, 45)];
+    let asked = [(1e-12, 65), (1e-9, 75), (1e-9, 35)];
     for ((tight, expected, arcs), (tolerance, steps)) in LOCKED.into_iter().zip(asked) {
         let options = SolveOptions { tolerance };
         let state = solve(&kim(FrictionLaw::Coulomb, tight), &options).unwrap();

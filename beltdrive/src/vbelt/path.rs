@@ -272,8 +272,11 @@ impl<'a> Path<'a> {
             }
             _ => effort,
         };
+        let known = intervals(guess);
         let mut options = effort.options(self.tolerance);
-        options.max_intervals = options.max_intervals.max(intervals(guess));
+        options.max_intervals = options.max_intervals.max(known);
+        // Only guesses that know the state have a mesh.
+        options.from_neighbour = known > 0;
         let outcome = bvp::solve(&problem, guess, &options);
         self.count(&outcome);
         outcome.map(|solution| Solved { problem, solution })
