@@ -37,8 +37,8 @@
 //!    must be the same on halved intervals.
 //!
 //! With [`Control::Defect`] only the defect and the conditions are tested, and nothing is examined. What is found in 3, 5 and 6
-//! holds for neighbours, too, so that it is left out with [`Options::from_neighbour`]: for a path of problems, each solved from the
-//! solution of the one before.
+//! holds for neighbours, too, so that it is left out with [`Options::from_neighbour`], and the last linearisation is taken for that at
+//! the solution: for a path of problems, each solved from the solution of the one before.
 //!
 //! # What may be missed
 //!
