@@ -345,7 +345,7 @@ impl Path<'_> {
                 break;
             }
         }
-        let reason = LimitReason::of_limit_point(top.exit(DRIVER)[INCLINATION]);
+        let reason = LimitReason::of_limit_point(top.exit(DRIVER)[INCLINATION], top.driven_speed());
         Ok(Found::Beyond(Box::new(Limit { reason, state: top })))
     }
 }

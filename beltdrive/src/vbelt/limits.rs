@@ -250,8 +250,10 @@ impl Traced<'_> {
                 RangeEnd::Limit(LimitReason::DrivenSlips)
             }
             Some(event) if event.kind == EventKind::LimitPoint => {
-                let exit = event.point.state.driver.inclination[1];
-                RangeEnd::Limit(LimitReason::of_limit_point(exit))
+                let StateSummary { driver, driven, .. } = &event.point.state;
+                let drive = self.tracer.drive;
+                let share = driven.angular_speed * drive.pair().driven_radius / drive.rim_speed();
+                RangeEnd::Limit(LimitReason::of_limit_point(driver.inclination[1], share))
             }
             _ if self.end == BranchEnd::NoLoad => RangeEnd::NoLoad,
             _ => RangeEnd::NotFound,

@@ -16,6 +16,7 @@ use super::piece::{PieceEnd, WHOLE};
 use super::zones::Refused;
 use crate::input::Key;
 use crate::results::difficulty;
+use crate::results::limits::STANDS;
 use crate::{
     BranchEnd, BranchEvent, Drive, EventKind, Role, StateErrors, StateSummary, SteadyState,
     TraceConvergence, TracePoint,
@@ -27,10 +28,6 @@ use web_time::Instant;
 pub(super) const MAX_PIECES: usize = 40;
 /// Behind a limit point a branch is followed until the entry has come back by this share of its way.
 const WAY_BACK: f64 = 0.25;
-
-/// A driven pulley that has kept less than this share of its speed all but stands. With scalar elastic friction of one random drive
-/// states are found down to 3e-5, and none at zero; the load at which it would stand is less than 1e-8 of it farther on.
-const STANDS: f64 = 1e-3;
 
 /// Where a trace shall end, apart from the ends of its range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
