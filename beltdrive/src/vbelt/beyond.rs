@@ -7,10 +7,10 @@
 //! end in a limit point at which no pulley slips grossly, and the drive goes over to states with the other, under which
 //! it carries more. The limit of its load is that of the last of them.
 
+use super::found::verified;
 use super::limit::slips_far;
 use super::path::{Path, Solved};
 use super::piece::PieceEnd;
-use super::state::describe;
 use super::tracer::Tracer;
 use super::zones::Refused;
 use crate::{BranchEnd, BranchEvent, EventKind, FrictionLaw, LeastSlip, StateSummary};
@@ -161,12 +161,10 @@ impl Tracer<'_> {
     /// The state at a value of the entry, from nothing in some way, if it is found below the limit of the load.
     fn anew_at(&mut self, value: f64, way: Way) -> Option<Solved> {
         let drive = self.drive_at(value);
-        let mut path = Path::new(&drive, self.tolerance);
-        let found = way(&mut path).filter(|solved| {
-            !slips_far(solved)
-                && path.is_before_limit(solved)
-                && describe(&path, solved).verified().is_ok()
-        });
+        let mut path = Path::of_branch(&drive, self.tolerance);
+        let found =
+            way(&mut path).filter(|solved| !slips_far(solved) && path.is_before_limit(solved));
+        let found = found.and_then(|solved| verified(&mut path, solved).ok());
         self.convergence.count(&path.stats);
         found
     }

@@ -3,7 +3,7 @@
 use super::guess::tractive_on_pitch_line;
 use super::limit::Found;
 use super::numbers::Numbers;
-use super::path::{Path, Solved, Stuck};
+use super::path::{Effort, ForError, Path, Solved, Stuck};
 use super::state::{describe, steady_state};
 use super::{DRIVEN, DRIVER, INCLINATION};
 use crate::results::possible;
@@ -16,7 +16,7 @@ use web_time::Instant;
 
 /// Searches a state of a drive at its load from which a branch can be followed.
 pub(super) fn find(drive: &Drive, tolerance: f64) -> (Path<'_>, Result<Found, Stuck>) {
-    let mut path = Path::new(drive, tolerance);
+    let mut path = Path::of_branch(drive, tolerance);
     let found = path.find(path.target());
     (path, found)
 }
@@ -118,6 +118,18 @@ pub(super) fn not_carried(
         }),
         exit_inclination: Some(exit_inclination),
     }
+}
+
+/// A state of a branch that passes its checks, on meshes for the defect if it does not on those for the error: beside the ends of
+/// contacts the pressure may be negative there by more than is allowed.
+pub(super) fn verified(path: &mut Path<'_>, solved: Solved) -> Result<Solved, SolveError> {
+    let Err(fault) = describe(path, &solved).verified() else {
+        return Ok(solved);
+    };
+    path.for_error = ForError::Never;
+    let precise = path.again(solved, Effort::Final).map_err(|_| fault)?;
+    describe(path, &precise).verified()?;
+    Ok(precise)
 }
 
 /// A solution as a state that has passed its checks, after a search that began at `start`.

@@ -1,6 +1,6 @@
 //! Both ends of the range of an entry over which a drive has steady states.
 
-use super::found::{carried, find, forwards, is_crossed, pressed_through_without_states};
+use super::found::{carried, find, forwards, is_crossed, pressed_through_without_states, verified};
 use super::path::{Path, Solved};
 use super::starts::start_loads;
 use super::state::describe;
@@ -143,7 +143,7 @@ fn states<'d>(
 ) -> impl Iterator<Item = (Drive, Solved)> + use<'d> {
     let is_load = *key == Key::load(drive);
     let is_elastic = matches!(drive.law, FrictionLaw::Epp { .. });
-    let mut path = Path::new(drive, tolerance);
+    let mut path = Path::of_branch(drive, tolerance);
     let mut loads = start_loads(drive, true).map(Some);
     // Where the load of the drive is not carried, one of some slip.
     let own = loads.next().into_iter();
@@ -184,10 +184,9 @@ fn first_of(
             None => Ok((first, solved)),
         };
     }
-    let (path, found) = find(drive, tolerance);
+    let (mut path, found) = find(drive, tolerance);
     let solved = carried(&path, found)?;
-    describe(&path, &solved).verified()?;
-    Ok((drive.clone(), solved))
+    Ok((drive.clone(), verified(&mut path, solved)?))
 }
 
 /// Follows the branch towards larger values until it ends.

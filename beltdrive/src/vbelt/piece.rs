@@ -148,7 +148,7 @@ impl Tracer<'_> {
         let unit = self.unit();
         let drive = self.drive_at(value);
         let smoothing = smoothing(&solved.problem);
-        let mut path = Path::new(&drive, self.tolerance);
+        let mut path = Path::of_branch(&drive, self.tolerance);
         let is_longer = smoothing > solved.problem.smoothing();
         // With another ℓ, ε or τ the zones may not be those of the state, and with a longer one traction may lag too far
         // behind a slip that turns.
@@ -350,7 +350,7 @@ impl Tracer<'_> {
     ) -> Option<PieceEnd> {
         let drive = self.drive_at(self.value(point.lambda()));
         self.convergence.continuation_steps += 1;
-        let mut path = Path::new(&drive, self.tolerance);
+        let mut path = Path::of_branch(&drive, self.tolerance);
         let at_end = self.at_bound(point, here, &mut path);
         let here = at_end.as_ref().unwrap_or(here);
         let mut state = describe(&path, here);
@@ -421,7 +421,7 @@ impl Tracer<'_> {
     /// The state at a point at which elastic friction pulls with the slip with a belt that sticks there, if it is found.
     fn at_rest(&mut self, point: &Point, pulled: &Solved) -> Option<Solved> {
         let drive = self.drive_at(self.value(point.lambda()));
-        let mut path = Path::new(&drive, self.tolerance);
+        let mut path = Path::of_branch(&drive, self.tolerance);
         let resting = path.with_belt_at_rest(pulled);
         self.convergence.count(&path.stats);
         let resting = resting?;
@@ -433,7 +433,7 @@ impl Tracer<'_> {
     /// The state at a point with the zones that it shows, if they are found.
     fn with_zones_shown(&mut self, point: &Point, gradual: Solved) -> Solved {
         let drive = self.drive_at(self.value(point.lambda()));
-        let mut path = Path::new(&drive, self.tolerance);
+        let mut path = Path::of_branch(&drive, self.tolerance);
         let zones = path.with_zones_shown(&gradual);
         self.convergence.count(&path.stats);
         let Some(zones) = zones else {
@@ -473,7 +473,7 @@ impl Tracer<'_> {
         drive: &Drive,
         direction: Direction,
     ) -> PieceEnd {
-        let mut path = Path::new(drive, self.tolerance);
+        let mut path = Path::of_branch(drive, self.tolerance);
         let value = self.value(point.lambda());
         let found = path.with_other_zones(here).map(|next| (value, next));
         let found = found.or_else(|stuck| {

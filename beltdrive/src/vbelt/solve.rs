@@ -4,7 +4,7 @@ use super::BeltProblem;
 use super::by_branch::{by_branch, is_led_from_rest};
 use super::found::{carried, checked, pressed_through_without_states};
 use super::limit::{Found, may_be_another};
-use super::path::{Path, Stuck};
+use super::path::{ForError, Path, Stuck};
 use crate::{Drive, FrictionLaw, SolveError, SolveOptions, SteadyState};
 use std::mem::discriminant;
 use web_time::Instant;
@@ -20,7 +20,7 @@ use web_time::Instant;
 pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState, SolveError> {
     let start = Instant::now();
     let tolerance = options.tolerance;
-    let mut path = Path::new(drive, tolerance).for_error();
+    let mut path = Path::new(drive, tolerance).with_meshes(ForError::Answers);
     let is_elastic = matches!(drive.law, FrictionLaw::Epp { .. });
     // Whether a state that is known stays the answer where no branch leads to the load.
     let mut stays = false;
@@ -50,7 +50,7 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
         return Err(refused);
     }
     // Beside the ends of contacts the pressure, which may not be negative, may need a small defect.
-    path.for_error = false;
+    path.for_error = ForError::Never;
     let led = by_branch(&mut path, start, stays).filter(|answer| answer.is_ok() || !stays);
     if let Some(answer) = led.or(direct) {
         return answer;
@@ -74,7 +74,7 @@ pub(crate) fn solve_from(
     if law(drive) != law(&neighbour.drive) || tolerance < neighbour.convergence.tolerance {
         return solve(drive, options);
     }
-    let mut path = Path::new(drive, tolerance).for_error();
+    let mut path = Path::new(drive, tolerance).with_meshes(ForError::Answers);
     path.smoothing_effect = neighbour.convergence.slip_normalisation_effect;
     match path.neighbour(solved) {
         Ok(solved) => {

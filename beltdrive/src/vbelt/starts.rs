@@ -64,7 +64,7 @@ impl StartLoad {
     pub(super) fn state(self, path: &mut Path<'_>) -> Option<(Drive, Solved)> {
         let mut near = path.drive.clone();
         Key::load(path.drive).set(&mut near, self.value);
-        let mut search = Path::new(&near, path.tolerance);
+        let mut search = Path::of_branch(&near, path.tolerance);
         let found = match self.has_direction {
             true => search.with_direction(),
             false => search.start(),

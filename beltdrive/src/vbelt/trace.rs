@@ -1,9 +1,8 @@
 //! Traces of V-belt drives: a drive and a range of one entry in, a branch out.
 
 use super::by_branch::by_branch;
-use super::found::{carried, find};
+use super::found::{carried, find, verified};
 use super::path::Solved;
-use super::state::describe;
 use super::tracer::{Tracer, Until};
 use crate::input::Key;
 use crate::{Branch, Drive, SolveError, SolveOptions};
@@ -52,10 +51,7 @@ pub(crate) fn trace(
 fn first_state(drive: &Drive, tolerance: f64) -> Result<(Solved, Stats), SolveError> {
     let start = Instant::now();
     let (mut path, found) = find(drive, tolerance);
-    let direct = carried(&path, found).and_then(|solved| {
-        describe(&path, &solved).verified()?;
-        Ok(solved)
-    });
+    let direct = carried(&path, found).and_then(|solved| verified(&mut path, solved));
     let solved = match direct {
         Err(
             error @ (SolveError::NotConverged { .. }
