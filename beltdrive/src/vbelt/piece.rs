@@ -105,6 +105,8 @@ pub(super) fn discretisation(tolerance: f64, problem: &DriveProblem) -> bvp::Opt
         scheme: Some(Scheme::Gauss { stages }),
         control,
         max_intervals: MAX_INTERVALS,
+        // Every piece begins with a state that is solved.
+        from_neighbour: true,
         ..bvp::Options::default()
     }
 }
