@@ -90,27 +90,27 @@ impl Effort {
     }
 }
 
-/// Which meshes of states whose friction slides are for the error alone; the others are for the defect.
+/// Which meshes are for the error alone of states whose friction slides and whose belt sticks nowhere; the others are for the
+/// defect. Where the belt sticks at rest, speeds are off by more than the estimate tells, and friction may be seen to pull with the
+/// slip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ForError {
     /// None.
     Never,
-    /// Those of answers with Coulomb friction and, where the belt sticks nowhere, scalar EPP friction. Speeds, torques, losses and
-    /// wraps of the drive of Kim (2009) have the errors from 102 to 8000 N that they have on meshes for the defect, of 99 intervals
-    /// in place of 57 at 700 N; where the belt sticks at rest, speeds are off by more than the estimate tells.
+    /// Those of answers. Speeds, torques, losses and wraps of the drive of Kim (2009) have the errors from 102 to 8000 N that they have
+    /// on meshes for the defect, of 99 intervals in place of 61 at 700 N.
     Answers,
     /// All that are not rough: of branches, of which nothing is told but points, whose meshes are for the error, too. With meshes for
-    /// the defect in the states with which the pieces of branches begin, limits of 70 Coulomb drives take a fifth more time, of 45
-    /// drives with scalar EPP friction a tenth.
+    /// the defect in the states with which the pieces of branches begin, limits of 140 Coulomb drives take a sixth more time.
     All,
 }
 
 impl ForError {
-    /// Whether a state with this effort is one of them.
-    fn holds(self, effort: Effort, sticks: bool) -> bool {
+    /// Whether such a state with this effort is one of them.
+    fn holds(self, effort: Effort) -> bool {
         match self {
             Self::Never => false,
-            Self::Answers => effort == Effort::Final && !sticks,
+            Self::Answers => effort == Effort::Final,
             Self::All => matches!(effort, Effort::Full | Effort::Final),
         }
     }
@@ -290,7 +290,9 @@ impl<'a> Path<'a> {
         effort: Effort,
     ) -> Result<Solved<P>, bvp::Error> {
         let effort = match problem.law() {
-            Law::Sliding { .. } if self.for_error.holds(effort, problem.sticks()) => Effort::Close,
+            Law::Sliding { .. } if self.for_error.holds(effort) && !problem.sticks() => {
+                Effort::Close
+            }
             _ => effort,
         };
         let known = intervals(guess);
