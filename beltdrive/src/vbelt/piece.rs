@@ -489,6 +489,16 @@ impl Tracer<'_> {
                 tension if tension == largest => self.range[1],
                 tension => tension * force,
             };
+            // Behind this one, those with the zones of the piece that ends here are states of that: one of 60 branches with scalar
+            // elastic friction went round so until its last piece.
+            let leads_on = |next: &Solved| {
+                next.problem.regimes() != here.problem.regimes()
+                    || match direction {
+                        Direction::Increasing => load(next) > value,
+                        Direction::Decreasing => load(next) < value,
+                    }
+            };
+            let beside = beside.filter(leads_on);
             beside.map(|next| (load(&next), next)).ok_or(stuck)
         });
         match found {
