@@ -4,6 +4,7 @@
 use super::carried::Carried;
 use super::laws::Astray;
 use super::steps::Steps;
+use super::zones::Cut;
 use super::{BeltProblem, DRIVEN, DRIVER, DriveProblem, Law};
 use crate::{Drive, FrictionLaw, TraceConvergence};
 use bvp::{Control, Options, Scheme, Solution, Stats};
@@ -282,6 +283,32 @@ impl<'a> Path<'a> {
         self.stats.factorisations += trace.factorisations;
     }
 
+    /// The effort with which a problem is solved for one that is asked for.
+    fn made_for_error<P: BeltProblem>(&self, problem: &P, effort: Effort) -> Effort {
+        match problem.law() {
+            Law::Sliding { .. } if self.for_error.holds(effort) && !problem.sticks() => {
+                Effort::Close
+            }
+            _ => effort,
+        }
+    }
+
+    /// Whether a solution is what an effort with an estimate of the error would find.
+    pub(super) fn is_solved_with<P: BeltProblem>(
+        &self,
+        solved: &Solved<P>,
+        effort: Effort,
+    ) -> bool {
+        let within = |size: f64| size <= self.tolerance;
+        let solution = &solved.solution;
+        let has_mesh = match self.made_for_error(&solved.problem, effort) {
+            Effort::Close => true,
+            Effort::Final => within(solution.defect()),
+            _ => false,
+        };
+        has_mesh && solution.error_estimate().is_some_and(within)
+    }
+
     /// Solves one problem from a guess.
     pub(super) fn attempt<P: BeltProblem>(
         &mut self,
@@ -289,12 +316,7 @@ impl<'a> Path<'a> {
         guess: &dyn bvp::Guess,
         effort: Effort,
     ) -> Result<Solved<P>, bvp::Error> {
-        let effort = match problem.law() {
-            Law::Sliding { .. } if self.for_error.holds(effort) && !problem.sticks() => {
-                Effort::Close
-            }
-            _ => effort,
-        };
+        let effort = self.made_for_error(&problem, effort);
         let known = intervals(guess);
         let mut options = effort.options(self.tolerance);
         options.max_intervals = options.max_intervals.max(known);
@@ -326,12 +348,35 @@ impl<'a> Path<'a> {
         effort: Effort,
         member: impl Fn(&P, f64) -> P,
     ) -> Result<Solved<P>, Stuck<P>> {
+        self.follow_to(start, range, first_step, [effort; 2], member)
+    }
+
+    /// The same with one effort on the way and another one for the last step, if the end is found with that; its zones are those
+    /// shown before it then.
+    pub(super) fn follow_to<P: BeltProblem>(
+        &mut self,
+        start: Solved<P>,
+        range: [f64; 2],
+        first_step: f64,
+        [effort, last]: [Effort; 2],
+        member: impl Fn(&P, f64) -> P,
+    ) -> Result<Solved<P>, Stuck<P>> {
         let (mut here, mut steps) = (start, Steps::new(range, first_step));
         while let Some(next) = steps.next() {
-            match self.attempt(member(&here.problem, next), &Carried(&here), effort) {
+            let problem = member(&here.problem, next);
+            if next == range[1]
+                && last != effort
+                && let Ok(end) = self.onward(&here, problem.clone(), last)
+            {
+                return Ok(end);
+            }
+            match self.onward(&here, problem, effort) {
                 Ok(solved) => {
                     steps.solved(next, solved.solution.stats().newton_steps <= EASY);
-                    here = self.keep_zones(solved, effort)?;
+                    here = match effort.is_rough() && next != range[1] {
+                        true => solved,
+                        false => self.keep_zones(solved, effort)?,
+                    };
                 }
                 Err(cause) => {
                     if !steps.failed(next) {
@@ -341,6 +386,25 @@ impl<'a> Path<'a> {
             }
         }
         Ok(here)
+    }
+
+    /// Solves a neighbouring problem, with the zones that a solution shows if it is found with them. Another solution for the zones
+    /// alone is saved so on the way.
+    fn onward<P: BeltProblem>(
+        &mut self,
+        here: &Solved<P>,
+        problem: P,
+        effort: Effort,
+    ) -> Result<Solved<P>, bvp::Error> {
+        if problem.has_junctions() {
+            let cut = Cut::of(here);
+            if !cut.is_kept()
+                && let Ok(solved) = self.attempt(cut.apply(problem.clone()), &cut, effort)
+            {
+                return Ok(solved);
+            }
+        }
+        self.attempt(problem, &Carried(here), effort)
     }
 
     /// Solves the same problem again, with more effort.

@@ -107,16 +107,11 @@ impl Path<'_> {
             let solved = self.again(rough, Effort::Final)?;
             return self.keep_zones(solved, Effort::Final);
         }
-        let effort = match rough.problem.law() {
-            Law::Sliding { lag, .. } if ROUNDED_SLIP / lag > LEFT_ASIDE * self.tolerance => {
-                Effort::Close
-            }
-            // Where the belt sticks ℓ is longer at first, and an estimate would be one of a solution on the way, as with ε
-            // and τ.
-            Law::Sliding { .. } if !rough.problem.sticks() => Effort::Final,
-            _ => Effort::Full,
+        let effort = self.resolving(&rough.problem);
+        let solved = match self.is_solved_with(&rough, effort) {
+            true => rough,
+            false => self.again(rough, effort)?,
         };
-        let solved = self.again(rough, effort)?;
         let here = self.keep_zones(solved, Effort::Final)?;
         let here = self.zones_at_ends(here);
         match here.problem.law() {
@@ -124,6 +119,19 @@ impl Path<'_> {
             // Places where zones end are printed, and move by more than the constants.
             Law::Vector { .. } => self.lower_effect(here, SHORTER, 0.0),
             _ => self.lower_effect(here, SMALLER, EFFECT_SHARE),
+        }
+    }
+
+    /// How a problem is first solved to the tolerance.
+    pub(super) fn resolving<P: BeltProblem>(&self, problem: &P) -> Effort {
+        match problem.law() {
+            Law::Sliding { lag, .. } if ROUNDED_SLIP / lag > LEFT_ASIDE * self.tolerance => {
+                Effort::Close
+            }
+            // Where the belt sticks ℓ is longer at first, and an estimate would be one of a solution on the way, as with ε
+            // and τ.
+            Law::Sliding { .. } if !problem.sticks() => Effort::Final,
+            _ => Effort::Full,
         }
     }
 
@@ -241,12 +249,22 @@ impl Path<'_> {
         smoothing: f64,
         effort: Effort,
     ) -> Result<Solved<P>, Stuck<P>> {
+        self.smooth_less_to(start, smoothing, [effort; 2])
+    }
+
+    /// The same with one effort on the way and another one for the last step, if the end is found with that.
+    pub(super) fn smooth_less_to<P: BeltProblem>(
+        &mut self,
+        start: Solved<P>,
+        smoothing: f64,
+        efforts: [Effort; 2],
+    ) -> Result<Solved<P>, Stuck<P>> {
         let from = start.problem.smoothing();
         if from == 0.0 || from == smoothing {
             return Ok(start);
         }
         let range = [from.ln(), smoothing.ln()];
-        self.follow(start, range, GREAT_STEP, effort, with_smoothing)
+        self.follow_to(start, range, GREAT_STEP, efforts, with_smoothing)
     }
 }
 

@@ -141,8 +141,12 @@ impl Path<'_> {
             true => RESOLVED_LAG_WITH_STICK,
             false => RESOLVED_LAG,
         };
+        let last = match led.problem.sticks() {
+            true => Effort::Rough,
+            false => self.resolving(&led.problem.clone().with_smoothing(resolved)),
+        };
         let sharp = self
-            .smooth_less(led, resolved, Effort::Rough)
+            .smooth_less_to(led, resolved, [Effort::Rough, last])
             .map_err(|stuck| stuck.astray)?;
         let gains = Gains::of(&sharp);
         Ok((sharp, gains))
