@@ -202,6 +202,27 @@ fn a_branch_passes_the_load_at_which_the_slip_of_a_turn_changes_its_sense() {
 }
 
 #[test]
+fn a_branch_goes_on_where_the_belt_ceases_to_stick() {
+    // On the driver it does at 45.68 N. Behind that, soft bristles do not carry the load with the limit of elastic friction.
+    let drive = Drive::from(TwoPulleys {
+        belt: v_belt([0.110_117_68, 27_430.872, 3_109_906.5, 0.270_149_34]),
+        friction_coefficient: 0.196_375_06,
+        law: FrictionLaw::Epp {
+            stiffness: 77_833_518.0,
+        },
+        driver_radius: 0.051_061_273,
+        driver_speed: 22.976_605,
+        driven_radius: 0.070_408_495,
+        centre_distance: 0.427_270_37,
+        load: tractive(41.916_054, 43.27),
+    });
+    let branch = traced(&drive, TIGHT, [43.27, 50.0]);
+    assert_eq!(branch.end, BranchEnd::Target);
+    let last = branch.points.last().unwrap();
+    close(last.state.driven.angular_speed, 16.605_113_5, 1e-6);
+}
+
+#[test]
 fn the_end_of_a_turn_is_no_limit() {
     // At 20 453 N the friction on the driver, which turns to lift the belt, ceases to pass the middle of that turn.
     let drive = Drive::from(TwoPulleys {

@@ -45,6 +45,9 @@ type Way = fn(&mut Path<'_>) -> Option<Solved>;
 const LOCKED: Way = |path| path.at_locked_load();
 /// Any belt.
 const ANY: Way = |path| path.with_direction();
+/// Any belt, with bristles that carry more than the softest if need be. With scalar elastic friction one of five random branches that
+/// are lost as the belt ceases to stick goes on so.
+const CARRYING: Way = |path| path.with_direction_or_beside();
 /// Any belt, with a normalised direction if need be.
 const NORMALISED: Way = |path| path.at_load(path.target()).ok();
 
@@ -55,7 +58,7 @@ impl Tracer<'_> {
         locked.or_else(|| {
             let (first, last) = self.way_behind()?;
             let steps = BEYOND.map(|share| share * (last - first).abs());
-            self.beyond_by((last, &steps), ANY, direction)
+            self.beyond_by((last, &steps), CARRYING, direction)
         })
     }
 

@@ -336,6 +336,19 @@ impl Path<'_> {
 
     /// The steady state of a drive with Coulomb or EPP friction with its direction as a state, if it is found.
     pub(super) fn with_direction(&mut self) -> Option<Solved> {
+        self.directly(|_, _, _| None)
+    }
+
+    /// The same, or from a state near it.
+    pub(super) fn with_direction_or_beside(&mut self) -> Option<Solved> {
+        self.directly(|path, asked, start| asked.beside(path, start))
+    }
+
+    /// A state with its direction as a state, or else one found in another way from soft bristles.
+    fn directly(
+        &mut self,
+        otherwise: impl FnOnce(&mut Self, &AtLoad<'_>, &Solved) -> Option<Solved>,
+    ) -> Option<Solved> {
         let (drive, tight) = (self.drive, self.target());
         if let FrictionLaw::Bristle { .. } = drive.law {
             return None;
@@ -343,7 +356,8 @@ impl Path<'_> {
         let asked = AtLoad { drive, tight };
         self.locked(&asked).or_else(|| {
             let start = self.cold(&asked, asked.softest(), Effort::Start).ok()?;
-            self.sliding(&asked, &start)
+            let sliding = self.sliding(&asked, &start);
+            sliding.or_else(|| otherwise(self, &asked, &start))
         })
     }
 
