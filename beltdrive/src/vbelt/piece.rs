@@ -67,6 +67,10 @@ pub(super) const ACCURACY_OF_DIRECTION: f64 = 1e-6;
 /// rounding, `rating` of `kim2009-epp` takes a fifth more time.
 pub(super) const LOCATION: f64 = 1e-10;
 
+/// Values of the entry that differ by less than this share are the same: that of a state held by another quantity is known to the
+/// tolerance.
+const SAME_VALUE: f64 = 1e-6;
+
 /// How a piece ends.
 pub(super) enum PieceEnd {
     /// With the branch.
@@ -147,6 +151,7 @@ impl Tracer<'_> {
             let cause = cause.to_owned();
             PieceEnd::Branch(BranchEnd::NotConverged { cause })
         };
+        self.begun = value;
         let unit = self.unit();
         let drive = self.drive_at(value);
         let smoothing = smoothing(&solved.problem);
@@ -489,14 +494,14 @@ impl Tracer<'_> {
                 tension if tension == largest => self.range[1],
                 tension => tension * force,
             };
-            // Behind this one, those with the zones of the piece that ends here are states of that: one of 60 branches with scalar
-            // elastic friction went round so until its last piece.
+            // Where this piece began, those with its zones are its states: one of 60 branches with scalar elastic friction went round
+            // so until its last piece. In between they may lead on with other steps.
             let leads_on = |next: &Solved| {
-                next.problem.regimes() != here.problem.regimes()
-                    || match direction {
-                        Direction::Increasing => load(next) > value,
-                        Direction::Decreasing => load(next) < value,
-                    }
+                let way = match direction {
+                    Direction::Increasing => load(next) - self.begun,
+                    Direction::Decreasing => self.begun - load(next),
+                };
+                next.problem.regimes() != here.problem.regimes() || way > SAME_VALUE * value.abs()
             };
             let beside = beside.filter(leads_on);
             beside.map(|next| (load(&next), next)).ok_or(stuck)

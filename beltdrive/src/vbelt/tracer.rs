@@ -51,6 +51,8 @@ pub(super) struct Tracer<'d> {
     pub(super) convergence: TraceConvergence,
     /// Arclength of the pieces before.
     pub(super) before: f64,
+    /// The value at which the last piece began.
+    pub(super) begun: f64,
     /// How often the steps were shortened since the zones have changed.
     pub(super) refinements: i32,
     /// Zones that the last state shows and Newton's method refused.
@@ -85,6 +87,7 @@ impl<'d> Tracer<'d> {
                 ..TraceConvergence::default()
             },
             before: 0.0,
+            begun: 0.0,
             refinements: 0,
             refused: Refused::default(),
             near: None,
