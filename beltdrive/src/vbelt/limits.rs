@@ -249,10 +249,9 @@ impl Traced<'_> {
                 RangeEnd::Limit(LimitReason::DrivenSlips)
             }
             Some(event) if event.kind == EventKind::LimitPoint => {
-                let StateSummary { driver, driven, .. } = &event.point.state;
-                let drive = self.tracer.drive;
-                let share = driven.angular_speed * drive.pair().driven_radius / drive.rim_speed();
-                RangeEnd::Limit(LimitReason::of_limit_point(driver.inclination[1], share))
+                let state = &event.point.state;
+                let [exit, share] = [state.driver.inclination[1], 1.0 - state.speed_loss];
+                RangeEnd::Limit(LimitReason::of_limit_point(exit, share))
             }
             _ if self.end == BranchEnd::NoLoad => RangeEnd::NoLoad,
             _ => RangeEnd::NotFound,
