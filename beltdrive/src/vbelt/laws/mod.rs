@@ -336,19 +336,16 @@ impl Path<'_> {
 
     /// The steady state of a drive with Coulomb or EPP friction with its direction as a state, if it is found.
     pub(super) fn with_direction(&mut self) -> Option<Solved> {
-        self.directly(|_, _, _| None)
+        self.directly(false)
     }
 
     /// The same, or from a state near it.
     pub(super) fn with_direction_or_beside(&mut self) -> Option<Solved> {
-        self.directly(|path, asked, start| asked.beside(path, start))
+        self.directly(true)
     }
 
-    /// A state with its direction as a state, or else one found in another way from soft bristles.
-    fn directly(
-        &mut self,
-        otherwise: impl FnOnce(&mut Self, &AtLoad<'_>, &Solved) -> Option<Solved>,
-    ) -> Option<Solved> {
+    /// A state with its direction as a state, or else, if asked for, from one near it.
+    fn directly(&mut self, or_beside: bool) -> Option<Solved> {
         let (drive, tight) = (self.drive, self.target());
         if let FrictionLaw::Bristle { .. } = drive.law {
             return None;
@@ -357,7 +354,10 @@ impl Path<'_> {
         self.locked(&asked).or_else(|| {
             let start = self.cold(&asked, asked.softest(), Effort::Start).ok()?;
             let sliding = self.sliding(&asked, &start);
-            sliding.or_else(|| otherwise(self, &asked, &start))
+            match sliding {
+                None if or_beside => asked.beside(self, &start),
+                sliding => sliding,
+            }
         })
     }
 
