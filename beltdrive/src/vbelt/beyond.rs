@@ -25,8 +25,10 @@ const BEYOND_LOCKED: [f64; 3] = [1e-3, 3e-4, 1e-4];
 /// A state is one of the branch if its constants are off the line through two states behind it, or off the only one, by no
 /// more than this share of their change along that, ...
 const OFF: f64 = 0.5;
-/// ... or by this share of 1 + |value|, within which constants that hardly change stay.
-const SAME: f64 = 1e-3;
+/// ... or by this share of 1 + |value|, within which constants that hardly change stay. Those of another family of states with scalar
+/// elastic friction near no load differ by 6e-4: with 1e-3 a branch went over to it, and was lost there. With 1e-4 that branch is lost
+/// where it might have gone over.
+const SAME: f64 = 3e-4;
 /// How far beyond the end of a branch a state of another one is sought, as shares of the value there. States are not found
 /// everywhere: of a drive whose first ones end at 112.1 N others were found at 112.4, 115 and 130 N, and none at 125 N; of one whose
 /// driver lets go of the belt that it holds at 966.9 N none up to 1934 N, and one at 3867 N, from which its limit of 15 912 N is found.
