@@ -223,6 +223,52 @@ fn a_branch_goes_on_where_the_belt_ceases_to_stick() {
 }
 
 #[test]
+fn the_state_that_is_solved_is_that_to_which_a_light_load_is_raised() {
+    // Of the first drive there are states at 500 N whose driven pulley is 2 % faster, and at 870 N some with an efficiency of 0.907,
+    // of the second one states with 0.839.
+    let first = Drive::from(TwoPulleys {
+        belt: v_belt([0.254_530_15, 43_127.071_2, 12_670_466.1, 0.269_144_991]),
+        friction_coefficient: 0.514_563_158,
+        driver_radius: 0.108_738_117,
+        driver_speed: 42.805_159_8,
+        driven_radius: 0.046_547_541_2,
+        centre_distance: 0.317_457_317,
+        load: tractive(343.657_254, 870.0),
+        law: FrictionLaw::Epp {
+            stiffness: 715_327_228.0,
+        },
+    });
+    let second = Drive::from(TwoPulleys {
+        belt: v_belt([0.263_444_499, 16_250.350_3, 16_256_025.9, 0.289_015_102]),
+        friction_coefficient: 0.619_370_459,
+        driver_radius: 0.185_375_77,
+        driver_speed: 42.952_129_8,
+        driven_radius: 0.049_882_783_9,
+        centre_distance: 0.650_858_88,
+        load: tractive(860.388_019, 1_660.75),
+        law: FrictionLaw::Epp {
+            stiffness: 71_995_294.1,
+        },
+    });
+    let cases = [
+        (&first, [371.0, 500.0], 0.955_44),
+        (&first, [500.0, 870.0], 0.931_42),
+        (&second, [946.0, 1_660.75], 0.900_04),
+    ];
+    for (drive, range, efficiency) in cases {
+        let branch = traced(drive, TIGHT, range);
+        assert_eq!(branch.end, BranchEnd::Target);
+        let led = &branch.points.last().unwrap().state;
+        let mut drive = drive.clone();
+        key(&drive, TIGHT).set(&mut drive, range[1]);
+        let state = solve(&drive, &SolveOptions::default()).unwrap();
+        close(state.driven.angular_speed, led.driven.angular_speed, 1e-6);
+        close(state.efficiency, led.efficiency, 1e-6);
+        close(state.efficiency, efficiency, 1e-5);
+    }
+}
+
+#[test]
 fn the_end_of_a_turn_is_no_limit() {
     // At 20 453 N the friction on the driver, which turns to lift the belt, ceases to pass the middle of that turn.
     let drive = Drive::from(TwoPulleys {

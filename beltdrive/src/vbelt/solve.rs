@@ -49,6 +49,13 @@ pub(crate) fn solve(drive: &Drive, options: &SolveOptions) -> Result<SteadyState
     {
         return Err(refused);
     }
+    // Sooner found than a branch, if the belt locks under a smaller load.
+    if let Some(raised) = path.raised_to_load()
+        && path.is_before_limit(&raised)
+        && let Ok(state) = checked(&path, raised, start)
+    {
+        return Ok(state);
+    }
     // Beside the ends of contacts the pressure, which may not be negative, may need a small defect.
     path.for_error = ForError::Never;
     let led = by_branch(&mut path, start, stays).filter(|answer| answer.is_ok() || !stays);

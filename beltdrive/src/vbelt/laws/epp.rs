@@ -286,7 +286,8 @@ mod tests {
 
     #[test]
     fn the_share_of_elastic_friction_grows_without_kinks() {
-        // With kinks it is not followed, and the way over other loads takes 2377 Newton steps.
+        // With kinks it is not followed, and the way over other loads takes 2377 Newton steps. It leads to a state of 258.875 rad/s that
+        // passes a place of rest, where the branch from 52 N leads to this one.
         let drive = random(
             [0.128_589_775, 10_250.707_49, 16_573_934.43, 0.216_164_8],
             [0.304_787_726_4, 2.666_08e9],
@@ -298,7 +299,7 @@ mod tests {
             ],
             [51.222_205_504, 54.450_203_43],
         );
-        assert_found(&drive, [258.875, 2e-2], 360);
+        assert_found(&drive, [258.534, 1e-3], 400);
     }
 
     #[test]

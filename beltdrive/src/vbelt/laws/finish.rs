@@ -301,7 +301,8 @@ mod tests {
             let effect = path.smoothing_effect;
             assert!(effect <= tolerance, "{effect}");
             let steps = path.stats.newton_steps;
-            assert!(steps <= 300, "{steps}");
+            // 115 of them for the same state from a smaller load.
+            assert!(steps <= 340, "{steps}");
             solved
         });
         assert!(fine.problem.smoothing() < coarse.problem.smoothing());

@@ -69,19 +69,19 @@ impl Path<'_> {
 
     /// The state with a law from its integrals, roughly.
     fn put_together(&mut self, asked: &AtLoad<'_>, law: FrictionLaw) -> Option<Solved> {
-        // Elastic friction that holds the belt on that drive takes 112 Newton steps with so short an ℓ, in place of 20.
-        let longest = match law {
-            FrictionLaw::Coulomb => LONGEST_LAG,
-            _ => RESOLVED_LAG,
-        };
-        let problem = asked.problem(law, longest);
-        let guess = Locked::of(&problem)?;
-        let problem = problem.with_zones(&guess.zones());
-        let lag = (LAG_SHARE * guess.slip()).clamp(SHORTEST_LAG, longest);
-        let problem = problem.with_smoothing(lag);
+        let (problem, guess) = integrals(asked, law)?;
+        self.solved_from_integrals(problem, &guess)
+    }
+
+    /// The state of a problem from its integrals, roughly.
+    pub(super) fn solved_from_integrals(
+        &mut self,
+        problem: DriveProblem,
+        guess: &Locked,
+    ) -> Option<Solved> {
         // The turn of a belt that hardly slips needs a fine mesh at first, and patience.
-        let rough = self.attempt(problem.clone(), &guess, Effort::Rough);
-        let sharp = rough.or_else(|_| self.attempt(problem, &guess, Effort::Start));
+        let rough = self.attempt(problem.clone(), guess, Effort::Rough);
+        let sharp = rough.or_else(|_| self.attempt(problem, guess, Effort::Start));
         self.keep_zones(sharp.ok()?, Effort::Rough).ok()
     }
 
@@ -100,6 +100,20 @@ impl Path<'_> {
         let sharp = self.attempt(cut.apply(epp), &cut, Effort::Rough).ok()?;
         self.keep_zones(sharp, Effort::Rough).ok()
     }
+}
+
+/// The problem of a belt that locks with a law, and its integrals, if they meet.
+pub(super) fn integrals(asked: &AtLoad<'_>, law: FrictionLaw) -> Option<(DriveProblem, Locked)> {
+    // Elastic friction that holds the belt on that drive takes 112 Newton steps with so short an ℓ, in place of 20.
+    let longest = match law {
+        FrictionLaw::Coulomb => LONGEST_LAG,
+        _ => RESOLVED_LAG,
+    };
+    let problem = asked.problem(law, longest);
+    let guess = Locked::of(&problem)?;
+    let problem = problem.with_zones(&guess.zones());
+    let lag = (LAG_SHARE * guess.slip()).clamp(SHORTEST_LAG, longest);
+    Some((problem.with_smoothing(lag), guess))
 }
 
 #[cfg(test)]

@@ -22,11 +22,13 @@ mod finish;
 mod locked;
 mod normalised;
 mod obeyed;
+mod raised;
 mod sliding;
 mod vector;
 
 use super::carried::Carried;
 use super::path::{Effort, Path, Solved, Stuck};
+use super::zones::Cut;
 use super::{BeltProblem, DriveProblem, Guess, Scales};
 use crate::{Drive, FrictionLaw, TwoPulleys};
 use std::f64::consts::LN_10;
@@ -75,6 +77,12 @@ pub(super) trait Asked {
         None
     }
 
+    /// Its state from that of another one whose load is smaller and whose belt locks, if there is a way to it; sought where the belt
+    /// of that which is found with soft bristles passes a place at which it might have come to rest.
+    fn raised(&self, _: &mut Path<'_>) -> Option<Solved<Self::Problem>> {
+        None
+    }
+
     /// The friction law.
     fn law(&self) -> FrictionLaw {
         self.drive().law
@@ -120,6 +128,10 @@ impl Asked for AtLoad<'_> {
 
     fn guess<'p>(&'p self, problem: &'p DriveProblem) -> impl bvp::Guess + 'p {
         Guess::new(problem)
+    }
+
+    fn raised(&self, path: &mut Path<'_>) -> Option<Solved> {
+        path.raised_from_locked(self)
     }
 
     fn beside(&self, path: &mut Path<'_>, bristles: &Solved) -> Option<Solved> {
@@ -238,10 +250,28 @@ impl Path<'_> {
             return self.vector(asked, &start);
         }
         let locked = asked.locked(self, &start);
-        let sliding = locked.or_else(|| self.sliding(asked, &start));
-        match sliding.or_else(|| asked.beside(self, &start)) {
+        match locked.or_else(|| self.sliding_or_beside(asked, &start, true)) {
             Some(solved) => Ok(solved),
             None => self.normalised(asked, start),
+        }
+    }
+
+    /// From bristles to a law whose traction, or its direction, is a state, or else, if asked for, from a state near it. Scalar EPP
+    /// friction may have other states if the belt passes a place at which it might have come to rest.
+    fn sliding_or_beside<A: Asked>(
+        &mut self,
+        asked: &A,
+        start: &Solved<A::Problem>,
+        or_beside: bool,
+    ) -> Option<Solved<A::Problem>> {
+        let found = match self.sliding(asked, start) {
+            None if or_beside => asked.beside(self, start),
+            sliding => sliding,
+        }?;
+        let is_scalar = matches!(asked.law(), FrictionLaw::Epp { .. });
+        match is_scalar && Cut::of(&found).passes_rest() {
+            true => asked.raised(self).or(Some(found)),
+            false => Some(found),
         }
     }
 
@@ -334,6 +364,12 @@ impl Path<'_> {
         self.locked(&AtLoad { drive, tight })
     }
 
+    /// The steady state of a drive with scalar EPP friction from that of a smaller load at which its belt locks, if it is found.
+    pub(super) fn raised_to_load(&mut self) -> Option<Solved> {
+        let (drive, tight) = (self.drive, self.target());
+        AtLoad { drive, tight }.raised(self)
+    }
+
     /// The steady state of a drive with Coulomb or EPP friction with its direction as a state, if it is found.
     pub(super) fn with_direction(&mut self) -> Option<Solved> {
         self.directly(false)
@@ -353,11 +389,7 @@ impl Path<'_> {
         let asked = AtLoad { drive, tight };
         self.locked(&asked).or_else(|| {
             let start = self.cold(&asked, asked.softest(), Effort::Start).ok()?;
-            let sliding = self.sliding(&asked, &start);
-            match sliding {
-                None if or_beside => asked.beside(self, &start),
-                sliding => sliding,
-            }
+            self.sliding_or_beside(&asked, &start, or_beside)
         })
     }
 

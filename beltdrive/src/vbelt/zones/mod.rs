@@ -123,6 +123,12 @@ impl<'a, P: BeltProblem> Cut<'a, P> {
         }
     }
 
+    /// Whether the belt passes a place at which elastic friction might have brought it to rest.
+    pub(super) fn passes_rest(&self) -> bool {
+        let mut pulleys = self.samples.iter().zip(&self.pulleys);
+        pulleys.any(|(samples, zones)| samples::passes_rest(samples, zones))
+    }
+
     /// Whether they are the segments of the solution but for the place of the turn.
     pub(super) fn is_nearly_kept(&self) -> bool {
         let kinds = |mut pulleys: Vec<Vec<Regime>>| {
