@@ -15,9 +15,9 @@ const LIGHTER: f64 = 0.85;
 /// ... and so many of them are looked at, in less than 1 ms where a belt does not lock. One drive locks between 1.015 and 1.017 times
 /// the slack tension alone: nine powers, from 0.8 down to 0.01, found that from five of ten loads, these from nine.
 const SMALLER: i32 = 20;
-/// The most integrals that meet from which a state is sought: on soft friction none may be found, with twice as many in 1.5 times the
+/// The most integrals that meet from which a state is sought: on soft friction none may be found, with twice as many in 1.4 times the
 /// time.
-const GUESSES: usize = 4;
+const GUESSES: usize = 2;
 /// First step in the logarithm of the load.
 const LOAD_STEP: f64 = 0.1;
 
