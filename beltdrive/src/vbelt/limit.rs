@@ -222,9 +222,7 @@ impl Path<'_> {
 
     /// Changes the load of a state to `target`, around a limit point if there is one on the way up.
     fn approach(&mut self, start: Solved, target: f64) -> Result<Found, Stuck> {
-        let range = [start.tight_tension().ln(), target.ln()];
-        let member = |problem: &DriveProblem, t: f64| problem.clone().with_tight_tension(t.exp());
-        match self.follow(start, range, LOAD_STEP, Effort::Careful, member) {
+        match self.with_load(start, target, Effort::Careful) {
             Ok(solved) => {
                 let solved = self.finish(solved)?;
                 self.classify(solved)
@@ -240,6 +238,18 @@ impl Path<'_> {
             }) if last.driven_speed() <= 0.0 => self.classify(*last),
             Err(stuck) => Err(stuck),
         }
+    }
+
+    /// A state with another scaled tight tension, in steps.
+    pub(super) fn with_load(
+        &mut self,
+        start: Solved,
+        tight: f64,
+        effort: Effort,
+    ) -> Result<Solved, Stuck> {
+        let range = [start.tight_tension().ln(), tight.ln()];
+        let member = |problem: &DriveProblem, t: f64| problem.clone().with_tight_tension(t.exp());
+        self.follow(start, range, LOAD_STEP, effort, member)
     }
 
     /// Follows the branch by another coordinate until the tension reaches `target`, or has passed its

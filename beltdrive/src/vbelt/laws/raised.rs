@@ -7,7 +7,6 @@
 use super::locked::integrals;
 use super::{Asked, AtLoad};
 use crate::FrictionLaw;
-use crate::vbelt::DriveProblem;
 use crate::vbelt::path::{Effort, Path, Solved};
 
 /// Powers of this of the ratio of the load to the slack tension are the smaller loads, ...
@@ -18,8 +17,6 @@ const SMALLER: i32 = 20;
 /// The most integrals that meet from which a state is sought: on soft friction none may be found, with twice as many in 1.4 times the
 /// time.
 const GUESSES: usize = 2;
-/// First step in the logarithm of the load.
-const LOAD_STEP: f64 = 0.1;
 
 impl Path<'_> {
     /// The state of a drive with scalar EPP friction to which that of a belt that locks leads as its load is raised, if it is found
@@ -35,9 +32,7 @@ impl Path<'_> {
             .filter_map(|tight| integrals(&AtLoad { drive, tight }, asked.law()))
             .take(GUESSES)
             .find_map(|(problem, guess)| self.solved_from_integrals(problem, &guess))?;
-        let range = [from.tight_tension().ln(), asked.tight.ln()];
-        let member = |problem: &DriveProblem, t: f64| problem.clone().with_tight_tension(t.exp());
-        let raised = self.follow(from, range, LOAD_STEP, Effort::Rough, member);
+        let raised = self.with_load(from, asked.tight, Effort::Rough);
         self.finish_obeying(raised.ok()?).ok()
     }
 }
