@@ -240,6 +240,8 @@ pub(super) struct Path<'a> {
     pub(super) for_error: ForError,
     /// The largest scaled tight tension under which a state is known, to which a limit below it is none; zero at first.
     pub(super) reached: f64,
+    /// Whether the load of the drive was raised in vain from one at which its belt locks.
+    pub(super) was_raised_in_vain: bool,
 }
 
 impl<'a> Path<'a> {
@@ -252,6 +254,7 @@ impl<'a> Path<'a> {
             smoothing_effect: 0.0,
             for_error: ForError::Never,
             reached: 0.0,
+            was_raised_in_vain: false,
         }
     }
 

@@ -65,6 +65,7 @@ impl StartLoad {
         let mut near = path.drive.clone();
         Key::load(path.drive).set(&mut near, self.value);
         let mut search = Path::of_branch(&near, path.tolerance);
+        search.was_raised_in_vain = path.was_raised_in_vain;
         let found = match self.has_direction {
             true => search.with_direction(),
             false => search.start(),

@@ -80,8 +80,7 @@ impl Path<'_> {
         guess: &Locked,
     ) -> Option<Solved> {
         // The turn of a belt that hardly slips needs a fine mesh at first, and patience.
-        let rough = self.attempt(problem.clone(), guess, Effort::Rough);
-        let sharp = rough.or_else(|_| self.attempt(problem, guess, Effort::Start));
+        let sharp = self.attempt(problem, guess, Effort::Start);
         self.keep_zones(sharp.ok()?, Effort::Rough).ok()
     }
 

@@ -20,8 +20,17 @@ const GUESSES: usize = 2;
 
 impl Path<'_> {
     /// The state of a drive with scalar EPP friction to which that of a belt that locks leads as its load is raised, if it is found
-    /// and friction obeys its law.
+    /// and friction obeys its law; sought once.
     pub(super) fn raised_from_locked(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
+        if self.was_raised_in_vain {
+            return None;
+        }
+        let raised = self.raise_from_locked(asked);
+        self.was_raised_in_vain = raised.is_none();
+        raised
+    }
+
+    fn raise_from_locked(&mut self, asked: &AtLoad<'_>) -> Option<Solved> {
         let FrictionLaw::Epp { .. } = asked.law() else {
             return None;
         };

@@ -22,10 +22,6 @@ const LONGER: f64 = 1.3;
 /// Index of the displacement u among the states of a point.
 const DISPLACEMENT: usize = LAW + 1;
 
-/// Accuracy of the displacement of elastic friction where a belt that it held breaks loose: with 1e-6, below what rounding of the
-/// steps of its arc makes of it, three more of 30 random drives have no guess.
-const DISPLACEMENT_ACCURACY: f64 = 1e-4;
-
 /// A pulley on which the belt locks.
 pub(super) struct Pulley {
     rest: Rest,
@@ -65,14 +61,16 @@ impl Pulley {
         self.leaving.slip
     }
 
-    /// Lets the belt sweep an angle on the pulley: whether it breaks loose with the displacement that it leaves with.
-    pub(super) fn sweep(&mut self, wrap: f64) -> bool {
+    /// Lets the belt sweep an angle on the pulley: by which share of the displacement with which it breaks loose that differs from
+    /// the one that it leaves with.
+    pub(super) fn sweep(&mut self, wrap: f64) -> f64 {
         let swept = |arc: &[Point]| arc[arc.len() - 1].states[ANGLE] - arc[0].states[ANGLE];
         let left = wrap - swept(&self.entry) - swept(&self.leaving.exit);
         self.locked = left * (1.0 - self.rest.depth);
-        let displacement = self.displacement();
-        let missed = (displacement - self.leaving.displacement).abs();
-        !self.rest.is_held || missed <= DISPLACEMENT_ACCURACY * displacement.abs()
+        match self.rest.is_held {
+            true => (self.leaving.displacement / self.displacement() - 1.0).abs(),
+            false => 0.0,
+        }
     }
 
     /// Where the belt leaves, corrected for the displacement that it breaks loose with.
