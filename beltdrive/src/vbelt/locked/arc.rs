@@ -188,6 +188,11 @@ pub(super) struct Origin {
 }
 
 impl Origin {
+    /// Whether the belt was followed for the most steps.
+    pub(super) fn is_cut_off(&self) -> bool {
+        self.along.len() > MOST_STEPS
+    }
+
     /// The slip along the pulley where it begins to rise.
     pub(super) fn slip(&self) -> f64 {
         self.along[self.along.len() - 1].1[0].abs()

@@ -21,6 +21,9 @@ const STEEPEST: f64 = 1.5;
 const BESIDE: [f64; 2] = [0.97, 1.03];
 /// Inclinations are told apart by this share of themselves: some hundred roundings.
 const NARROWEST: f64 = 1e-13;
+/// Between inclinations this near to each other, as a share, an arc that takes too many steps ends the search: without it states of
+/// drives whose loads are raised in vain take 1.3 to 1.7 times as long, and with 1e-3 a state found in 0.12 s takes 0.8 s.
+const NARROW: f64 = 1e-5;
 /// A slip at which the direction has one digit in a million: a belt that slips less is taken for one that does not slip.
 const NO_SLIP: f64 = 1e-10;
 /// The share of friction along the pulley of a belt that follows the groove with the slip at which it breaks away. With
@@ -144,6 +147,9 @@ fn search(
         }
         let found = origin(middle);
         let deeper = found.deeper;
+        if found.is_cut_off() && high - low < NARROW * high {
+            break;
+        }
         // Illinois: an end that stays twice counts half.
         let stays = if deeper * before > 0.0 { 0.5 } else { 1.0 };
         match deeper < 0.0 {
