@@ -11,8 +11,9 @@ use crate::vbelt::path::{Effort, Path, Solved};
 
 /// Powers of this of the ratio of the load to the slack tension are the smaller loads, ...
 const LIGHTER: f64 = 0.85;
-/// ... and so many of them are looked at, in less than 1 ms where a belt does not lock. One drive locks between 1.015 and 1.017 times
-/// the slack tension alone: nine powers, from 0.8 down to 0.01, found that from five of ten loads, these from nine.
+/// ... and so many of them are looked at, in less than 1 ms where a belt does not come to rest, and longer where it is held and finds
+/// no exit. One drive locks between 1.015 and 1.017 times the slack tension alone: nine powers, from 0.8 down to 0.01, found that from
+/// five of ten loads, these from nine.
 const SMALLER: i32 = 20;
 /// The most integrals that meet from which a state is sought: on soft friction none may be found, with twice as many in 1.4 times the
 /// time.
